@@ -1,7 +1,7 @@
-"""Arguments of public functions: seen to before anything is computed, and named where one is wrong.
+"""Check arguments of public functions against their type hints, and name the wrong one.
 
-`checked` compares arguments with the annotations. What an annotation does not say, whether a number is positive, each
-function sees to itself.
+`checked` compares arguments with the annotations before anything is computed. Each function checks the rest itself,
+for example that a number is positive.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ _SEQUENCES = (collections.abc.Sequence, collections.abc.Iterable, list)
 
 
 def checked(function: T) -> T:
-    """A function, or a class, that refuses arguments of other types than it is annotated with.
+    """Wrap a function or a class so that it refuses arguments of other types than its annotations.
 
     Raises
     ------
     TypeError
-        With the name of the argument, what it is, and what to give.
+        The message has the argument's name, its value and type, and the expected type.
     ValueError
         If an argument is one of a few words, and another is given.
 
@@ -60,7 +60,7 @@ def checked(function: T) -> T:
     names, checks_of = code.co_varnames[: code.co_argcount], _checks_of
 
     def call(*arguments: Any, **named: Any) -> Any:
-        if not checks:  # at the first call: some hints name what is imported late
+        if not checks:  # at the first call: some hints name types that are imported late
             checks.update(checks_of(function))
         for name, value in zip(names, arguments):  # noqa: B905 too many are the function's to refuse
             check = checks[name]
@@ -71,7 +71,7 @@ def checked(function: T) -> T:
                 checks[name](name, value)
         return function(*arguments, **named)
 
-    # at home in the function's module, where doctest looks for it
+    # a function of the original module, where doctest looks for it
     at_home = FunctionType(call.__code__, function.__globals__, function.__name__, None, call.__closure__)
     return cast(T, update_wrapper(at_home, function))
 
@@ -101,7 +101,7 @@ def _listed(words: Sequence[Any]) -> str:
 
 
 class _Check:
-    """The check of one argument. Any value of the types in `known` is good; of the types of `words` only these are."""
+    """Check of one argument: any value of the types in `known` is good, and of the types of `words` only these are."""
 
     def __init__(self, hint: Any) -> None:
         self.hint, self.test = hint, _test_of(hint)
@@ -133,7 +133,7 @@ def _is_plain(hint: Any) -> bool:
 
 
 def fits(hint: Any, value: Any) -> bool:
-    """Is a value what a type hint asks for? Numbers may be of any kind; what is not known passes.
+    """True if a value matches a type hint. Numbers may be of any kind; unknown hints accept everything.
 
     Examples
     --------
@@ -145,7 +145,7 @@ def fits(hint: Any, value: Any) -> bool:
 
 @cache
 def _test_of(hint: Any) -> Callable[[Any], bool]:
-    """What tells whether a value fits."""
+    """Return the predicate that tests values against a hint."""
     origin, parts = get_origin(hint), get_args(hint)
     if hint is Any:
         return lambda value: True
@@ -194,7 +194,7 @@ def _is_numbers(value: Any) -> bool:
 
 
 def expected(hint: Any) -> str:
-    """A type hint in words.
+    """Describe a type hint in words.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The garbage collector, kept still while many small objects are made and none is garbage."""
+"""Pause the garbage collector while many small objects are made and none is garbage."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def collection_paused() -> Iterator[None]:
-    """No collection inside: it would look at all objects made so far again and again, in more than linear time."""
+    """Pause collection: repeated scans of all objects made so far take more than linear time."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:

@@ -6,9 +6,9 @@
         ForbiddenPoseError                 not free; carries a free pose near by (cfree.collision.nearest_free)
       FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
-      IncompleteError     (RuntimeError)   a question to a boundary whose computation was stopped by a limit
-        UndecidedError                     a clearance too near to the largest, carries lo and hi; or round shapes too
-                                           near to each other, carries error
+      IncompleteError     (RuntimeError)   a query of a boundary whose computation a limit stopped
+        UndecidedError                     a clearance too near to the largest, carries lo and hi;
+                                           or round shapes too near to each other, carries error
       InvariantError      (RuntimeError)   our bug, please report; carries the smallest state seen
 
 Messages give the place, the value and the remedy.
@@ -33,7 +33,7 @@ class InvalidPolygonError(CfreeError, ValueError):
     ring : int, optional
         0 is the outer ring, k + 1 is hole k.
     edges : tuple of int, optional
-        Edges at fault: edge k of a ring goes from its point k, as given, to the next one kept.
+        Edges at fault: edge k of a ring goes from input point k to the next point that is a vertex.
 
     Examples
     --------
@@ -48,11 +48,11 @@ class InvalidPolygonError(CfreeError, ValueError):
 
 
 class InvalidPoseError(CfreeError, ValueError):
-    """A position or an angle that is not a number as `cfree.Pose` takes them, or a pose that is not free."""
+    """A position or an angle that `cfree.Pose` does not accept, or a pose that is not free."""
 
 
 class FormatError(CfreeError, ValueError):
-    """A file that cannot be read: `path`, `line` and `column` (from 1) say where, if known."""
+    """A file that cannot be read, with its `path`, `line` and `column` (from 1) where known."""
 
     def __init__(
         self, message: str, *, path: str | None = None, line: int | None = None, column: int | None = None
@@ -68,19 +68,19 @@ class UnsupportedError(CfreeError, NotImplementedError):
 
 
 class IncompleteError(CfreeError, RuntimeError):
-    """A question that only a complete boundary can answer, asked of one that a limit of time or memory stopped."""
+    """A query that needs a complete boundary, made on one that a limit of time or memory stopped."""
 
 
 class UndecidedError(IncompleteError):
-    """Whether a path keeps a clearance too near to the largest that one keeps; or what polygons do not tell.
+    """An undecided question: a clearance too near to the largest possible, or polygons too coarse for round shapes.
 
     Parameters
     ----------
     message : str
     lo, hi : float
-        Of a clearance: some path keeps `lo`, or it is 0; none keeps more than `hi`, or it is infinite.
+        Bounds of the largest clearance: some path keeps `lo`, or it is 0; none keeps more than `hi`, or it is infinite.
     error : float
-        Of polygons for round shapes: the least that was tried where it mattered, or 0.
+        Smallest error tried for the polygons of the round shapes that matter, or 0.
     """
 
     def __init__(self, message: str, *, lo: float = 0.0, hi: float = math.inf, error: float = 0.0) -> None:
@@ -91,7 +91,7 @@ class UndecidedError(IncompleteError):
 
 
 class InvariantError(CfreeError, RuntimeError):
-    """A broken promise of our own; `state` is the smallest one seen. Please report it."""
+    """A bug in cfree: a broken invariant. `state` is the smallest failing state found. Please report it."""
 
     def __init__(self, message: str, *, state: object = None) -> None:
         super().__init__(message)

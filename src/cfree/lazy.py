@@ -1,4 +1,4 @@
-"""Public names of a package, imported from their files when first used: so `import cfree` is quick."""
+"""Import public names of a package from their files on first use, so that `import cfree` is quick."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from typing import Any
 def lazy_names(
     package: str, homes: Mapping[str, str], packages: str = ""
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """``__getattr__``, ``__dir__`` and ``__all__`` of a package.
+    """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a package.
 
     Parameters
     ----------
     package : str
     homes : mapping of str to str
-        Public names, separated by blanks, by the file in the package that they are in.
+        File in the package -> its public names, separated by blanks.
     packages : str, optional
-        Packages in it whose names stay their own, as if they were imported with it.
+        Subpackages that are imported on first use, under their own names.
     """
     home = {name: file for file, names in homes.items() for name in names.split()}
     others = packages.split()

@@ -1,14 +1,14 @@
 """OMPL with exact checks: every motion that a planner accepts is proved free. Needs the extra ``ompl``.
 
-A state of OMPL's SE2StateSpace means the exact `Pose` of its x, y and yaw. Of two kinds of motion between states:
+A state of OMPL's SE2StateSpace means the exact `Pose` of its x, y and yaw. Two kinds of motion join states:
 
-- `LinearMotionValidator`: OMPL's own, x, y and yaw changing evenly; certified, conservatively. What OMPL makes of
-  accepted motions, simplified paths for example, are parts of them, and as free.
+- `LinearMotionValidator`: OMPL's own, x, y and yaw changing evenly; certified, conservatively. OMPL's simplified paths
+  consist of parts of accepted motions, and are free for that reason.
 - `MotionValidator`: the rotation about a pole, or translation (Chasles), that leads from one exact pose to the other;
-  decided exactly, so that touching is free. Python cannot give OMPL (2.0) another interpolation, so it must not divide
-  such motions: of its simplifiers only `reduceVertices` and `collapseCloseVertices` do not.
+  decided exactly, so that touching is free. Python cannot give OMPL (2.0) another interpolation, so OMPL must not
+  divide such motions: only its simplifiers `reduceVertices` and `collapseCloseVertices` leave them whole.
 
-`to_path` makes a `Path` of what either has found, proved free once more.
+`to_path` makes a `Path` of a plan found with either, and proves it free once more.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ MOST_HALVINGS = 30
 
 
 def pose_of(state: Any) -> Pose:
-    """The exact pose that an SE(2) state means."""
+    """Return the exact pose of an SE(2) state."""
     return Pose(state.getX(), state.getY(), state.getYaw())
 
 
@@ -49,10 +49,10 @@ def set_pose(state: Any, x: float, y: float, theta: float) -> None:
 
 
 def state_space(scene: Scene) -> Any:
-    """OMPL's SE2StateSpace with limits for positions.
+    """Return OMPL's SE2StateSpace with limits for positions.
 
-    They are the bounds of the scene; else the box of its workspace; else the box of obstacles, start and goal, larger
-    by twice the robot's radius.
+    The limits are the bounds of the scene; else the box of its workspace; else the box of obstacles, start and goal,
+    enlarged by twice the robot's radius.
     """
     space, limits = ob.SE2StateSpace(), ob.RealVectorBounds(2)
     places = [(float(pose.x), float(pose.y), pose.theta) for pose in (scene.start, scene.goal) if pose]
@@ -65,7 +65,7 @@ def state_space(scene: Scene) -> Any:
 
 
 class StateValidityChecker(ob.StateValidityChecker):
-    """Whether states are within the space's bounds and free, exactly; touching is free."""
+    """Exact test that a state is free and within the bounds of the space; touching is free."""
 
     def __init__(self, si: Any, checker: PoseChecker) -> None:
         super().__init__(si)
@@ -77,7 +77,7 @@ class StateValidityChecker(ob.StateValidityChecker):
 
 
 class MotionValidator(ob.MotionValidator):
-    """Whether the rotation or translation from one state to another is free: decided exactly, in closed form."""
+    """Exact test that the rotation or translation from one state to another is free, in closed form."""
 
     def __init__(self, si: Any, checker: MotionChecker) -> None:
         super().__init__(si)
@@ -95,9 +95,9 @@ class MotionValidator(ob.MotionValidator):
 
 
 class LinearMotionValidator(ob.MotionValidator):
-    """Whether the motion of OMPL's SE2StateSpace between two states is certainly free; see `PoseChecker.sweep_is_free`.
+    """Certified test that OMPL's motion between two states is free; see `PoseChecker.sweep_is_free`.
 
-    Never says so of a motion that is not. It may refuse one that comes very close to an obstacle.
+    It accepts no motion that is not free. It may refuse a free one that comes very close to an obstacle.
     """
 
     def __init__(self, si: Any, checker: PoseChecker) -> None:
@@ -109,19 +109,19 @@ class LinearMotionValidator(ob.MotionValidator):
 
 
 def linear_is_free(checker: PoseChecker, start: Any, goal: Any) -> bool:
-    """Whether x, y and yaw may change evenly from one state to another, the yaw the shorter way round."""
+    """True if x, y and yaw may change evenly from one state to another, the yaw the shorter way round."""
     return checker.sweep_is_free(*sweep_of(start, goal))
 
 
 def simple_setup(scene: Scene) -> Any:
-    """An ``ompl.geometric.SimpleSetup`` for a scene with start and goal, its states exact, its motions certified.
+    """Return an ``ompl.geometric.SimpleSetup`` for a scene with start and goal: exact states, certified motions.
 
     Raises
     ------
     ValueError
         If the scene has no start or no goal.
     InvalidPoseError
-        If one of them is forbidden; the message names what overlaps what, and a free pose near by.
+        If one of them is forbidden; the message names the overlapping polygons, and a free pose near by.
     """
     if scene.start is None or scene.goal is None:
         raise ValueError(f"{scene.name or 'the scene'} has no start or no goal; give both")
@@ -142,7 +142,7 @@ def simple_setup(scene: Scene) -> Any:
 
 
 def to_path(path: Any, scene: Scene) -> Path:
-    """The rotations and translations through the states of an OMPL path, proved free.
+    """Convert an OMPL path to rotations and translations through its states, proved free.
 
     Parameters
     ----------
@@ -152,13 +152,14 @@ def to_path(path: Any, scene: Scene) -> Path:
     Returns
     -------
     Path
-        From the exact pose of the first state to that of the last. Where the rotation from one state to the next is not
-        free, the motion is halved as OMPL does, until the parts are.
+        It leads from the exact pose of the first state to that of the last. If the rotation from one state to the next
+        is not free, the motion is halved as OMPL does, until the parts are.
 
     Raises
     ------
     ValueError
-        If a motion halved thirty times is not free; the message says which. Motions of `LinearMotionValidator` are.
+        If a motion halved thirty times is not free; the message has its number. Motions that `LinearMotionValidator`
+        accepts are always free.
     """
     checker, states = MotionChecker(scene), path.getStates()
     motions: list[Motion] = []
@@ -181,7 +182,7 @@ def to_path(path: Any, scene: Scene) -> Path:
 
 
 def sweep_of(start: Any, goal: Any) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Where the motion of OMPL's SE2StateSpace begins, and what it adds."""
+    """Start (x, y, yaw) of the motion of OMPL's SE2StateSpace, and its change of x, y and yaw."""
     x, y, yaw = start.getX(), start.getY(), start.getYaw()
     turn = goal.getYaw() - yaw
     if abs(turn) > math.pi:

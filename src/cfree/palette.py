@@ -1,35 +1,35 @@
-"""The one palette: what each colour means in every picture, with the letters, the camera and the light that go with it.
+"""Palette of all pictures: the meaning of each colour, with fonts, camera and light.
 
-Readers who lack a cone of the eye tell apart whatever is shown together; `tests/test_palette.py` computes it. What is
-forbidden is grey: the obstacles dark, the forbidden space light.
+Colour-blind readers can tell apart all colours that are shown together; `tests/test_palette.py` computes it. Forbidden
+things are grey: the obstacles dark, the forbidden space light.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-# what is in the workspace
+# the workspace
 ROBOT = "#009e73"
 GHOST = "#8ed3c0"  # the robot in other poses
 OBSTACLE = "#4d5561"
 OBSTACLE_RIM = "#2e343d"
 FRAME = "#0072b2"  # the robot's local frame, angles
 PATH = "#9326e0"
-BARRIER = "#96290f"  # what parts start and goal, what limits a clearance
-MARK = "#d6008f"  # what is singled out: exact fits, what is unwanted
+BARRIER = "#96290f"  # separating surfaces, and obstacles that limit a clearance
+MARK = "#d6008f"  # highlights: exact fits, violations of preferences
 FREE, FORBIDDEN = "#d6e6f5", "#dcdfe5"
 
-# what bounds the forbidden space
+# the boundary of the forbidden space
 VERTEX_EDGE, EDGE_VERTEX, BOUND = "#d55e00", "#2b8cd6", "#b4b9c1"
 HELIX, EDGE_EDGE = "#003f7f", "#f5c518"  # v-v and e-e contacts
 
-# what has no meaning of its own
+# colours without a meaning of their own
 INK, GREY, RIM, FAINT, WALL = "#20242b", "#6b7280", "#b4b9c1", "#d9dce2", "#f6f7f9"
 
 CATEGORIES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#5b3f8c")
-"""Colours in turn, of cells or of classes of congruent patches; the first seven are those of Okabe and Ito."""
+"""Colours in turn for cells or classes of congruent patches; the first seven are those of Okabe and Ito."""
 SEQUENTIAL, DIVERGING = "viridis", "coolwarm"
-"""Colour maps of matplotlib: of amounts, and of what has two signs."""
+"""Colour maps of matplotlib, for amounts and for signed values."""
 
 VIEW = (24.0, -58.0)
 """Elevation and azimuth of the camera, in degrees: x runs along the near edge, y to the right and back."""
@@ -48,11 +48,11 @@ LETTERS: dict[str, Any] = {
     "ytick.color": INK,
     "legend.frameon": False,
 }
-"""Settings of matplotlib (`rcParams`) for figures of their own."""
+"""Settings of matplotlib (`rcParams`) for figures that cfree creates."""
 
 
 def paler(colour: str, share: float) -> str:
-    """A colour with so much of white in it.
+    """Mix a colour with this share of white.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Base classes of values: equality, copies and pickles by content; display in notebooks; what is made of them, kept."""
+"""Base classes for values: equality, copying and pickling by content; display in notebooks; prepared data kept."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ T = TypeVar("T")
 
 
 class Value:
-    """Base of values that hold arrays, or keep what they compute.
+    """Base of values that hold arrays or cache computed results.
 
-    What is kept, and may not be fit to be compared or pickled, is left behind: a copy computes it again.
+    Caches are neither compared nor pickled: a copy computes them again.
 
     Examples
     --------
@@ -31,7 +31,7 @@ class Value:
 
     @property
     def _content(self) -> tuple[Any, ...]:
-        """What it is made of, as its constructor takes it."""
+        """Content of the value: the arguments of its constructor."""
         return tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
 
     def __eq__(self, other: object) -> bool:
@@ -50,7 +50,7 @@ class Value:
 
 
 class Shown:
-    """Base of values that a notebook shows: some as the page, where it can be in a cell; all as a picture."""
+    """Base of values with a display in notebooks: a picture, and for some kinds the interactive page."""
 
     __slots__ = ()
 
@@ -58,9 +58,9 @@ class Shown:
         return import_module("cfree.viewer.notebook").live(self, **options)
 
     def _repr_svg_(self) -> str | None:
-        # by name: what draws all kinds of values imports all of them
-        found: str | None = import_module("cfree.viewer.pictures").picture(self)
-        return found
+        # by name: the drawing module imports all kinds of values
+        picture: str | None = import_module("cfree.viewer.pictures").picture(self)
+        return picture
 
 
 class Answer:
@@ -111,12 +111,12 @@ def kept(value: V, make: Callable[[V], T]) -> T:
 
 
 def _shown(part: Any) -> str:
-    """In one line: of an array its type and shape."""
+    """Text of a part in one line; an array is shown by its type and shape."""
     return f"{part.dtype}{list(part.shape)}" if isinstance(part, np.ndarray) else repr(part)
 
 
 def _same(one: Any, other: Any) -> bool:
-    """Equal; a NaN equals itself."""
+    """True if two parts are equal; a NaN equals itself."""
     if isinstance(one, tuple) and isinstance(other, tuple):
         return len(one) == len(other) and all(map(_same, one, other))
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):

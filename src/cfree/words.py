@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 MOST_NAMES = 8
-"""Names in one message; of more their number is told."""
+"""Names in one message at most; longer lists end with their count."""
 
 
 ENDINGS = {"vertex": "vertices", "patch": "patches"}
@@ -27,7 +27,7 @@ def counted(count: int, noun: str, plural: str | None = None) -> str:
 
 
 def listed(names: Sequence[str], by: str = "; ") -> str:
-    """Return names in one line, the first few of many.
+    """Join names in one line; a long list is cut after `MOST_NAMES`.
 
     Examples
     --------

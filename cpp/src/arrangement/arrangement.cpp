@@ -1,4 +1,4 @@
-// Sides put together around edges, what is one made one, cells nested; theory, "Arrangement".
+// Glue sides around edges, merge equal parts, and nest cells; theory, "Arrangement".
 #include "cfree/arrangement/arrangement.hpp"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ private:
     // Corners of faces at the two ends of an edge.
     Index at_start(Index h) const { return is_against(h) ? next(h) : h; }
     Index at_end(Index h) const { return is_against(h) ? h : next(h); }
-    // The side of a sheet, 0 outer, 1 inner, that faces what follows around the edge.
+    // Side of a sheet, 0 outer, 1 inner, that faces the next sheet around the edge.
     int side_after(Index h) const {
         const bool backwards = is_against(h) == is_forwards(side(h));
         return side(h) == Side::upper || (side(h) == Side::first && !backwards) || (side(h) == Side::last && backwards) ? 0 : 1;
@@ -69,14 +69,14 @@ private:
     const std::size_t n;
     Loops loops;
     Arrangement result;
-    std::vector<Index> first_of;                // of each edge of the loops, one half-edge
-    UnionFind sides{0}, fans{0}, corners{0};    // of sides of trapezoids, of corners on each side, of corners
-    std::vector<Index> corner_class, vertex;    // of each corner; of each class its vertex, -1 if it is none
-    std::vector<Index> edge_of;                 // of each edge of the loops; -1 within a face
+    std::vector<Index> first_of;                // by edge of the loops: one half-edge
+    UnionFind sides{0}, fans{0}, corners{0};    // classes of sides of trapezoids, of corners on each side, of corners
+    std::vector<Index> corner_class, vertex;    // by corner: its class; by class: its vertex, -1 if none
+    std::vector<Index> edge_of;                 // by edge of the loops; -1 within a face
     Index corner_classes = 0;
-    std::vector<Index> link;                     // of each corner its class before points that only touch were made one
-    std::vector<std::vector<Index>> touching;    // such classes of links
-    std::vector<char> is_touching;               // of each class of corners
+    std::vector<Index> link;                     // by corner: its class before touching points are merged
+    std::vector<std::vector<Index>> touching;    // classes of links that touch
+    std::vector<char> is_touching;               // by class of corners
 };
 
 Loops Assembly::glued() {
@@ -88,7 +88,7 @@ Loops Assembly::glued() {
     return loops_of(n, std::move(lists));
 }
 
-// Throws std::domain_error: what is on the two sides of a sector differs.
+// Throws std::domain_error: the two sides of a sector have different cells.
 void Assembly::refuse(Index f, Index g) const {
     std::string names;
     const Sheets& sheets = result.sheets;
@@ -98,7 +98,7 @@ void Assembly::refuse(Index f, Index g) const {
     throw std::domain_error("surfaces of the pairs " + names + " (polygon of the robot, obstacle) meet in a way that is not decided");
 }
 
-// Between two sheets that follow one another around an edge there is one cell.
+// Join the two sides of each sector around an edge: it lies in one cell.
 void Assembly::join_around_edges() {
     const auto count = loops.face.size();
     sides = UnionFind(2 * n), fans = UnionFind(2 * count), corners = UnionFind(count);
@@ -120,7 +120,7 @@ void Assembly::join_around_edges() {
     components.number(result.component);
 }
 
-// An edge at which a sheet just goes on.
+// True for an edge at which a sheet just continues.
 bool Assembly::is_spurious(Index h) const {
     const Index y = loops.twin[h];
     if (y == h || loops.twin[y] != h) return false;
@@ -143,7 +143,7 @@ void Assembly::find_faces() {
         if (is_spurious(h)) --result.face_euler[result.face_of[loops.face[h]]];
 }
 
-// Patches around an edge, and on which of their sides it is.
+// Patches around an edge, and their sides on which it is.
 std::vector<std::pair<Index, Side>> Assembly::signature(Index h) const {
     std::vector<std::pair<Index, Side>> of;
     Index x = h;
@@ -153,19 +153,19 @@ std::vector<std::pair<Index, Side>> Assembly::signature(Index h) const {
     return of;
 }
 
-// Whether two edges that meet where no other does are one.
+// True if two edges that meet at a point without other edges are one.
 bool Assembly::goes_on(Index h, Index other) const {
     return h == other || (is_level(h) == is_level(other) && signature(h) == signature(other));
 }
 
-// What edges connect around a point are links; several links may be in one place.
+// Find points with several links, which are the parts around a point that edges connect.
 void Assembly::find_touching_points() {
     const Index links = corners.number(link);
     std::vector<PieceCorner> of_link(static_cast<std::size_t>(links), {-1, false, false});
     for (Index h = 0; h < static_cast<Index>(link.size()); ++h) {
         PieceCorner& corner = of_link[link[h]];
         const Index before = h == loops.first[loops.face[h]] ? loops.first[loops.face[h] + 1] - 1 : h - 1;
-        if (corner.trapezoid >= 0 || side(before) == side(h)) continue;  // where one side begins, a piece has a corner
+        if (corner.trapezoid >= 0 || side(before) == side(h)) continue;  // a piece has a corner at the start of one side
         const Side begins = side(h);
         corner = {loops.face[h], begins == Side::last || begins == Side::lower, begins == Side::upper || begins == Side::last};
     }
@@ -180,7 +180,8 @@ void Assembly::find_touching_points() {
     for (const auto& links_there : touching) is_touching[corner_class[first[links_there[0]]]] = 1;
 }
 
-// Where r links are in one place, a cell among them has r - 1 fewer: its boundary, pushed inwards, is connected there.
+// Merge touching points. If r links are in one place, the Euler number of a cell among them counts r - 1 fewer: its boundary,
+// pushed inwards, is connected there.
 void Assembly::join_touching_points(const std::vector<Index>& cell) {
     std::vector<Index> place(link.empty() ? 0 : static_cast<std::size_t>(*std::max_element(link.begin(), link.end())) + 1, -1);
     std::vector<std::vector<Index>> cells_of;
@@ -213,14 +214,14 @@ void Assembly::join_touching_points(const std::vector<Index>& cell) {
 void Assembly::find_vertices(std::int64_t most) {
     const auto classes = static_cast<std::size_t>(corner_classes);
     std::vector<Index> degree(classes, 0), first_corner(classes, -1);
-    std::vector<std::array<Index, 2>> ends(classes, {-1, -1});  // edges that end there, by half-edges
+    std::vector<std::array<Index, 2>> ends(classes, {-1, -1});  // edges that end there, as half-edges
     for (const Index h : first_of) {
         if (is_spurious(h)) continue;
         for (const Index c : {corner_class[at_start(h)], corner_class[at_end(h)]})
             if (degree[c]++ < 2) ends[c][degree[c] - 1] = h;
     }
     for (Index h = 0; h < static_cast<Index>(corner_class.size()); ++h) {
-        // a corner that knows where it is: at a level, if there is one
+        // a corner with a known place: at a level, if there is one
         Index& first = first_corner[corner_class[h]];
         if (first < 0 || (is_level(h) && !is_level(first))) first = h;
     }
@@ -248,7 +249,7 @@ void Assembly::place_vertices(const std::vector<Index>& chosen) {
     });
 }
 
-// Parts of edges joined where there is no vertex; kinds of edges and vertices.
+// Join parts of edges that meet without a vertex; set the kinds of edges and vertices.
 void Assembly::find_edges() {
     const auto count = static_cast<std::size_t>(loops.edges);
     UnionFind joined(count);
@@ -310,7 +311,7 @@ void Assembly::find_edges() {
     }
 }
 
-// Closed surfaces of sides; rays say which of them bound one cell.
+// Find closed surfaces of sides, and by rays the surfaces that bound one cell.
 void Assembly::find_cells() {
     std::vector<Index>& surface = result.surface;
     const Index surfaces = sides.number(surface);
@@ -320,11 +321,11 @@ void Assembly::find_cells() {
     const Index fan_count = fans.number(fan);
     std::vector<char> seen(static_cast<std::size_t>(fan_count), 0);
     for (Index h = 0; h < static_cast<Index>(loops.face.size()); ++h) {
-        --euler[surface[2 * loops.face[h] + side_after(h)]];  // what is between it and the next
+        --euler[surface[2 * loops.face[h] + side_after(h)]];  // the sector between it and the next
         for (const int s : {0, 1})
             if (!seen[fan[2 * h + s]]++) ++euler[surface[2 * loops.face[h] + s]];
     }
-    UnionFind cells(static_cast<std::size_t>(surfaces) + 1);  // 0: beyond everything
+    UnionFind cells(static_cast<std::size_t>(surfaces) + 1);  // 0: the unbounded cell
     auto points = std::make_shared<PointLocation>(result.sheets.boundary, result.component);
     for (const PointLocation::Ray& ray : points->rays()) {
         Index at = 1 + surface[2 * ray.from + ray.is_on_left];

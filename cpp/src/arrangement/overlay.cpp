@@ -1,4 +1,4 @@
-// Areas of a patch cut by bands; theory, "Arrangement".
+// Cut areas of a patch by bands; theory, "Arrangement".
 #include "arrangement/overlay.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void Overlay::take(const Band& band) {
         if (!crosses_at(band, end)) grazed.push_back(end);
 }
 
-// The nearest vertex of a pillar stays on the line: it touches the surface along that helix.
+// Pass a state: if the nearest vertex of a pillar stays on the line, the pillar touches the surface along that helix.
 void Overlay::pass(const State& state, const Span& span) {
     if (lies_on_line(state.s, state.v) || !vanishes(state.s, state.v)) return;
     const Touch at{span, curve_of({Kind::vertex_vertex, state.s, state.v}, false)};
@@ -35,7 +35,7 @@ void Overlay::pass(const State& state, const Span& span) {
     else touches.push_back(at);
 }
 
-// A vertex touches the surface in one point, and leaves it again. A curve that goes on from there makes that point a corner.
+// A vertex touches the surface in one point, and leaves it again. A curve through that point makes it a corner.
 void Overlay::meet(const State& state, Index event) {
     const bool on_edge = surface.contact.kind == Kind::vertex_edge;
     for (const Index around : on_edge ? state.obstacle_around : state.robot_around) {
@@ -84,7 +84,7 @@ void Overlay::share(const Trapezoid& other, With how) {
     });
 }
 
-// A curve as this surface names it, its denominator positive at the sample.
+// Curve of a feature on this surface, with a positive denominator at the sample.
 Index Overlay::named(const Feature& feature, const Sample& at) {
     const Feature f = feature.kind == Kind::vertex_vertex ? feature : normal_form(feature);
     return curve_of(f, f.kind != Kind::vertex_vertex && decide.denominator_sign(f, at) < 0);
@@ -103,8 +103,8 @@ Index Overlay::with(Index holders, std::vector<Index> Holders::* list) {
     return at->second;
 }
 
-// What is inside of the band gets what `into` says: holders, or -1 if it goes. Along a curve areas are only cut. False if nothing is
-// changed.
+// Give parts inside the band the result of `into`: holders, or -1 to remove them. Along a curve areas are only cut. False if
+// nothing changes.
 template <class Into>
 bool Overlay::cut(const Band& band, bool along_curve, Into&& into) {
     heed_stop();
@@ -122,14 +122,14 @@ bool Overlay::cut(const Band& band, bool along_curve, Into&& into) {
     return has_changed_any;
 }
 
-// Where a curve of the band meets one of the piece in a point, and does not cross it.
+// Record points at which a curve of the band meets one of the piece without crossing it.
 void Overlay::note_touch(const Overlap& x) {
     const Area &area = x.area, &band = x.band.area;
     const Index pairs_of[4][2] = {{band.lower, area.upper}, {band.upper, area.lower}, {band.lower, area.lower}, {band.upper, area.upper}};
     for (int w = 0; w < 4; ++w) {
         const Predicates::Order& order = x.orders[w];
         const auto [p, q] = pairs_of[w];
-        if (order.sign[0] == 0) continue;  // one curve, or not asked
+        if (order.sign[0] == 0) continue;  // one curve, or not computed
         for (const Event& at : order.at)
             if (at.is_touch) touched.push_back(intern(at));
         if (order.strict) continue;
@@ -138,7 +138,7 @@ void Overlay::note_touch(const Overlap& x) {
     }
 }
 
-// False if the band does not meet the piece. Its parts are added to `cut_up`, those inside with negated holders.
+// Add the parts of a piece to `cut_up`, parts inside the band with negated holders. False if the band does not meet it.
 bool Overlay::split(const Piece& piece, const Band& band, bool along_curve, std::vector<Bit>& open_bits) {
     const Area &area = piece.area, &of = band.area;
     Overlap x(area, band);
@@ -185,7 +185,7 @@ bool Overlay::split(const Piece& piece, const Band& band, bool along_curve, std:
         else if (above) go_on_with(at, {inside, high}, tips);
         else go_on_with(at, {inside}, tips);
         if (k == x.cuts.size()) break;
-        tips = 0;  // on to the next angle, over all cuts that are there
+        tips = 0;  // go on to the next angle, over all cuts there
         do tips |= 1u << x.cuts[k].which, ++x.position[x.cuts[k].which], ++k;
         while (k < x.cuts.size() && equal(x.cuts[k].event, x.cuts[k - 1].event));
     }
@@ -194,7 +194,7 @@ bool Overlay::split(const Piece& piece, const Band& band, bool along_curve, std:
     return true;
 }
 
-// Neighbours along theta that have the same curves and holders, but where a pillar only touches the line between them.
+// Join neighbours along theta with the same curves and holders, unless a pillar just touches the line between them.
 void Overlay::join() {
     const auto is_grazed = [&](Index event) {
         return std::any_of(grazed.begin(), grazed.end(), [&](Index other) { return equal(event, other); });

@@ -1,8 +1,8 @@
-// One contact patch in the arrangement: what its own pair leaves of it, cut by all other pairs.
+// One contact patch in the arrangement: the rest after its own pair, cut by all other pairs.
 //
-// A pair is a polygon of the robot and one of the obstacles. First the own pillars are taken away: what is left bounds the set
+// A pair is a polygon of the robot and one of the obstacles. First the own pillars are subtracted: the rest bounds the set
 // that the pair forbids. Then pillars of other pairs cut: areas inside get the pair's number, those outside go on to its next
-// pillar. A pillar that only touches the surface along a curve cuts there, too: its edge is one of the arrangement.
+// pillar. A pillar that only touches the surface along a curve also cuts there: its edge belongs to the arrangement.
 #pragma once
 #include <map>
 #include <tuple>
@@ -11,7 +11,7 @@
 
 namespace cfree {
 
-// Which pairs hold an area of a sheet, in order: those inside of which it is, and those whose boundary it is as well, with the
+// Pairs of an area of a sheet, in order: those that overlap in it, and the other pairs whose boundary contains it, with the
 // same side forbidden or the opposite one.
 struct Holders {
     std::vector<Index> around, same, opposite;
@@ -24,27 +24,27 @@ class Overlay : public Trimmer {
 public:
     using Trimmer::Trimmer;
 
-    // From here on other pairs come; what is left now is what they cut.
+    // Begin with the other pairs, which cut the areas left now.
     void begin();
-    // What comes from here on belongs to this pair.
+    // Start a pair, to which all following pillars belong.
     void start(Index of);
     // A trapezoid of another patch on the same surface: this patch cedes it, or holds it with that pair.
     enum class With { ceded, same, opposite };
     void share(const Trapezoid& other, With how);
     bool is_empty() const { return pieces.empty(); }
     std::size_t size() const { return pieces.size(); }
-    // Trapezoids of a patch, in order, and who holds each.
+    // Append the trapezoids of a patch, in order, and the holders of each.
     void put(Index patch, std::vector<Trapezoid>& out, std::vector<Holders>& holders);
-    // What the own pair leaves.
+    // Append the areas that the own pair leaves.
     void put_own(std::vector<Trapezoid>& out);
 
 private:
     struct Piece {
         Area area;
         Index holders;
-        bool is_in;  // its pair's number has been given
+        bool is_in;  // it has its pair's number
     };
-    // What an area is cut into between two angles.
+    // Part of an area between two angles.
     struct Bit {
         Index from, lower, upper;
         bool is_in;
@@ -71,10 +71,10 @@ private:
     Index pair = -1;
     std::vector<Piece> pieces, cut_up;
     std::vector<Holders> all{{}};
-    std::map<std::array<Index, 3>, Index> added;  // holders and what is added to them
-    std::vector<Touch> touches;                   // of the own pair
-    std::vector<Index> grazed;   // angles at which a pillar covers nothing between two at which it does
-    std::vector<Index> touched;  // at which one only touches a piece in a point of its rim
+    std::map<std::array<Index, 3>, Index> added;  // holders and additions to them
+    std::vector<Touch> touches;                   // touches of the own pair
+    std::vector<Index> grazed;   // angles at which a covering pillar covers nothing
+    std::vector<Index> touched;  // angles at which one only touches a piece in a point of its rim
 };
 
 }  // namespace cfree

@@ -1,12 +1,12 @@
-// Pairs of a polygon of the robot and an obstacle; the complements of workspace and bounds are obstacles, too.
+// Pairs of a polygon of the robot and an obstacle; the complements of workspace and bounds are also obstacles.
 #pragma once
 #include "cfree/forbidden/columns.hpp"
 #include "cfree/scene/features.hpp"
 
 namespace cfree {
 
-// Obstacles are numbered as the user's are, then come the complement of the workspace and that of the bounds; of the robot its
-// polygons, then its reference point, which meets the bounds alone.
+// Obstacles are numbered as the user's, then the complement of the workspace and that of the bounds; parts of the robot are
+// its polygons, then its reference point, which meets only the bounds.
 class Pairs {
 public:
     explicit Pairs(const SceneFeatures& features)
@@ -20,7 +20,7 @@ public:
     Index of(const Feature& contact) const { return number(robot_ring[contact.robot], obstacle_ring[contact.obstacle]); }
     Index of_pieces(Index p, Index k) const { return number(robot_piece[p], obstacle_piece[k]); }
     Index columns() const { return obstacles + 2; }
-    // What is forbidden far away.
+    // Pairs that forbid poses far away.
     std::vector<Index> far_away() const {
         std::vector<Index> result;
         for (Index r = 0; has_workspace && r < robots; ++r) result.push_back(number(r, obstacles));

@@ -1,4 +1,4 @@
-// The driver: patches one by one, all pillars near each, sets of pairs numbered; theory, "Arrangement".
+// Driver of the arrangement: patches one by one, all pillars near each, numbered sets of pairs; theory, "Arrangement".
 #include "cfree/arrangement/sheets.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace cfree {
 
 namespace {
 
-// Lines without direction: the same number for edges on one line, whichever way they run.
+// Numbers of lines without direction: the same for edges on one line in either direction.
 std::vector<Index> carriers(const Shape& s) {
     std::map<std::array<Int, 3>, Index> numbers;
     std::vector<Index> of_line, result;
@@ -45,7 +45,7 @@ Groups grouped(const std::vector<Index>& number, Index count) {
     return result;
 }
 
-// Patches on one surface, whichever of its sides is forbidden.
+// Patches on one surface, with either side forbidden.
 class SurfaceSharers {
 public:
     SurfaceSharers(const Scene& s, const Patches& p)
@@ -90,7 +90,7 @@ public:
         : scene(features.scene->near()), pairs(features), one(scene, false), sharers(scene, one.patches), most(limit),
           found(one.first_patch.size() - 1) {}
 
-    // What one thread does: all patches of one obstacle feature after another.
+    // Work of one thread: all patches of one obstacle feature after another.
     void run(const std::atomic<bool>& stop) {
         Shadows near = one.shadows(), near_sharer = one.shadows();
         const auto count = static_cast<Index>(found.size());
@@ -136,7 +136,7 @@ void Overlaying::take_own(Overlay& of, Index pair, const std::vector<Shadows::Pi
     }
 }
 
-// What the pair of a patch leaves of it.
+// Parts of a patch that its pair leaves.
 std::vector<Trapezoid> Overlaying::own_boundary(Index patch, Shadows& near) const {
     const Feature contact = one.patches.contact(patch);
     one.pillars_near(contact.obstacle, near);

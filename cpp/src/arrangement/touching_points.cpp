@@ -1,4 +1,4 @@
-// Corners at one angle, those apart told by doubles, the others exactly.
+// Compare corners at one angle in doubles, and close ones exactly.
 #include "arrangement/touching_points.hpp"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ std::vector<std::vector<Index>> touching_points(const Boundary& boundary, const 
             placed.push_back({at.place(by_rank[k], R), by_rank[k]});
             size = std::max({size, std::abs(placed.back().p.x), std::abs(placed.back().p.y)});
         }
-        const double apart = 0x1p-20 * size;  // places are known better by far
+        const double apart = 0x1p-20 * size;  // places are far more precise
         std::sort(placed.begin(), placed.end(), [](const Placed& x, const Placed& y) { return x.p.x < y.p.x; });
         std::vector<Index> of(placed.size(), -1);  // lists
         for (std::size_t k = 0; k < placed.size(); ++k)

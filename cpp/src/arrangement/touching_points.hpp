@@ -1,4 +1,4 @@
-// Corners of pieces that are one point, though no edge connects them: surfaces that only touch there.
+// Corners of pieces at one point without a connecting edge: surfaces only touch there.
 #pragma once
 #include "cfree/forbidden/boundary.hpp"
 
@@ -10,7 +10,7 @@ struct PieceCorner {
     bool is_last, is_upper;
 };
 
-// Of several corners the ones that are in one place; lists of at least two, by their numbers.
+// Groups of corners in one place: lists of at least two numbers.
 std::vector<std::vector<Index>> touching_points(const Boundary& boundary, const std::vector<PieceCorner>& corners, int threads);
 
 }  // namespace cfree

@@ -1,4 +1,4 @@
-// What is near what: boxes in a tree. They are rounded outwards by whoever makes them, and decide nothing.
+// Tree of boxes, for finding near items. Callers round boxes outwards; they decide nothing.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ struct Box {
     bool meets(const Box& b) const { return x0 <= b.x1 && b.x0 <= x1 && y0 <= b.y1 && b.y0 <= y1; }
 };
 
-// By a length, and by what its coordinates are rounded.
+// Box grown by a length, and by the rounding of its coordinates.
 inline Box grown(const Box& b, double by = 0) {
     const double size = std::max({std::abs(b.x0), std::abs(b.x1), std::abs(b.y0), std::abs(b.y1)});
     const double d = by + (size + by) * 0x1p-40;

@@ -1,4 +1,4 @@
-// Motions decided in integers, narrowed first by boxes and by halving in doubles; theory, "Motions".
+// Decide motions in integers, after boxes and halving in doubles have narrowed them; theory, "Motions".
 #include "cfree/collision/motion_checker.hpp"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ constexpr int most_halvings = 6;
 template <class T, int N>
 using Terms = std::array<T, N + 1>;
 
-// A moving frame: a point a is at (C a.x - S a.y + X, S a.x + C a.y + Y) / W. Coefficients are those of powers of u for
-// integers, those of Bernstein on some interval for doubles.
+// A moving frame: a point a is at (C a.x - S a.y + X, S a.x + C a.y + Y) / W. Integers are coefficients of powers of u,
+// doubles are Bernstein coefficients on some interval.
 template <class T, int N>
 struct Frame {
     Terms<T, N> C, S, X, Y, W;
@@ -40,7 +40,7 @@ Point<T, N> moved(const Frame<T, N>& f, const T& x, const T& y) {
     return r;
 }
 
-// Positive where the moving point is on the left of the edge d that starts at (x, y).
+// Function that is positive while the moving point is on the left of the edge d that starts at (x, y).
 template <class T, int N>
 T side(const Vec<T>& d, const T& x, const T& y, const Point<T, N>& point, const Frame<T, N>& f, int k) {
     return d.x * (point.y[k] - f.W[k] * y) - d.y * (point.x[k] - f.W[k] * x);
@@ -60,7 +60,7 @@ bool is_positive(const Approx& f) { return f.v > error_of(f); }
 
 template <int N>
 struct Frames {
-    Frame<Int, N> robot, obstacles;  // the robot seen from the world, the obstacles seen from the robot
+    Frame<Int, N> robot, obstacles;  // the robot in the world's frame, the obstacles in the robot's frame
 };
 
 Frames<2> frames_of(const Motion& m) {
@@ -127,8 +127,8 @@ Frame<double, N> rounded(const Frame<Int, N>& f, int shift) {
             convert(f.W, scale)};
 }
 
-// Bernstein coefficients on [lo, hi], of all but negative numbers, by the polar form: a power of u becomes the mean of the
-// products of that many of N numbers, some of them lo and the others hi.
+// Bernstein coefficients on [lo, hi], lo >= 0, by the polar form: a power of u becomes the mean of the products of that many
+// of N numbers, some of them lo and the others hi.
 template <int N>
 Frame<Approx, N> on(const Frame<double, N>& f, double lo, double hi) {
     double mean[N + 1][N + 1];
@@ -156,7 +156,7 @@ Frame<Approx, N> on(const Frame<double, N>& f, double lo, double hi) {
     return {convert(f.C), convert(f.S), convert(f.X), convert(f.Y), convert(f.W)};
 }
 
-// The first root between another and 1 after which a polynomial is positive.
+// First root between another and 1 after which a polynomial is positive.
 std::optional<RealRoot> crossing(const Poly& f, RealRoot& after) {
     if (f.size() < 2) return {};
     if (f.size() == 3 && f[1] * f[1] <= 4 * f[0] * f[2]) return {};  // no root, or a double one
@@ -197,7 +197,7 @@ public:
     std::optional<Collision> first;
 
 private:
-    // What doubles cannot decide about a robot piece on [lo, hi] is halved, and at last decided exactly.
+    // Halve [lo, hi] for a robot piece as long as doubles cannot decide, and then decide exactly.
     void halve(double lo, double hi, int depth, const std::vector<Index>* parents) {
         if (lo >= horizon) return;
         const Frame<Approx, N> frame = on(robot, lo, hi);
@@ -242,7 +242,7 @@ private:
     }
     bool is_decided(Index k) const { return std::find(decided.begin(), decided.end(), k) != decided.end(); }
 
-    // The piece on the interval of a frame: within the control points, where their weights are positive.
+    // Box of a piece over the interval of a frame: around its control points, if their weights are positive.
     std::optional<Box> swept(const Frame<Approx, N>& frame, const std::vector<Point<Approx, N>>& points) const {
         Box box;
         for (int k = 0; k <= N; ++k) {
@@ -258,7 +258,7 @@ private:
         return grown(box);
     }
 
-    // Whether one edge parts two pieces on the whole interval of the frames; false: not certain.
+    // True if one edge certainly separates two pieces on the whole interval of the frames.
     bool are_apart(const Frame<Approx, N>& frame, const Frame<Approx, N>& back, const std::vector<Point<Approx, N>>& points,
                    Index k) const {
         const auto parts = [](const Shape& s, Index e, const Point<Approx, N>& point, const Frame<Approx, N>& f) {
@@ -281,11 +281,11 @@ private:
         return false;
     }
 
-    // Whether the interiors meet at a parameter; false: not certain.
+    // True if the interiors certainly meet at a parameter.
     bool overlap(double at, Index k) const {
         return reaches_in(O, k, A, piece, on(robot, at, at)) && reaches_in(A, piece, O, k, on(obstacles, at, at));
     }
-    // Whether each edge of a piece has a vertex of a moving piece on its inner side.
+    // True if each edge of a piece has a vertex of a moving piece on its inner side.
     static bool reaches_in(const Shape& s, Index k, const Shape& moving, Index j, const Frame<Approx, N>& f) {
         for (Index e = s.piece[k]; e < s.piece[k + 1]; ++e) {
             const Index d = s.piece_edge[e];
@@ -318,7 +318,7 @@ private:
                 points.push_back(moved(f, moving.X[vertices.back()], moving.Y[vertices.back()]));
             }
         }
-        // Where the vertices are beside an edge, if just after a parameter none is on its inner side.
+        // Positions of the vertices beside an edge, if just after a parameter none is on its inner side.
         std::optional<std::vector<Poly>> parted(Index e, RealRoot& from) const {
             const auto direction = edge<Int>(still, e);
             std::vector<Poly> sides;
@@ -335,8 +335,8 @@ private:
         }
     };
 
-    // Goes from one edge that parts the two pieces to the next, as far as each holds. The pieces are apart on a closed set:
-    // it is enough to look just after each end.
+    // Go from one edge that separates the two pieces to the next, as far as each does. The pieces are apart on a closed set, so
+    // it is enough to test just after each end.
     void decide(Index k) {
         decided.push_back(k);
         const View views[2] = {{O, k, A, piece, exact.robot, 1}, {A, piece, O, k, exact.obstacles, 2}};
@@ -356,7 +356,7 @@ private:
                         end = Collision{*x, piece, k, view.kind, view.vertices[i], d};
                         if (view.kind == 2) std::swap(end->robot, end->obstacle);
                     }
-                    if (!end) return;  // parts them to the end of the motion
+                    if (!end) return;  // separates them to the end of the motion
                     if (!next || compare(end->at, next->at) > 0) next = end;
                 }
             if (!next) break;

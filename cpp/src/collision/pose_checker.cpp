@@ -1,4 +1,4 @@
-// Separating axes in doubles with a bound, then in integers; grids remember what is near; theory, "Poses, exactly".
+// Separating axes in doubles with a bound, then in integers; grids cache near pieces; theory, "Poses, exactly".
 #include "cfree/collision/pose_checker.hpp"
 
 #include <limits>
@@ -13,7 +13,7 @@
 
 namespace cfree {
 
-// The error of a distance n . p - h. u = 2^-53; M bounds all coordinates that are compared, the robot's placed: those of the
+// Error of a distance n . p - h. u = 2^-53; M bounds all compared coordinates, after placing the robot: those of the
 // obstacles plus twice the robot's. To first order in u:
 //   placed vertex   x + (c a_x - s a_y): 32 u (|a_x| + |a_y|) from c and s, 3 u of that from rounding, 2 u M from x and the
 //                   sum; below 72 u M in each coordinate, 102 u M along n
@@ -27,7 +27,7 @@ namespace cfree {
 namespace {
 constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_square = 0x1p-1022;
 constexpr double cells_in_reach = 8;
-constexpr Index few = 4;  // vertices of a piece: looking at all is quicker than choosing
+constexpr Index few = 4;  // vertices of a piece: testing all is faster than choosing
 constexpr std::size_t chunk = 1024, sectors = 64, outside = std::numeric_limits<std::size_t>::max();
 constexpr double farthest = 0x1p+997;  // what is farther away is as far as this
 constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
@@ -57,8 +57,8 @@ Vec<double> middle_of_direction(std::size_t k) {
 }
 }  // namespace
 
-// From so many poses on a grid may have so many cells: it takes no longer to make than these poses take. All poses of a box are
-// looked at when so many of them were: most of the large boxes are mixed, and to tell that takes long.
+// Numbers of poses from which on a grid may have so many cells: making it takes no longer than these poses. All poses of a
+// box are decided together after so many single ones: most large boxes are mixed, and finding that out takes long.
 struct PoseChecker::Fineness {
     std::size_t poses;
     double most_cells;
@@ -116,7 +116,7 @@ using TwoMasks = long long __attribute__((vector_size(16)));
 static const Two& two(const double* x) { return *reinterpret_cast<const Two*>(x); }
 static Two& two(double* x) { return *reinterpret_cast<Two*>(x); }
 
-// The robot in a pose, in doubles; memory is kept from one pose to the next. Vertices of a piece are placed when asked for.
+// Robot in a pose, in doubles; its memory is reused for the next pose. Vertices of a piece are placed when needed.
 struct PoseChecker::Placed {
     const Pieces& at_rest;
     Placement at{};
@@ -125,7 +125,7 @@ struct PoseChecker::Placed {
     std::vector<char> is_placed;
     explicit Placed(const Pieces& p)
         : at_rest(p), x(p.x.size()), y(x), nx(x), ny(x), h(x), box(p.number.size()), is_placed(p.number.size()) {}
-    // With boxes that are known for the pose at the origin.
+    // Place the robot, given its boxes for the pose at the origin.
     void place(const Placement& pose, const Ranges* around) {
         at = pose;
         for (std::size_t i = 0; i < box.size(); ++i) {
@@ -157,8 +157,8 @@ struct PoseChecker::Placed {
     Vec<double> seen_from(const Vec<double>& d) const { return {at.c * d.x + at.s * d.y, at.c * d.y - at.s * d.x}; }
 };
 
-// The edges begin <= k < end of a convex polygon, an even number, beside the vertices of another: is all of it on the outer side
-// of one of their lines, by the slack? Else, has each line some of it on its inner side? `far` is one that most likely is.
+// Compare edges begin <= k < end, an even number, of a convex polygon with the vertices of another. Free: all of it is on the
+// outer side of one line, by the slack. Forbidden: each line has some of it on its inner side, most likely vertex `far`.
 static Verdict beside(const double* nx, const double* ny, const double* h, Index count, double slack, const double* x, const double* y,
                       Index vertices, Index far, bool& is_inside) {
     is_inside = true;
@@ -179,7 +179,7 @@ static Verdict beside(const double* nx, const double* ny, const double* h, Index
     return all;
 }
 
-// The vertex of each piece that is tried first reaches far towards the other. If it is inside that, the interiors meet.
+// Verdict on two pieces. The first vertex tried of each reaches far towards the other; if it is inside, the interiors meet.
 Verdict PoseChecker::meet(Placed& placed, Index i, Index j, const Range& range) const {
     const Index a = robot.first[i], b = obstacles.first[j], n = robot.first[i + 1] - a, m = obstacles.first[j + 1] - b;
     const Vec<double> towards{0.5 * (box[j].x0 + box[j].x1) - placed.at.x, 0.5 * (box[j].y0 + box[j].y1) - placed.at.y};
@@ -189,7 +189,7 @@ Verdict PoseChecker::meet(Placed& placed, Index i, Index j, const Range& range) 
     const Index p = n > few ? robot.far[i][direction_of(placed.seen_from(towards))] - a : 0;
     const Verdict v = beside(&obstacles.nx[b], &obstacles.ny[b], &obstacles.h[b], m, slack, &placed.x[a], &placed.y[a], n, p, is_inside);
     if (v == Verdict::free || is_inside) return v;
-    if (range.turn > 0) {  // seen from the robot, the farthest vertex moves most
+    if (range.turn > 0) {  // in the robot's frame, the farthest vertex moves most
         const double dx = std::max(box[j].x1 - placed.at.x, placed.at.x - box[j].x0);
         const double dy = std::max(box[j].y1 - placed.at.y, placed.at.y - box[j].y0);
         slack = margin + range.shift + range.turn * (std::abs(dx) + std::abs(dy));
@@ -199,8 +199,7 @@ Verdict PoseChecker::meet(Placed& placed, Index i, Index j, const Range& range) 
     return w == Verdict::free || is_inside ? w : std::max(v, w);
 }
 
-// All pieces of the robot against some of the obstacles', up to a pair that is forbidden; `decide` is asked about pairs that are
-// uncertain.
+// Test all pieces of the robot against some of the obstacles', until a pair is forbidden; `decide` settles uncertain pairs.
 template <class F>
 Verdict PoseChecker::against(Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
     Verdict all = Verdict::free;
@@ -221,8 +220,8 @@ Verdict PoseChecker::against(Placed& placed, const Index* list, std::size_t coun
     return all;
 }
 
-// Of a point from a piece, within the margin; 0 inside. Thin pieces are why the margin decides which edges count: ahead of
-// the tip of one, the distances of lines are small, and may have any sign.
+// Distance of a point from a piece, within the margin; 0 inside. The margin decides which edges count, because of thin
+// pieces: ahead of their tips, the distances of lines are small, and may have any sign.
 double PoseChecker::distance(const Pieces& p, Index piece, double x, double y) const {
     const Index begin = p.first[piece], end = p.first[piece + 1];
     double least = std::numeric_limits<double>::infinity();
@@ -260,10 +259,10 @@ void PoseChecker::fill(Grid& g, const Fineness& fineness) const {
     const auto cell = [&](double offset, Index n) {
         return static_cast<Index>(std::clamp(offset * g.per_unit, 0.0, static_cast<double>(n - 1)));
     };
-    // of a disc around a cell, and what rounding moves to the next cell; margin: the error of a distance
+    // radius of a disc around a cell, with poses that rounding moves to the next cell; margin: the error of a distance
     g.side = side;
     const double radius = g.radius = std::sqrt(0.5) * side * (1 + 0x1p-20) + margin;
-    double core = 0;  // of a disc in the robot, around its reference point
+    double core = 0;  // radius of a disc in the robot, around its reference point
     for (Index i = 0; i < robot.count(); ++i)
         core = std::max(core, *std::min_element(&robot.h[robot.first[i]], robot.h.data() + robot.first[i + 1]) - margin);
     struct Near {
@@ -288,7 +287,7 @@ void PoseChecker::fill(Grid& g, const Fineness& fineness) const {
             }
     }
     std::erase_if(found, [&](const Near& near) { return blocked[near.cell]; });
-    std::sort(found.begin(), found.end(), [](const Near& p, const Near& q) {  // what overlaps most likely is asked first
+    std::sort(found.begin(), found.end(), [](const Near& p, const Near& q) {  // most likely overlaps come first
         return std::tie(p.cell, p.distance, p.piece) < std::tie(q.cell, q.distance, q.piece);
     });
     g.start.assign(blocked.size() + 1, 0);
@@ -337,7 +336,7 @@ static Vec<double> direction(double theta, std::size_t sector) {
     return {middles[sector].x * c - middles[sector].y * s, middles[sector].y * c + middles[sector].x * s};
 }
 
-// Of all poses in its box, where they have the same and enough were looked at before; else of this one.
+// Verdict of all poses in the box of a pose, if they agree and enough were tested before; else of this one.
 Verdict PoseChecker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
     const std::size_t cell = slot / sectors, sector = slot % sectors, width = static_cast<std::size_t>(g.nx);
     const Index* list = &g.member[g.start[cell]];
@@ -380,7 +379,7 @@ void PoseChecker::check(const double* poses, std::size_t count, int threads, Ver
                 slots[k - begin] = slot;
                 if (slot != outside) __builtin_prefetch(&g.known[slot]);
             }
-            std::size_t count_open = 0;  // without branches that nobody could foresee
+            std::size_t count_open = 0;  // without unpredictable branches
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t slot = slots[k - begin];
                 const State state = slot == outside ? State::free : g.known[slot].load(std::memory_order_relaxed);
@@ -409,8 +408,8 @@ bool PoseChecker::Looks::is_forbidden(double x, double y, double theta) {
     return checker->verdict(*grid, slot, pose, *placed) == Verdict::forbidden;
 }
 
-// Halved until all poses of a part, which are around its middle, have one verdict. The middle's roundings, and those of
-// distances from where the robot is farther away than `margin` allows for, are within the slack.
+// Halve the sweep until all poses of a part, which are around its middle, have one verdict. The slack covers the rounding of
+// the middle, and of distances if the robot is farther away than `margin` allows for.
 bool PoseChecker::sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const {
     constexpr double rounding = 0x1p-44;
     constexpr int deepest = 20;

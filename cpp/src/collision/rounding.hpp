@@ -1,4 +1,4 @@
-// How far doubles are off that lead to the side of a moved point.
+// Rounding error of the doubles that decide the side of a moved point.
 #pragma once
 #include "cfree/exact/number.hpp"
 

@@ -1,4 +1,4 @@
-// Boxes of a shape's parts, in its doubles: what they are around may be farther out by their rounding.
+// Boxes of a shape's parts, in its doubles: the parts may exceed them by the rounding of these.
 #pragma once
 #include <cmath>
 
@@ -14,14 +14,14 @@ inline Box edge_box(const Shape& s, Index e) {
     return box;
 }
 
-// Of the edges of its rings.
+// Boxes of the edges of its rings.
 inline std::vector<Box> edge_boxes(const Shape& s) {
     std::vector<Box> boxes;
     for (Index e = 0; e < s.ring_vertices; ++e) boxes.push_back(edge_box(s, e));
     return boxes;
 }
 
-// Of its convex pieces, rounded outwards.
+// Boxes of its convex pieces, rounded outwards.
 inline std::vector<Box> piece_boxes(const Shape& s) {
     std::vector<Box> boxes;
     for (Index k = 0; k < s.pieces(); ++k) {
@@ -32,14 +32,14 @@ inline std::vector<Box> piece_boxes(const Shape& s) {
     return boxes;
 }
 
-// How far it reaches about its reference point.
+// Reach of a shape about its reference point.
 inline double reach_of(const Shape& s) {
     double most = 0;
     for (std::size_t v = 0; v < s.x.size(); ++v) most = std::max(most, norm(s.x[v], s.y[v]));
     return most;
 }
 
-// No two of its points are farther apart.
+// Upper bound of the distance of two of its points.
 inline double diagonal(const Shape& s) {
     Box box;
     for (std::size_t v = 0; v < s.x.size(); ++v) box.add(s.x[v], s.y[v]);

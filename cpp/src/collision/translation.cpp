@@ -1,7 +1,8 @@
-// How far a translation is free: along it two convex pieces overlap on an open interval, whose ends are quotients; theory, "Motions".
+// Free share of a translation: two convex pieces overlap along it on an open interval, whose ends are quotients; theory,
+// "Motions".
 //
-// All points of the robot move alike. So of all vertices of a piece the one farthest inside an edge of the other stays it, and
-// m + s u > 0 where some vertex is inside: two pieces overlap where that is so for all edges of both.
+// All points of the robot move alike. So the vertex of a piece farthest inside an edge of the other stays the farthest, and
+// m + s u > 0 while some vertex is inside: two pieces overlap while this holds for all edges of both.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +16,7 @@ namespace cfree {
 
 namespace {
 
-// Turned and moved: points of the robot times W, and how far all of them move in the end.
+// Placed robot: its points times W, and the vector by which all of them move in the end.
 template <class T>
 struct Moved {
     Rotation<T> R;
@@ -45,7 +46,7 @@ Moved<Int> exactly(const Motion& m) {
     return {{m.c, m.s, m.w}, {m.w * m.x, m.w * m.y}, {m.w * m.vx, m.w * m.vy}, m.unit, m.w * m.unit};
 }
 
-// What a number is between.
+// Bounds of a number.
 struct Range {
     double low, high;
 };
@@ -53,7 +54,7 @@ Range range(const Approx& x) {
     const double error = error_of(x);
     return {x.v - error, x.v + error};
 }
-// Of a / b, b positive.
+// Bounds of a / b, b positive.
 Range quotient(const Range& a, const Range& b) {
     const double low = a.low / (a.low < 0 ? b.low : b.high), high = a.high / (a.high < 0 ? b.high : b.low);
     return {low - std::abs(low) * 0x1p-50, high + std::abs(high) * 0x1p-50};
@@ -64,7 +65,7 @@ class Course {
 public:
     Course(const Scene& of, const Motion& m) : scene(of), near(approximately(m, of.shift)), exact(exactly(m)) {}
 
-    // Which piece of the robot is meant by what follows; a box that it stays in, if doubles can tell.
+    // Select a piece of the robot; return a box around its motion, if doubles can give one.
     std::optional<Box> look_at(Index robot_piece) {
         const Shape& A = scene.robot;
         piece = robot_piece;
@@ -87,7 +88,7 @@ public:
         return swept;
     }
 
-    // Before this share of the way they do not overlap; nothing if they never do.
+    // Share of the way before which the pieces do not overlap; nothing if they never do.
     std::optional<double> apart_until(Index obstacle_piece) {
         if (!find_lines(obstacle_piece)) return {};
         double from = 0, to = 1;
@@ -98,7 +99,7 @@ public:
         return from;
     }
 
-    // Where they begin to overlap, from 0 on and before 1.
+    // Share of the way, in [0, 1), from which on the pieces overlap.
     std::optional<Ratio> meeting(Index obstacle_piece) {
         if (!find_lines(obstacle_piece)) return {};
         Range entry{0, 0}, exit{1, 1};
@@ -107,7 +108,7 @@ public:
             else if (line.is_exit) exit = {std::min(exit.low, line.at.low), std::min(exit.high, line.at.high)};
         Ratio from{0, 1}, to{1, 1};  // not reduced
         const bool is_long = entry.high < exit.low;
-        for (const Line& line : lines) {  // those that may be first or last
+        for (const Line& line : lines) {  // lines that may be first or last
             if (line.is_entry ? line.at.high < entry.low : line.is_exit && (is_long || line.at.low > exit.high)) continue;
             const Int m = most(line), s = slope(line);
             if (s.is_zero()) {
@@ -126,11 +127,11 @@ private:
     struct Line {
         bool of_robot;
         Index edge;
-        bool is_entry, is_exit;  // certainly; else m and s are not known well
-        Range at;                // where m + s u is 0
+        bool is_entry, is_exit;  // certain; else m and s are imprecise
+        Range at;                // the u with m + s u = 0
     };
 
-    // The edges that may matter; false if one of them keeps the pieces apart all the way.
+    // Collect the edges that may matter; false if one of them keeps the pieces apart all the way.
     bool find_lines(Index obstacle_piece) {
         const Shape& O = scene.obstacles;
         other = obstacle_piece;
@@ -174,7 +175,7 @@ private:
         const Int by = cross(along(line), exact.by);
         return line.of_robot ? Int(-by) : by;
     }
-    // The vertex farthest inside.
+    // Greatest value m, of the vertex farthest inside.
     Int most(const Line& line) const {
         const Shape &A = scene.robot, &O = scene.obstacles;
         const auto fixed = [&](Index v) {
@@ -185,7 +186,7 @@ private:
         const Vec<Int> from = line.of_robot ? exact(whole.vertex(A, A.v[line.edge])) : fixed(O.v[line.edge]);
         const Shape& moving = line.of_robot ? O : A;
         const Index k = line.of_robot ? other : piece, first = moving.piece[k];
-        // doubles say which ones it may be
+        // doubles restrict the candidates
         const Vec<Approx> near_from = line.of_robot ? near(doubles.vertex(A, A.v[line.edge])) : doubles.vertex(O, O.v[line.edge]);
         const Vec<Approx> near_d = line.of_robot ? near.turned(doubles.edge(A, line.edge)) : doubles.edge(O, line.edge);
         const auto& seen = line.of_robot ? corners : points;
@@ -211,7 +212,7 @@ private:
     const CoreUnits<Approx> doubles{};
     const CoreUnits<Int> whole{};
     Index piece = 0, other = 0;
-    std::vector<Vec<Approx>> points, corners;  // of the robot's piece in the beginning, and of the obstacles'
+    std::vector<Vec<Approx>> points, corners;  // vertices of the robot's piece at the beginning, and of the obstacles'
     std::vector<Edge> edges;                   // of the robot's piece
     std::vector<Line> lines;
 };

@@ -1,4 +1,4 @@
-// Curves where two surfaces meet, and bounds of their derivatives; theory, "Curves".
+// Intersection curves of two surfaces, and bounds of their derivatives; theory, "Curves".
 #include "cfree/contact/contact_curve.hpp"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace cfree {
 
 namespace {
 using std::numbers::pi;
-constexpr double rounding = 1e-14;  // what is left of numbers that cancel
+constexpr double rounding = 1e-14;  // relative size below which a difference is zero
 
-// The point y with p.y = r and q.y = s.
+// Solve p.y = r and q.y = s for y.
 Complex solve(Complex p, Complex q, double r, double s) { return i_unit * (s * p - r * q) / cross(p, q); }
 }  // namespace
 
@@ -52,7 +52,7 @@ void ContactCurve::meet_parallel(const Places::Parts& p, const Places::Parts& q,
     }
 }
 
-// A line that stands still, through b - z a, and one that turns about a point: t sin psi = d + B sin psi + C cos psi.
+// A fixed line, through b - z a, and one that turns about a point: t sin psi = d + B sin psi + C cos psi.
 void ContactCurve::meet_mixed(const Places::Parts& still, const Places::Parts& turning, double from, double to) {
     const Complex nu = -i_unit * turning.edge, B = still.b - turning.b;
     const double d = dot(nu, still.a - turning.a), side = cross(still.edge, B);
@@ -120,7 +120,8 @@ double ContactCurve::speed(double from, double to) const {
     return once + 2 * twice + 0.25 * (std::abs(k) * cotangent + std::abs(l) * tangent);
 }
 
-// That in the middle, and the third derivative's bound; its terms too grow from the middle of their period on.
+// Bound from the value in the middle and the third derivative's bound; its terms also grow from the middle of their period
+// on.
 double ContactCurve::bend_near(double from, double to) const {
     if (m_back == 0.0 && twice == 0 && k == 0 && l == 0) return once;
     double tangent = 0, cotangent = 0;

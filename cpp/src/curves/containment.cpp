@@ -1,4 +1,4 @@
-// Parts of curves on one side of a ring: signs of intervals in twice the precision first, then of exact integers.
+// Decide the sides of parts of curves against a ring: signs of double-double intervals first, then of exact integers.
 #include "cfree/curves/containment.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace cfree {
 
 namespace {
 
-constexpr int deepest = 48;  // times that a piece is halved
+constexpr int deepest = 48;  // most halvings of a piece
 enum Side { outside = -1, on_ring = 0, inside = 1 };
 
 // The point (x / w, y / w), w > 0.
@@ -39,7 +39,7 @@ Corner<Ball> rounded(const Corner<Int>& p) {
     return {ball(p.x, k), ball(p.y, k), ball(p.w, k)};
 }
 
-// The numbers of a piece; its points have one and the same w. An arc has its start instead of its center.
+// Numbers of a piece; all its points have the same w. An arc has its start instead of its center.
 template <class T>
 struct Form {
     std::vector<Corner<T>> points;
@@ -48,10 +48,10 @@ struct Form {
 struct Piece {
     Form<Int> exact;
     Form<Ball> about;
-    std::optional<std::array<Corner<Int>, 2>> line;  // the farthest ends, if all of the piece is on one line
+    std::optional<std::array<Corner<Int>, 2>> line;  // the extreme ends, if all of the piece is on one line
 };
 
-// The hull of a piece from `first` to `last` of its parameter, of which it has `whole`.
+// Hull of a piece from `first` to `last` of its parameter, out of `whole`.
 template <class T>
 void hull_of(const Form<T>& form, const T& first, const T& last, const T& whole, Corner<T>* hull) {
     const auto& p = form.points;
@@ -67,7 +67,7 @@ void hull_of(const Form<T>& form, const T& first, const T& last, const T& whole,
         };
         const T square = q * q;
         hull[0] = at(s * s + s * s, q * s + q * s, square + s * s);
-        hull[1] = at(s * t + s * t, q * s + q * t, square + s * t);  // where the tangents at both ends meet
+        hull[1] = at(s * t + s * t, q * s + q * t, square + s * t);  // intersection of the end tangents
         hull[2] = at(t * t + t * t, q * t + q * t, square + t * t);
         return;
     }
@@ -81,7 +81,7 @@ void hull_of(const Form<T>& form, const T& first, const T& last, const T& whole,
     }
 }
 
-// A piece from k / 2^m to (k + 1) / 2^m of its parameter; its hull in integers is found when it is asked for.
+// A piece from k / 2^m to (k + 1) / 2^m of its parameter; its integer hull is computed when needed.
 struct Part {
     const Piece* piece;
     std::int64_t k;
@@ -124,7 +124,7 @@ public:
         std::iota(edges.begin(), edges.end(), 0);
     }
 
-    // Are all parts of the curve on this side of the ring, or on the ring?
+    // True if all parts of the curve are on this side of the ring, or on the ring.
     bool is_on(Side wanted) {
         if (!is_closed()) return false;
         side = on_ring;
@@ -132,7 +132,7 @@ public:
                            [&](const Piece& piece) { return piece.line ? line_is_on(piece, wanted) : part_is_on({piece, 0, 0}, edges, wanted); });
     }
 
-    // Do the chords of the parts go around a point that is inside the ring?
+    // True if the chords of the parts go around a point inside the ring.
     bool goes_around() const {
         const Corner<Int> p = point_inside();
         int turns = 0;
@@ -155,10 +155,10 @@ private:
     std::vector<Corner<Ball>> about;
     std::vector<Piece> pieces;
     std::vector<Box> boxes;
-    std::vector<Part> starts;  // the hull of each begins where it begins
+    std::vector<Part> starts;  // the hull of each begins at its start
     Edges edges;
     double largest = 0;  // coordinate
-    Side side = on_ring;  // the side of the next part; on the ring if that is not known
+    Side side = on_ring;  // side of the next part; `on_ring` if unknown
 
     Index size() const { return static_cast<Index>(ring.size()); }
     Index next(Index k) const { return k + 1 < size() ? k + 1 : 0; }
@@ -169,7 +169,7 @@ private:
         Int w = 1;
         for (const RatioPoint& p : given.points) w = lcm(w, lcm(p.x.d, p.y.d));
         for (const RatioPoint& p : given.points) points.push_back({p.x.n * (w / p.x.d), p.y.n * (w / p.y.d), w});
-        if (points.size() == 3) points[0].x += points[1].x, points[0].y += points[1].y;  // where the arc starts
+        if (points.size() == 3) points[0].x += points[1].x, points[0].y += points[1].y;  // start of the arc
         if (points.size() != 3 && are_on_a_line(points)) piece.line = ends_of(points);
         piece.exact.n = given.last.n, piece.exact.d = given.last.d;
         for (const auto& p : points) piece.about.points.push_back(rounded(p));
@@ -185,7 +185,7 @@ private:
                     if (!determinant(points[i], points[j], points[h]).is_zero()) return false;
         return true;
     }
-    // The least and the greatest by x and then by y.
+    // Least and greatest point by x and then by y.
     static std::array<Corner<Int>, 2> ends_of(const std::vector<Corner<Int>>& points) {
         const auto [low, high] = std::minmax_element(points.begin(), points.end(), [](const Corner<Int>& p, const Corner<Int>& q) {
             return p.x != q.x ? p.x < q.x : p.y < q.y;
@@ -212,7 +212,7 @@ private:
             const double x = p.x.hi / p.w.hi, y = p.y.hi / p.w.hi;
             box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
         }
-        const double margin = 0x1p-40 * largest;  // numerators and denominators are right to 2^-45 of what they sum up
+        const double margin = 0x1p-40 * largest;  // numerators and denominators are right to 2^-45 of their summands
         return {box.x0 - margin, box.y0 - margin, box.x1 + margin, box.y1 + margin};
     }
     Edges near(const Box& box, const Edges& among) const {
@@ -244,7 +244,7 @@ private:
         return is_right;
     }
 
-    // Is there no line with the hull on one side and the edge on the other? It may touch both.
+    // True if no line has the hull on one side and the edge on the other; the line may touch both.
     bool meets_interior(const Part& part, Exact& exact, Index e) const {
         const std::array<Index, 2> ends{e, next(e)};
         const auto sign = [&](const auto& of_balls, const auto& of_integers) {
@@ -280,7 +280,7 @@ private:
         return true;
     }
 
-    // Of the corners of a hull.
+    // Mean of the corners of a hull.
     static Corner<Int> middle_of(const std::array<Corner<Int>, 4>& hull, int count) {
         Corner<Int> sum = hull[0];
         for (int i = 1; i < count; ++i) {
@@ -293,7 +293,7 @@ private:
 
     // --- lines ---
 
-    // A line that edges meet is cut there; what is between is on one side.
+    // Test a line, cut at the edges that it meets: each part is on one side.
     bool line_is_on(const Piece& piece, Side wanted) {
         const Corner<Int>&p = (*piece.line)[0], &q = (*piece.line)[1];
         starts.emplace_back(piece, 0, 0);
@@ -335,7 +335,7 @@ private:
         return true;
     }
 
-    // The product of the vectors from p to q and to r.
+    // Inner product of the vectors from p to q and to r.
     static Ratio along(const Corner<Int>& p, const Corner<Int>& q, const Corner<Int>& r) {
         const auto difference = [&](const Corner<Int>& to) { return Vec<Int>{to.x * p.w - p.x * to.w, to.y * p.w - p.y * to.w}; };
         return reduced(dot(difference(q), difference(r)), p.w * q.w * p.w * r.w);
@@ -353,7 +353,7 @@ private:
         return within(&Corner<Int>::x) && within(&Corner<Int>::y);
     }
 
-    // Crossings of the ray to the right; an edge holds its lower end.
+    // Side by crossings of the ray to the right; an edge contains its lower end.
     Side side_of(const Corner<Int>& p) const {
         bool is_odd = false;
         const Corner<Ball> point = rounded(p);
@@ -373,7 +373,7 @@ private:
         return known ? *known : static_cast<int>(determinant(ring[k], ring[next(k)], p).sign());
     }
 
-    // Between the first two crossings of a horizontal line that passes between the two lowest levels of vertices.
+    // Point between the first two crossings of a horizontal line between the two lowest levels of vertices.
     Corner<Int> point_inside() const {
         std::vector<Int> levels;
         for (const auto& p : ring) levels.push_back(p.y);

@@ -1,4 +1,4 @@
-// Real roots told apart by halving, common divisors and Sturm chains; theory, "Degrees".
+// Compare real roots by halving, common divisors and Sturm chains; theory, "Degrees".
 #include "cfree/exact/algebraic.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ void RealRoot::halve() {
     else hi = mid;
 }
 
-// The largest d so that the interval is certainly narrower than 2^-d, or 0.
+// Largest d such that the interval is certainly narrower than 2^-d, or 0.
 unsigned RealRoot::digits() const {
     const unsigned k = std::max(lo.k, hi.k);
     const Int width = (hi.n << (k - hi.k)) - (lo.n << (k - lo.k));
@@ -25,7 +25,8 @@ unsigned RealRoot::digits() const {
     return size < k ? k - size : 0;
 }
 
-// Cut into 2^b parts, the root is looked for beside the chord's: with half the digits known, the others are known as well.
+// Cut the interval into 2^b parts, and test the part with the chord's root and its neighbours: once half of the digits are
+// right, this gives the others.
 void RealRoot::narrow() {
     const unsigned k = std::max(lo.k, hi.k);
     const Int from = lo.n << (k - lo.k), width = (hi.n << (k - hi.k)) - from;
@@ -50,7 +51,7 @@ Int value_at(const Poly& p, const Ratio& x) {
     return value;
 }
 
-// Its denominator divides the leading coefficient: in a narrow interval there is one such number at most.
+// The denominator of a rational root divides the leading coefficient: a narrow interval has at most one such number.
 std::optional<Ratio> rational_value(RealRoot x) {
     const auto [n, k] = x.lo;
     if (x.is_dyadic()) return reduced(n, Int(1) << k);
@@ -67,11 +68,11 @@ std::optional<Ratio> rational_value(RealRoot x) {
 
 namespace {
 
-// Most numbers are not equal: common divisors are looked for after so many steps, or once so many digits do not tell them apart.
+// Most numbers differ: common divisors are computed only after so many steps, or so many equal digits.
 constexpr int few = 6;
 constexpr unsigned many = 40;
 
-// Whether the root of x is one of g, a divisor of its polynomial.
+// True if the root of x is one of g, a divisor of its polynomial.
 bool is_root_of_divisor(const Poly& g, const RealRoot& x) {
     if (g.size() <= 1) return false;
     const int l = sign_at(g, x.lo), h = sign_at(g, x.hi);

@@ -11,7 +11,7 @@ namespace cfree {
 
 namespace {
 
-// Divide by the content where coefficients have grown out of their 512 bits.
+// Divide by the content if coefficients have outgrown their 512 bits.
 void keep_small(Poly& p) {
     const auto bits = [](const Int& c) { return c.is_zero() ? 0u : static_cast<unsigned>(msb(abs(c))); };
     unsigned most = 0;
@@ -23,8 +23,8 @@ void keep_small(Poly& p) {
         for (Int& c : p) c /= g;
 }
 
-// Whether two polynomials have no common root for the reason that they have none modulo a prime: the leading coefficient of a
-// common divisor divides theirs, so that it keeps its degree there if one of theirs is not zero.
+// True if two polynomials have no common root modulo a prime, and so none at all: the leading coefficient of a common divisor
+// divides theirs, so it keeps its degree modulo the prime if one of theirs is not zero there.
 bool are_coprime_modulo_prime(const Poly& p, const Poly& q) {
     using Word = std::uint64_t;
     constexpr Word prime = (Word(1) << 61) - 1;
@@ -63,7 +63,7 @@ bool are_coprime_modulo_prime(const Poly& p, const Poly& q) {
     return a.size == 1;
 }
 
-// A positive multiple of the remainder of p by q.
+// Positive multiple of the remainder of p by q.
 Poly remainder(Poly p, const Poly& q) {
     const Int lead = abs(q.back());
     while (p.size() >= q.size()) {
@@ -77,7 +77,7 @@ Poly remainder(Poly p, const Poly& q) {
     return p;
 }
 
-// The exact quotient of two polynomials, up to a positive constant.
+// Exact quotient of two polynomials, up to a positive constant.
 Poly quotient(Poly p, const Poly& q) {
     Poly result;
     result.resize(p.size() - q.size() + 1);
@@ -193,12 +193,12 @@ int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi) {
     if (p.empty()) return 0;
     const unsigned k = std::max(lo.k, hi.k);
     const Int from = lo.n << (k - lo.k), to = hi.n << (k - hi.k);
-    // |p'| is at most the sum of i |p_i| 2^((i - 1) m) where |tau| is at most 2^m
+    // |p'| is at most the sum of i |p_i| 2^((i - 1) m) if |tau| is at most 2^m
     const Int largest = std::max(Int(abs(from)), Int(abs(to)));
     const unsigned bits = largest.is_zero() ? 0 : static_cast<unsigned>(msb(largest)) + 1, m = bits > k ? bits - k : 0;
     Int slope = 0;
     for (int i = 1; i < p.size(); ++i) slope += abs(p[i]) * i << (m * static_cast<unsigned>(i - 1));
-    const Int value = value_at(p, Dyadic{from, k});  // over 2^(k d), and so is the most that it changes by
+    const Int value = value_at(p, Dyadic{from, k});  // over 2^(k d), and so is its greatest change
     const Int change = p.size() < 2 ? Int(0) : Int(((to - from) * slope) << (k * static_cast<unsigned>(p.size() - 2)));
     return abs(value) > change ? value.sign() : 0;
 }

@@ -1,4 +1,4 @@
-// Decimals, "p/q" and doubles read as what they say, and rationals rounded once; theory, "Coordinates".
+// Read decimals, "p/q" and doubles exactly, and round rationals once; theory, "Coordinates".
 #include "cfree/exact/ratio.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::string_view take_digits(std::string_view& text) {
     return digits;
 }
 
-// Appends digits to a number.
+// Append digits to a number.
 void append(Int& n, std::string_view digits) {
     while (!digits.empty()) {
         const auto block = digits.substr(0, 18);
@@ -187,7 +187,7 @@ std::string text_of(const Ratio& value) {
 
 std::string text_of(double value) {
     std::array<char, 40> text;
-    int digits = 0;  // behind the point: the fewest that read back as the value
+    int digits = 0;  // after the point: the fewest that read back as the value
     do std::snprintf(text.data(), text.size(), "%.*e", digits, value);
     while (std::strtod(text.data(), nullptr) != value && ++digits < 17);
     const int exponent = std::atoi(std::strchr(text.data(), 'e') + 1);

@@ -1,4 +1,4 @@
-// Critical angles sorted by their intervals, and exactly where these overlap; theory, "Closed surfaces".
+// Sort critical angles by their intervals, and exactly if these overlap; theory, "Closed surfaces".
 #include "cfree/forbidden/angle_table.hpp"
 
 #include <algorithm>
@@ -33,8 +33,8 @@ void AngleTable::sort_chart(int chart, int threads) {
     std::sort(ends.begin(), ends.end(), [](const Angle& x, const Angle& y) {
         return std::tuple(x.lo, x.trapezoid, x.is_to) < std::tuple(y.lo, y.trapezoid, y.is_to);
     });
-    const std::size_t block = block_of(ends.size());  // or more: of whole clusters, runs of intervals that overlap
-    std::vector<std::size_t> clusters, first;  // where they start, and the first clusters of blocks
+    const std::size_t block = block_of(ends.size());  // or more: whole clusters, runs of intervals that overlap
+    std::vector<std::size_t> clusters, first;  // starts of clusters, and the first clusters of blocks
     double reach = -2;
     for (std::size_t k = 0; k < ends.size(); ++k) {
         if (ends[k].lo > reach) {
@@ -57,9 +57,9 @@ void AngleTable::sort_chart(int chart, int threads) {
     }
 }
 
-// Appends the angles of a cluster in order, and ranks its members by their places there.
+// Append the angles of a cluster in order, and rank its members by their places there.
 void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector<Angle>& ordered) {
-    // one of each short name stands for all that agree with it
+    // one of each short name represents all that agree with it
     std::vector<std::pair<CriticalAngle::ShortName, const Angle*>> named;
     for (const Angle* x = begin; x != end; ++x) named.push_back({critical(*x).short_name(scene), x});
     std::sort(named.begin(), named.end());

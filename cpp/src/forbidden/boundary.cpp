@@ -1,4 +1,4 @@
-// The driver: patches trimmed one by one, gathered, their features named; theory, "The trimmed boundary".
+// Driver of the boundary: trim patches one by one, gather them, name their features; theory, "The trimmed boundary".
 #include "cfree/forbidden/boundary.hpp"
 
 #include <algorithm>
@@ -26,14 +26,14 @@ void gather(std::vector<std::vector<Trapezoid>>& lists, Trapezoids& into) {
 
 namespace {
 
-// All patches of a scene, one after another, by any number of threads.
+// Trimming of all patches of a scene, one after another, by any number of threads.
 class Trimming {
 public:
     Trimming(const Scene& scene, bool regularized, const std::optional<std::vector<Index>>& features)
         : one(scene, regularized), chosen(features), trimmed(one.patches.size(), 0), found(one.first_patch.size() - 1),
           found_thin(found.size()) {}
 
-    // What one thread does: all patches of one obstacle feature after another.
+    // Work of one thread: all patches of one obstacle feature after another.
     void run(const std::atomic<bool>& stop) {
         Tally mine;
         Shadows near = one.shadows();
@@ -49,7 +49,7 @@ public:
                     one.trim(id, near, found[j], found_thin[j], mine);
                     trimmed[id] = 1;
                 }
-            } catch (const Stopped&) {  // in the midst of a patch, of which one chart may be done
+            } catch (const Stopped&) {  // in the middle of a patch, with perhaps one chart done
                 found[j].resize(whole), found_thin[j].resize(whole_thin);
             }
         }
@@ -90,7 +90,7 @@ const AngleTable& Boundary::angles(int threads) const {
 
 namespace {
 
-// A row with one angle of an isolated part, on the patch that names it, as both of its own.
+// Add a row whose two angles are one angle of an isolated part, on the patch that names it.
 void push_angle(Trapezoids& rows, const IsolatedParts& isolated, Index k, bool is_to) {
     const Trapezoids& p = isolated.parts;
     rows.patch.push_back((is_to ? isolated.to_patch : isolated.from_patch)[k]);

@@ -1,4 +1,4 @@
-// Matched sides put into loops around faces; vertices and components found; theory, "Closed surfaces".
+// Put matched sides into loops around faces; find vertices and components; theory, "Closed surfaces".
 #include "cfree/forbidden/cell_complex.hpp"
 
 #include <algorithm>
@@ -22,11 +22,11 @@ namespace {
 
 class Assembly {
 public:
-    // Face k is a trapezoid of the boundary: number k of a list.
+    // Face k is trapezoid trapezoid_of[k] of the boundary.
     Assembly(const Boundary& b, std::vector<Index>&& trapezoid_of, int t)
         : boundary(&b), faces(std::move(trapezoid_of)), threads(t) {}
 
-    // Of parts of faces; components of some.
+    // Complex of parts of faces; components of the own ones, or of all.
     CellComplex run(std::vector<Parts>&& lists, const std::vector<char>* own = nullptr) {
         make_loops(std::move(lists));
         find_vertices();
@@ -50,7 +50,7 @@ private:
     const std::vector<Index> faces;
     const int threads;
     CellComplex result;
-    std::vector<double> start;  // of each half-edge: see Parts
+    std::vector<double> start;  // by half-edge: see Parts
 };
 
 void Assembly::make_loops(std::vector<Parts>&& lists) {
@@ -61,10 +61,10 @@ void Assembly::make_loops(std::vector<Parts>&& lists) {
     start = std::move(loops.start);
 }
 
-// Around the start of a half-edge, over twins.
+// Find vertices: go around the start of each half-edge, over twins.
 void Assembly::find_vertices() {
     result.vertex.assign(result.face.size(), -1);
-    std::vector<Index> best;  // of each vertex a half-edge that knows where it starts: at a level, if there is one
+    std::vector<Index> best;  // by vertex: a half-edge whose start is known: at a level, if there is one
     for (Index h = 0; h < static_cast<Index>(result.face.size()); ++h) {
         if (result.vertex[h] >= 0) continue;
         heed_stop();
@@ -127,7 +127,7 @@ std::shared_ptr<const CellComplex> shared(CellComplex&& built, const SharedBound
 
 // --- part of a boundary ---
 
-// Trapezoids from some of them over sides: those that are whole, and beyond them those that are not.
+// Trapezoids within reach of some over sides: the whole ones, and beyond them those that are not whole.
 std::array<std::vector<Index>, 2> reached(const std::vector<Parts>& lists, const Whole& whole, const std::vector<Index>& seeds) {
     std::vector<Index> first(whole.size() + 1, 0);
     for (const Parts& list : lists)
@@ -158,7 +158,7 @@ std::array<std::vector<Index>, 2> reached(const std::vector<Parts>& lists, const
     return found;
 }
 
-// The parts of some faces alone; edges renumbered, sides to others without twin.
+// Reduce parts to some faces: renumber edges; sides to others have no twin.
 void keep(Parts& list, const std::vector<Index>& face_of) {
     std::vector<Index> number(list.trapezoid.size(), -1);
     Parts kept;
@@ -177,7 +177,7 @@ void keep(Parts& list, const std::vector<Index>& face_of) {
 std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int threads) {
     std::vector<Index> all(boundary->trapezoids.size());
     std::iota(all.begin(), all.end(), 0);
-    give_back_memory(all.size());  // of trimming
+    give_back_memory(all.size());  // memory of trimming
     std::vector<Parts> lists = matched_sides(*boundary, Whole(all.size(), 1), threads);
     for (const Parts& list : lists)
         for (Index k = 0; k < list.size(); ++k)

@@ -1,4 +1,4 @@
-// Ranges of contacts, and who owns what several of them share; theory, "Surfaces that coincide".
+// Ranges of contacts, and owners of parts that several share; theory, "Surfaces that coincide".
 #include "forbidden/coincident_surfaces.hpp"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ std::vector<Feature> CoincidentSurfaces::before(const Feature& contact) const {
     return result;
 }
 
-// Whether the second edge of obstacles is on the line of the first, and runs the other way.
+// True if the second edge of obstacles is on the line of the first, and runs the other way.
 static bool is_opposite(const Shape& O, Index j, Index other) {
     if (O.direction[j] != O.direction[other]) return false;
     const auto E = edge<Int>(O, j), F = edge<Int>(O, other);

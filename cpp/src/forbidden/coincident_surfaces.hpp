@@ -4,7 +4,7 @@
 
 namespace cfree {
 
-// The orientations of a contact (the paper's phi_min to phi_max), cut at the ends of the charts.
+// Orientations of a contact (the paper's phi_min to phi_max), cut at the ends of the charts.
 struct Range {
     int count = 0;
     int chart[2];
@@ -17,7 +17,7 @@ public:
     // regularized: patches of one surface whose free sides face each other own nothing.
     CoincidentSurfaces(const Scene& scene, bool regularized);
 
-    // Contacts that own what they share with this one: of the same surface, and of lower rank, whatever the order of input.
+    // Contacts that own the parts they share with this one: same surface, lower rank, for any order of input.
     std::vector<Feature> before(const Feature& contact) const;
 
 private:

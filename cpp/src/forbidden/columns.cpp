@@ -1,4 +1,4 @@
-// Trapezoids as columns, their features under one name each; theory, "Surfaces that coincide".
+// Trapezoids as columns, with one name for each feature; theory, "Surfaces that coincide".
 #include "cfree/forbidden/columns.hpp"
 
 namespace cfree {

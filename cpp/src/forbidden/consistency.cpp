@@ -1,4 +1,4 @@
-// What the sizes and signs of a boundary from outside must be; theory, "The trimmed boundary".
+// Checks of sizes and signs of a boundary from outside; theory, "The trimmed boundary".
 #include "cfree/forbidden/consistency.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ bool is_there(const Scene& scene, const Feature& f) {
     }
 }
 
-// A helix on the surface, or a surface whose line is not always parallel to its.
+// True for a helix on the surface, or a surface whose line is not always parallel to its line.
 bool is_curve(const Scene& scene, const Surface& on, const Feature& f) {
     if (!is_there(scene, f) || f.kind == Kind::edge_edge) return false;
     if (f.kind == Kind::vertex_vertex) return Predicates(scene, on).vanishes(f, {});
@@ -74,7 +74,7 @@ std::optional<Index> first_impossible(const Scene& scene, const Patches& patches
                 bool possible = false;
                 try {
                     possible = is_possible(scene, patches, t, k);
-                } catch (const std::logic_error&) {  // what cannot be of a scene's own trapezoids
+                } catch (const std::logic_error&) {  // impossible for a scene's own trapezoids
                 }
                 if (possible) continue;
                 for (Index least = found; k < least && !found.compare_exchange_weak(least, k);) {}

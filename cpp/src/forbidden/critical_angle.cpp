@@ -1,4 +1,4 @@
-// Angles named by what meets there, compared by their intervals, then exactly; theory, "Surfaces that coincide".
+// Name angles by the features that meet there; compare them by intervals, then exactly; theory, "Surfaces that coincide".
 #include "cfree/forbidden/critical_angle.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ CriticalAngle::Name CriticalAngle::name(const Scene& scene) const {
     return names;
 }
 
-// Whether a vertex is on the line of an edge, certainly.
+// True if a vertex is certainly on the line of an edge.
 static bool is_on_line(const Shape& s, Index v, Index e) {
     if (v == s.v[e] || v == s.w[e]) return true;
     const Approx off = cross(edge<Approx>(s, e), difference<Approx>(s, v, s.v[e]));
@@ -25,8 +25,9 @@ static bool is_on_line(const Shape& s, Index v, Index e) {
     return certain_sign(cross(edge<Ball>(s, e), difference<Ball>(s, v, s.v[e]))) == 0;
 }
 
-// Of a surface, and another or a helix that puts a second vertex on its edge's line. They do so at the angle if the chord is seen to
-// turn parallel to the edge in its interval: the polynomial is zero then as well, and has no other root there.
+// Name by the chord: a surface, and another surface or a helix that puts a second vertex on its edge's line. They do so at the
+// angle if the chord certainly becomes parallel to the edge in its interval: the polynomial is zero there, and has no other
+// root in the interval.
 std::optional<CriticalAngle::Name> CriticalAngle::chord(const Scene& scene, const Feature& x, const Feature& y) const {
     const bool on_edge = x.kind == Kind::vertex_edge;
     if (y.kind != x.kind && y.kind != Kind::vertex_vertex) return {};

@@ -10,7 +10,7 @@ namespace cfree {
 
 namespace {
 
-// Whether two lines are parallel at every orientation: there is no curve then.
+// True if two lines are parallel at every orientation: there is no curve then.
 bool are_parallel(const Scene& scene, const Feature& x, const Feature& y) {
     const auto direction = [&](const Feature& f) {
         return f.kind == Kind::vertex_edge ? edge<Int>(scene.obstacles, f.obstacle) : edge<Int>(scene.robot, f.robot);
@@ -66,7 +66,7 @@ CurveHashes::Line CurveHashes::line(const Feature& f) const {
     return {l.start(turn), l.direction(turn)};
 }
 
-// None if the two lines are parallel, modulo the prime.
+// Hash of a curve; nothing if the two lines are parallel modulo the prime.
 std::optional<CurveHash> CurveHashes::of(const NamedCurve& curve) const {
     if (curve.other.kind == Kind::vertex_vertex) {
         const auto p = reduced.obstacles[curve.other.obstacle] - turn(reduced.robot[curve.other.robot]);

@@ -1,4 +1,4 @@
-// Curves told apart by their hashes, then exactly; around a point of each, rays in order; theory, "Closed surfaces".
+// Distinguish curves by their hashes, then exactly; order rays around a point of each; theory, "Closed surfaces".
 #include "forbidden/curve_sides.hpp"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ private:
     Parts parts;
 };
 
-// Sides with one hash: first those on the first's curve, then others.
+// Glue sides with one hash: first those on the first's curve, then the others.
 void CurveGluer::glue(CurveSide* begin, CurveSide* end) {
     if (std::none_of(begin, end, [&](const CurveSide& s) { return whole[s.trapezoid()]; })) return;
     const NamedCurve first = curve(*begin);
@@ -93,7 +93,7 @@ void CurveGluer::glue(CurveSide* begin, CurveSide* end) {
     }
 }
 
-// Rays from the point, counter-clockwise: after a segment that arrives (an upper end) there is a free sector.
+// Pair rays from the point, counter-clockwise: after a segment that arrives (an upper end) there is a free sector.
 void CurveGluer::pair_around_point(Index from, Index to, const std::vector<Index>& live) {
     const int chart = trapezoids.chart[parts.trapezoid[live[0]]];
     const Dyadic tau = angles.between(from, to, chart).exact();
@@ -114,7 +114,7 @@ void CurveGluer::pair_around_point(Index from, Index to, const std::vector<Index
     std::sort(rays.begin(), rays.end(), [](const Ray& x, const Ray& y) {
         if (x.half() != y.half()) return x.half() < y.half();
         const int turn = cross(x.d, y.d).sign();
-        return turn != 0 ? turn > 0 : x.arrives > y.arrives;  // between two sheets of one slit there is no width, but free
+        return turn != 0 ? turn > 0 : x.arrives > y.arrives;  // space between two sheets of one slit has no width, but is free
     });
     for (std::size_t k = 0; k < rays.size(); ++k) {
         const Ray &x = rays[k], &y = rays[(k + 1) % rays.size()];

@@ -1,10 +1,10 @@
-// Sides along curves matched: at every angle between two critical ones, segments of a slice end in a point of the curve.
+// Match sides along curves: at every angle between two critical ones, segments of a slice end in a point of the curve.
 #pragma once
 #include "forbidden/parts.hpp"
 
 namespace cfree {
 
-// One list after another, by any number of threads; for trapezoids that are whole.
+// Match one list after another, by any number of threads; only for whole trapezoids.
 std::vector<Parts> glue_curves(const Boundary& boundary, const Whole& whole, Around around, int threads);
 
 }  // namespace cfree

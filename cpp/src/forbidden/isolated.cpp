@@ -1,4 +1,4 @@
-// Parts without width that are on no trapezoid, each once; theory, "Exact fits".
+// List parts without width that are on no trapezoid, each once; theory, "Exact fits".
 #include "cfree/forbidden/isolated.hpp"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ namespace cfree {
 
 namespace {
 
-// An end of a segment, with the patch whose surface names its curve.
+// End of a segment, with the patch whose surface names its curve.
 struct End {
     Spot spot;
     Index patch;
 };
-// At one angle: from low to high along the line of a patch's surface. A point has low = high.
+// Part at one angle, from low to high along the line of a patch's surface. A point has low = high.
 struct Flat {
     Index patch;
     CriticalAngle angle;
@@ -31,7 +31,7 @@ struct Flat {
     End low, high;
     bool is_point;
 };
-// A curve on a patch's surface between two angles.
+// Curve on a patch's surface between two angles.
 struct Ridge {
     Index patch;
     Feature curve;
@@ -78,7 +78,7 @@ private:
         return {scene, angle.chart(), angle.lo, angle.hi, [&] { return angle.exact(scene); }, [&] { return angle.bracket(scene); }};
     }
 
-    // Patches with live trapezoids whose obstacle feature is within twice the robot's reach of another: asked for many times in a row.
+    // Patches with live trapezoids whose obstacle feature is within twice the robot's reach of another; cached for repeats.
     struct Near {
         Index obstacle = -1;
         std::vector<Index> list;
@@ -94,7 +94,7 @@ private:
         return near.list;
     }
 
-    // Whether a trapezoid reaches an angle, ends included; chart ends are in both charts.
+    // True if a trapezoid reaches an angle, ends included; chart ends are in both charts.
     bool may_reach(Index k, const CriticalAngle& at) const {
         if (live.chart[k] == at.chart()) return live.to_hi[k] >= at.lo && live.from_lo[k] <= at.hi;
         return at.is_chart_end() && (at.lo > 0 ? live.from_hi[k] == -1 : live.to_lo[k] == 1);
@@ -190,7 +190,7 @@ private:
         return left;
     }
 
-    // Between which angles a curve on the surface of trapezoid k is in it.
+    // Intervals of angles in which a curve on the surface of trapezoid k is in it.
     std::vector<std::pair<CriticalAngle, CriticalAngle>> stays_in(Index k, const Feature& on, const NamedCurve& curve) const {
         const Feature c = code(scene, on) == code(scene, curve.other) ? curve.on : curve.other;
         const Feature lower = unpacked(live.lower[k]), upper = unpacked(live.upper[k]);
@@ -200,7 +200,7 @@ private:
         std::vector<Event> events{from, to};
         const auto add = [&](const Predicates::Order& order) { events.insert(events.end(), order.at.begin(), order.at.end()); };
         add(here.compare(here.curve(lower), here.curve(c), from, to)), add(here.compare(here.curve(upper), here.curve(c), from, to));
-        if (c.kind != Kind::vertex_vertex && c.kind != on.kind) {  // where it has no place on the surface
+        if (c.kind != Kind::vertex_vertex && c.kind != on.kind) {  // excludes angles without a place on the surface
             const auto roots = on.kind == Kind::vertex_edge ? here.parallel_roots(c.robot, on.obstacle, from, to)
                                                             : here.parallel_roots(on.robot, c.obstacle, from, to);
             events.insert(events.end(), roots.at.begin(), roots.at.end());
@@ -268,7 +268,7 @@ private:
         flats.swap(kept);
     }
 
-    // A segment, united with those of its line that it meets.
+    // Add a segment, united with those of its line that it meets.
     void add(Flat f, std::vector<Flat>& kept, std::size_t start, Junction& at) {
         for (std::size_t k = start; k < kept.size() && !f.is_point;) {
             const Feature own = contact(f.patch), other = contact(kept[k].patch);

@@ -1,4 +1,4 @@
-// Sides at one angle grouped by line: first by surface, then by direction, then by offset; theory, "Closed surfaces".
+// Group sides at one angle by line: first by surface, then by direction, then by offset; theory, "Closed surfaces".
 #include "forbidden/level_sides.hpp"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace cfree {
 
 namespace {
 
-// Where curves arrive on a line, each once; t on that line.
+// Place at which curves arrive on a line, each once; t on that line.
 struct Place {
     Spot spot;
     Interval t;
-    Index number;  // along the line: places that are one have one
+    Index number;  // number along the line, the same for equal places
 };
 
 struct Level {
@@ -33,9 +33,9 @@ struct Level {
 struct Sheet {
     Code code;
     std::vector<Index> levels;  // in order, as lists of numbers are everywhere below
-    Feature contact;            // of the first
+    Feature contact;            // contact of the first level
     int along = 1;              // direction against that of the first sheet parallel to it
-    Interval offset;            // from that one; of the first on a line
+    Interval offset;            // offset from that sheet; only for the first on a line
 };
 
 class LevelGluer {
@@ -103,7 +103,7 @@ std::vector<Sheet> LevelGluer::sheets_of(std::vector<Index>&& chosen) const {
     return result;
 }
 
-// Where the levels of a sheet end; those without width are left out.
+// Find the ends of a sheet's levels; levels without width are left out.
 void LevelGluer::find_places(Sheet& sheet, Junction& at) {
     struct LevelEnd {
         Code curve;
@@ -133,13 +133,13 @@ void LevelGluer::find_places(Sheet& sheet, Junction& at) {
     });
 }
 
-// Sheets by the direction of their lines. Those of one kind are parallel if their edges are; of the directions of the
-// obstacles' edges at most one is also that of an edge of the robot, turned: it is found among them by halving.
+// Group sheets by the direction of their lines. Sheets of one kind are parallel if their edges are. At most one direction of
+// the obstacles' edges is also that of a turned edge of the robot: halving finds it.
 std::vector<std::vector<Sheet*>> LevelGluer::parallels(std::vector<Sheet>& sheets, Junction& at) const {
     struct Direction {
         Index number;
         std::vector<Sheet*> sheets;
-        int half = 1;  // where it is on the left of the first: 1, or its opposite: -1
+        int half = 1;  // 1: it is on the left of the first; -1: its opposite is
         const Feature& line() const { return sheets[0]->contact; }
     };
     const auto directions = [&](Kind kind) {
@@ -204,7 +204,7 @@ std::vector<std::vector<Sheet*>> LevelGluer::lines_of(const std::vector<Sheet*>&
     return lines;
 }
 
-// Line after line, from right to left of the first.
+// Glue line after line, from right to left of the first.
 void LevelGluer::glue_parallels(const std::vector<Sheet*>& sheets, Junction& at) {
     const Feature& front = sheets[0]->contact;
     for (Sheet* s : sheets) s->along = s == sheets[0] ? 1 : at.parallel(front, s->contact);
@@ -269,7 +269,7 @@ void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
     }
 }
 
-// Places in order along a line, the first of those that are one; all get their numbers.
+// Order places along a line, one for equal places, and number all of them.
 void LevelGluer::number_places(const Feature& line, std::vector<Index>& on_it, Junction& at) {
     std::vector<Index> first;  // of each place
     const auto is_before = [&](Index p, Index q) {
@@ -287,16 +287,16 @@ void LevelGluer::number_places(const Feature& line, std::vector<Index>& on_it, J
     on_it.resize(count);
 }
 
-// Around the line, seen along it: theta upwards, the line's left to the right. Counter-clockwise from there.
+// Pair levels around the line, viewed along it: theta upwards, the line's left to the right. Counter-clockwise from there.
 void LevelGluer::pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q,
                                   Junction& at) {
     if (around == Around::all && live.size() <= 2) return parts.pair(live.front().second, live.back().second);
     auto sorted = live;
     const auto is_left = [&](const Level* x, const Level* y) {  // x further left than y, of two above or two below
         const int s = at.across(x->contact, y->contact, p, q, x->is_above) * y->along;
-        return s != 0 ? s > 0 : x->along > y->along;  // one slit: what is left of its left sheet is forbidden
+        return s != 0 ? s > 0 : x->along > y->along;  // one slit: the left of its left sheet is forbidden
     };
-    // stable: a merge stays within its arrays whatever sheets from outside say of their order
+    // stable: a merge stays within its arrays for any order of sheets from outside
     std::stable_sort(sorted.begin(), sorted.end(), [&](const auto& x, const auto& y) {
         if (x.second == y.second) return false;
         if (x.first->is_above != y.first->is_above) return x.first->is_above;

@@ -1,4 +1,4 @@
-// Lines of contacts and where they meet, in doubles; theory, "The trimmed boundary".
+// Lines of contacts and their intersections, in doubles; theory, "The trimmed boundary".
 #include "cfree/forbidden/limits.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ Limits::Line Limits::line(const Feature& contact, const Rotation<double>& r) con
     return {l.start(r), l.direction(r)};
 }
 
-// Where the vertex lies along the edge; 0 and 1 for the edge's own ends.
+// Place of the vertex along the edge; 0 and 1 for the edge's own ends.
 double Limits::helix_at(const Feature& contact, const Feature& helix) const {
     const bool on_edge = contact.kind == Kind::vertex_edge;
     const Shape& shape = on_edge ? scene.obstacles : scene.robot;

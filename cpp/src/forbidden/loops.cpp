@@ -1,4 +1,4 @@
-// Lists of parts read once, column by column; theory, "Closed surfaces".
+// Read lists of parts once, column by column; theory, "Closed surfaces".
 #include "forbidden/loops.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace cfree {
 
-// The parts of all lists, whose columns are freed as soon as they have been read.
+// Loops of the parts of all lists; their columns are freed as soon as they have been read.
 Loops loops_of(std::size_t faces, std::vector<Parts>&& lists) {
     Loops result;
     result.first.assign(faces + 1, 0);
@@ -19,7 +19,7 @@ Loops loops_of(std::size_t faces, std::vector<Parts>&& lists) {
         for (const Index f : list.trapezoid) ++result.first[f + 1];
     std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
     const auto count = static_cast<std::size_t>(result.first.back());
-    std::vector<Index> number(count);  // of each part its half-edge
+    std::vector<Index> number(count);  // by part: its half-edge
     {
         std::vector<Index> order(count), next(result.first.begin(), result.first.end() - 1);
         std::vector<std::uint8_t> kind;  // twice its side, 1 more if its side's come in reverse
@@ -65,7 +65,7 @@ Loops loops_of(std::size_t faces, std::vector<Parts>&& lists) {
     return result;
 }
 
-// Where a half-edge starts, in doubles.
+// Start of a half-edge, in doubles.
 PlacedPose place_of(const Boundary& boundary, Index k, Side side, double start) {
     const Scene& scene = boundary.scene->near();
     const Trapezoids& trapezoids = boundary.trapezoids;

@@ -1,4 +1,4 @@
-// Matched sides put into loops around trapezoids, and where they start.
+// Loops of matched sides around trapezoids, and their starts.
 #pragma once
 #include "forbidden/parts.hpp"
 
@@ -13,7 +13,7 @@ struct Loops {
 };
 Loops loops_of(std::size_t faces, std::vector<Parts>&& lists);
 
-// Where a half-edge of a trapezoid starts, in doubles, from the near frame.
+// Start of a half-edge of a trapezoid, in doubles, in the near frame.
 struct PlacedPose {
     Vec<double> xy;
     double theta;

@@ -1,4 +1,4 @@
-// Parts of trapezoids' sides, between two changes of their neighbours, as gluing finds them.
+// Parts of trapezoids' sides, between two changes of their neighbours, in the order of gluing.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace cfree {
 
-// Small columns: a large scene has hundreds of millions. Parts of one edge come one after another, those of one side of a
-// trapezoid in its order along t or theta, or all backwards.
+// Small columns: a large scene has hundreds of millions of parts. Parts of one edge are consecutive. Parts of one side of a
+// trapezoid are in its order along t or theta, or all backwards.
 class Parts {
 public:
     std::vector<Index> trapezoid, twin;
-    std::vector<double> start;  // of the half-edge: t at a critical angle; along a curve the rank of the angle
+    std::vector<double> start;  // start of the half-edge: t at a critical angle; along a curve the rank of the angle
 
     Index size() const { return static_cast<Index>(traits.size()); }
     Side side(Index k) const { return static_cast<Side>(traits[k] & 3); }
@@ -39,19 +39,19 @@ private:
 template <class T>
 void free_memory(std::vector<T>& of) { std::vector<T>().swap(of); }
 
-// What is put together at an edge: two and two that bound one free sector; or all in one circle, counter-clockwise seen along the
-// edge as theta grows, or along its line: `twin` is then the next.
+// Groups at an edge: pairs that bound one free sector; or all in one circle, counter-clockwise when viewed along the edge as
+// theta grows, or along its line: `twin` is then the next.
 enum class Around { free_sectors, all };
 
-// Of each trapezoid, whether all that its sides meet are there: 0 for no, 1 for yes, 2 where sides are matched as far as they can be.
+// By trapezoid: 1 if all trapezoids that its sides meet are there, 0 if not, 2 if its sides are matched as far as possible.
 using Whole = std::vector<char>;
 
-// What must not be at a trapezoid that is whole; elsewhere something is missing.
+// Fail at a whole trapezoid; elsewhere something is just missing.
 inline void fail_to_glue(const std::string& what, Index trapezoid, const Whole& whole) {
     if (whole[trapezoid] == 1) throw std::logic_error(what + " at trapezoid " + std::to_string(trapezoid));
 }
 
-// Whether a half-edge on that side runs as t or theta do.
+// True if a half-edge on that side runs in the direction of t or theta.
 inline bool is_forwards(Side side) { return side == Side::first || side == Side::upper; }
 
 }  // namespace cfree

@@ -1,4 +1,4 @@
-// A patch against the pillars near it; theory, "The trimmed boundary".
+// Trim a patch by the pillars near it; theory, "The trimmed boundary".
 #include "forbidden/patch_trimming.hpp"
 
 #include <numeric>
@@ -36,9 +36,9 @@ PatchTrimming::PatchTrimming(const Scene& s, bool regularized)
             if (A.layer[i] != reference_layer && A.point[i] == A.point[r]) at_reference.push_back(i);
 }
 
-// A pillar below a bound may have a vertex on it that stays there while the robot turns: that of an obstacle's vertex on the
-// bound and the robot's at its reference point. Within one layer this cannot be: two convex bodies on one side of a line that
-// touch in a point of it overlap once one of them is moved along the line one way or the other.
+// A pillar below a bound may have a vertex that stays on it while the robot turns: the sum of an obstacle's vertex on the
+// bound and the robot's vertex at its reference point. Within one layer this is impossible: two convex bodies on one side of
+// a line that touch in a point of it overlap once one of them moves along the line one way or the other.
 void PatchTrimming::seams(const Feature& contact, std::vector<Feature>& out) const {
     out.clear();
     const Shape &A = scene.robot, &O = scene.obstacles;

@@ -1,4 +1,5 @@
-// One patch of a scene at a time: all pillars near it taken away, of its surface only what it owns.
+// Trimming of one patch of a scene at a time: subtract all pillars near it, and keep only the parts of its surface that it
+// owns.
 #pragma once
 #include "cfree/forbidden/boundary.hpp"
 #include "forbidden/coincident_surfaces.hpp"
@@ -16,12 +17,12 @@ public:
 
     Patches patches;
     const std::vector<Index> first_patch;
-    // No two points of the robot are farther apart.
+    // Upper bound of the distance of two points of the robot.
     double reach() const { return neighbours.reach(); }
     Shadows shadows() const { return Shadows(scene); }
     // Pillars that may reach the patches of an obstacle feature.
     void pillars_near(Index feature, Shadows& out) const;
-    // What is left of a patch is added to `out`, what is left without width to `thin`.
+    // Add the live parts of a patch to `out`, and those without width to `thin`.
     void trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin, Tally& tally) const;
 
 private:
@@ -29,7 +30,7 @@ private:
     void seams(const Feature& contact, std::vector<Feature>& out) const;
 
     const Scene& scene;
-    std::vector<Index> at_reference;  // vertices of the robot where its reference point is
+    std::vector<Index> at_reference;  // vertices of the robot at its reference point
     const PillarIndex neighbours;
     const CoincidentSurfaces owners;
 };

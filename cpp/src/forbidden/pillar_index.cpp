@@ -17,7 +17,7 @@ void PillarIndex::near(Index j, std::vector<Index>& out) const {
         const double dx = boxes[k].x0 + boxes[k].x1 - x, dy = boxes[k].y0 + boxes[k].y1 - y;
         return dx * dx + dy * dy;
     };
-    // where the distance does not tell, by the places of their vertices, and not by the order of input
+    // equal distances: by the places of their vertices, not by the order of input
     const Shape& O = scene.obstacles;
     const auto is_lower = [&](Index p, Index q) {
         const auto begin = O.piece_vertex.begin();

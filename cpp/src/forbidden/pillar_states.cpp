@@ -1,4 +1,4 @@
-// What a pillar covers on a patch: its states, each with the angles between which it lives; theory, "The trimmed boundary".
+// Coverage of a patch by a pillar: its states, each with the angles between which it holds; theory, "The trimmed boundary".
 #include <algorithm>
 #include <stdexcept>
 
@@ -8,8 +8,8 @@
 namespace cfree {
 
 void Trimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& part) {
-    // The pillar's state at a sample (which edges the line enters and leaves by, or on which side it passes) holds between
-    // two angles around it. Settle it at a sample, find how long it lives, go on with what is left on both sides.
+    // The pillar's state at a sample (the edges by which the line enters and leaves, or the side on which it passes) holds
+    // between two angles around it. Settle it at a sample, find its angles, go on with the rest on both sides.
     const auto limit = [&](int s) {
         return s == 0 ? 0 : s == slices.count ? 1 : intern({{}, {}, slices.at[s], slices.at[s]});
     };
@@ -43,7 +43,7 @@ void Trimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& 
 
 namespace {
 
-// By a sample: in doubles divided by w, so that w = 1.
+// Rotation by a sample: in doubles divided by w, so that w = 1.
 Rotation<double> rotation_at(const Sample& at, int chart, double) {
     const double kappa = chart ? -1 : 1, tau = at.tau, w = 1 + tau * tau;
     return {kappa * (1 - tau * tau) / w, kappa * 2 * tau / w, 1};
@@ -65,9 +65,9 @@ std::vector<double>* Trimmer::scratch() const { return heights; }
 template <>
 std::vector<Int>* Trimmer::scratch() const { return exact_heights; }
 
-// A pillar at a sample, seen from the surface's line: a convex polygon whose edges are those of both pieces, merged by direction.
-// A vertex is a pair (x, y) of vertices of the robot's piece and the obstacle's; its offset from the line, obstacle[y] - robot[x],
-// rises and falls once around the pillar.
+// A pillar at a sample, relative to the surface's line: a convex polygon with the edges of both pieces, merged by direction.
+// A vertex is a pair (x, y) of vertices of the robot's piece and the obstacle's; its offset from the line,
+// obstacle[y] - robot[x], rises and falls once around the pillar.
 template <class T>
 class Trimmer::PillarView {
 public:
@@ -81,12 +81,12 @@ public:
     struct Vertex {
         Index x, y;
     };
-    // Of several, any: see `last`.
+    // One of the highest vertices: see `last`.
     Vertex highest() const { return {robot.lowest, obstacle.highest}; }
     Vertex lowest() const { return {robot.highest, obstacle.lowest}; }
     bool is_left(const Vertex& v) const { return obstacle.at[v.y] > robot.at[v.x]; }
     bool is_right(const Vertex& v) const { return obstacle.at[v.y] < robot.at[v.x]; }
-    // Of the highest or lowest, the last in counter-clockwise order.
+    // Last of the highest or lowest vertices in counter-clockwise order.
     Vertex last(Vertex v) const { return {last(v.x, robot.at, n), last(v.y, obstacle.at, m)}; }
 
     State missed(Meets meets, const Vertex& nearest) const {
@@ -95,7 +95,7 @@ public:
         set_around(nearest.x, n, ga, state.robot_around), set_around(nearest.y, m, fb, state.obstacle_around);
         return state;
     }
-    // The edge by which the line is passed, on the way counter-clockwise down from the highest vertex, or up from the lowest.
+    // Edge that crosses the line, on the way counter-clockwise down from the highest vertex, or up from the lowest.
     PillarEdge crossing(Vertex v, bool down) const {
         Vertex from = v;
         bool by_obstacle = false;
@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    // Of the vertices of a piece, over the line through `origin`; one of the highest, one of the lowest.
+    // Heights of a piece's vertices over the line through `origin`; one of the highest, one of the lowest.
     struct Heights {
         std::vector<T>& at;
         Index highest = 0, lowest = 0;
@@ -153,7 +153,7 @@ private:
         robot.measure(A, a, n, a0, V), obstacle.measure(O, b, m, b0, U);
     }
 
-    // Whether the next edge of the pillar, of those that lead on, is the obstacle's: by direction, where both lead on.
+    // True if the pillar's next edge is the obstacle's; decided by direction if both pieces have an edge in this sense.
     bool is_obstacle_next(const Vertex& v, bool down) const {
         const Index x1 = after(v.x, n), y1 = after(v.y, m);
         const bool by_obstacle = down ? obstacle.at[y1] < obstacle.at[v.y] : obstacle.at[y1] > obstacle.at[v.y];
@@ -183,7 +183,7 @@ Trimmer::State Trimmer::state_at(Index p, Index k, const Sample& at) const {
     return state;
 }
 
-// Whether the helix (s, v) lies in the surface for a reason of identity.
+// True if the helix (s, v) lies in the surface by identity of features.
 bool Trimmer::lies_on_line(Index s, Index v) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = surface.contact.robot, j = surface.contact.obstacle;
@@ -192,8 +192,7 @@ bool Trimmer::lies_on_line(Index s, Index v) const {
     return O.point[v] == O.point[j] && (A.point[s] == A.point[A.v[i]] || A.point[s] == A.point[A.w[i]]);
 }
 
-// The signs that make a state what it is. Of a convex polygon a vertex is extreme, and an edge is there, if its neighbours
-// say so.
+// Signs that define a state. A vertex of a convex polygon is extreme, and an edge is present, if its neighbours confirm it.
 int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const bool on_edge = surface.contact.kind == Kind::vertex_edge;
@@ -202,7 +201,7 @@ int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
     const auto parallel = [&](Index g, Index f, int sign) {
         out[count++] = {false, g, f, sign, false, decide.parallel(g, f)};
     };
-    // An offset from the line of a vertex that an edge joins to the contact vertex: that edge against the line.
+    // Offset from the line of a vertex that an edge joins to the contact vertex: the direction of that edge against the line.
     const auto offset = [&](Index s, Index v, int sign, bool may_vanish) {
         const auto is = [](const Shape& shape, Index x, Index y) { return shape.point[x] == shape.point[y]; };
         if (on_edge && (is(O, v, O.v[j]) || is(O, v, O.w[j]))) {
@@ -261,8 +260,8 @@ int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
     return count;
 }
 
-// Whether a pillar is seen to cover nothing of what is left between two angles: where the vertex that supports one of its edges is
-// extreme, all of it is on one side of that edge's line, and so beyond a curve. The state need not be right.
+// True if a pillar certainly covers nothing live between two angles: if the vertex that supports one of its edges is extreme,
+// all of it is on one side of that edge's line, and so beyond a curve. The state need not be right.
 bool Trimmer::is_beyond(const State& state, const Slices& slices, double lo, double hi) {
     double low = 1, high = 0;
     for (int s = 0; s < slices.count; ++s)
@@ -282,7 +281,7 @@ bool Trimmer::is_beyond(const State& state, const Slices& slices, double lo, dou
     return false;
 }
 
-// Check a state at a sample and narrow the span to where it holds.
+// Check a state at a sample and narrow the span to the angles at which it holds.
 Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Span& span) {
     Condition all[8];
     bool wrong = false;
@@ -321,7 +320,7 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Spa
     return Verdict::holds;
 }
 
-// Whether the vertex nearest to the line is an end of an edge parallel to it at every angle.
+// True if the vertex nearest to the line is an end of an edge parallel to it at every angle.
 bool Trimmer::touches_along(const State& state) const {
     if (state.meets == Meets::crosses) return false;
     const bool on_edge = surface.contact.kind == Kind::vertex_edge;

@@ -12,7 +12,7 @@ namespace cfree {
 
 namespace {
 
-// Of a convex polygon, what is where |x| and |y| are at most `reach`.
+// Clip a convex polygon to |x|, |y| <= `reach`.
 void clip(std::vector<Vec<double>>& polygon, double reach) {
     std::vector<Vec<double>> rest;
     for (const Vec<double>& n : {Vec<double>{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
@@ -52,8 +52,8 @@ void Shadows::look_at_robot(Index origin, Side& side) const {
     for (Index p = 0; p < scene.robot.pieces(); ++p) look(scene.robot, origin, p, side);
 }
 
-// Where a contact holds, what of an obstacle the robot covers or touches on the line is within reach of its corner: the rest
-// would turn with it, and make its boxes long. What rounding may cut off too much, or too little, is part of the slack.
+// At a contact, the part of an obstacle that the robot covers or touches on the line is within reach of its corner. The rest
+// would turn with it, and make its boxes long. The slack includes errors of this clipping.
 void Shadows::around(Index j, const std::vector<Index>& pieces, double reach) {
     near = pieces;
     at_obstacle.is_known = false;
@@ -69,14 +69,14 @@ void Shadows::around(Index j, const std::vector<Index>& pieces, double reach) {
     }
 }
 
-// An arc lies in the triangle of its ends and of the point where their tangents meet, which for the angles of x and y is
+// An arc lies in the triangle of its ends and the intersection of its end tangents. For the angles of x and y, that point is
 // (1 - x y, x + y) / (1 + x y).
 Vec<double> Shadows::rotation(double x, double y) const {
     const double w = slices.kappa / (1 + x * y);
     return {(1 - x * y) * w, (x + y) * w};
 }
 
-// All pieces at the point of the angles of x and y.
+// Octagons of all pieces at the point of the angles of x and y.
 void Shadows::turn_to(double x, double y, double sign, std::vector<Octagon>& out) const {
     const Vec<double> R = rotation(x, y);
     const double cosine = R.x, sine = sign * R.y;
@@ -129,7 +129,7 @@ void Shadows::stand(const Shape& s, Index edge, bool of_robot, Standing& out) co
     }
 }
 
-// Whether a turning vertex may just reach the height of an edge along the line.
+// True if a turning vertex may just reach the height of an edge along the line.
 bool Shadows::may_pinch(Index q, Index x, double slack) const {
     for (const double height : still->parallel[x])
         for (Index v = turning->start[q]; v < turning->start[q + 1]; ++v)
@@ -158,10 +158,11 @@ const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double l
     for (const Vec<double>& d : turning->seen) along.push_back(dot(E, d)), across.push_back(cross(E, d));
     if (still->any_parallel)
         for (std::size_t k = 0; k < along.size(); ++k) radius.push_back(norm(along[k], across[k]));
-    // With |E.x|, |E.y| <= e and |d.x|, |d.y| <= m they are within 2 u e and 8 u m of the truth, 6 u m of which by clipping; what is
-    // along and across within 25 u e m, and at most 2 e m; cosines and sines, at most 1.1, within 6 u. So what is turned is
-    // within 2 (27.5 + 12 + 2.2) u e m + 4.4 u e m < 90 u e m, what stands still within 25 u e m, what they are compared with,
-    // at most e^2 apart, within 16 u e^2; sums of two add 6 u of their size. 128 u would do for all, and twice that for diagonals.
+    // Let |E.x|, |E.y| <= e and |d.x|, |d.y| <= m. They are within 2 u e and 8 u m of the truth, 6 u m of which by clipping;
+    // parts along and across are within 25 u e m, and at most 2 e m; cosines and sines, at most 1.1, are within 6 u. So turned
+    // values are within 2 (27.5 + 12 + 2.2) u e m + 4.4 u e m < 90 u e m, fixed ones within 25 u e m. The values compared with
+    // them, at most e^2 apart, are within 16 u e^2; sums of two add 6 u of their size. 128 u suffices for all, and twice that
+    // for diagonals.
     const double e = own.rounded ? 2 * std::max(larger(v), larger(w)) : larger(E);
     const double slack = 0x1p-45 * e * (turning->size + still->side.size + e) + 0x1p-900;
     length = dot(E, E);
@@ -175,7 +176,7 @@ const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double l
     return pillars;
 }
 
-// What a piece that stands still and one that turns may cover of the line in a slice: (s, 0) is in both octagons' difference.
+// Range of the line that a fixed and a turning piece may cover in a slice: (s, 0) is in the difference of both octagons.
 Shadows::Range Shadows::range_of(int slice, Index q, Index x) const {
     const Octagon &a = still->octagon[x], &b = in_slice(slice, q);
     return {std::max({a.low[0] - b.high[0], a.low[2] - b.high[2], a.low[3] - b.high[3]}),
@@ -204,7 +205,7 @@ void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
                                         : contains(O.piece_vertex, O.piece[own], O.piece[own + 1], contact.obstacle);
     for (Index x = 0; x < still->side.count(); ++x) {
         if (crossing[x] == 0) continue;
-        // the pieces in contact: where the patch is, the one's vertex is extreme towards the other's edge, and the line bounds the pillar
+        // the pieces in contact: on the patch, one's vertex is extreme towards the other's edge, and the line bounds the pillar
         if (has_vertex && still->has_edge[x]) continue;
         const Index p = robot_turns ? q : x, k = near[robot_turns ? x : q];
         if (A.piece_layer[p] != O.piece_layer[k]) continue;
@@ -239,15 +240,16 @@ bool Shadows::cover_all(const Feature& contact) {
     return false;
 }
 
-// Robot vertex a at a point of the obstacles, seen from the patch's: whether the pieces overlap all the way, since in each slice a
-// vertex of one stays inside the other. Its arc is in the triangle of its control points.
+// True if the pieces overlap all the way along the helix of robot vertex a at a point of the obstacles, relative to the
+// patch's: in each slice a vertex of one stays inside the other. Its arc is in the triangle of its control points.
 bool Shadows::covers_helix(const Pillar& pillar, Index a, const Vec<double>& at) {
     const auto place = still == &at_obstacle ? pillar.still : pillar.turning;
     const std::span ring(obstacles.seen.data() + obstacles.start[place], obstacles.seen.data() + obstacles.start[place + 1]);
     seen_robot.clear();
     look(scene.robot, a, pillar.p, seen_robot);
-    // With coordinates seen of the robot at most m, of obstacles at most M, as above: control points, at most 2.2 m from `at`, are
-    // within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The other way alike.
+    // With relative coordinates of the robot at most m, of obstacles at most M, as above: control points, at most 2.2 m from
+    // `at`, are within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The other
+    // case is alike.
     const double m = seen_robot.size, M = obstacles.size, margin = 0x1p-43 * (m + M) * (m + M) + 0x1p-900;
     const auto is_inside = [&](std::span<const Vec<double>> polygon, const Vec<double>& p) {
         const Vec<double>* last = &polygon.back();

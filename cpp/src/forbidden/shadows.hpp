@@ -1,10 +1,11 @@
-// Where on a patch pillars may cover something: octagons around their pieces, rounded outwards. This decides nothing.
+// Shadows of pillars on a patch, which bound their coverage: octagons around their pieces, rounded outwards. They decide
+// nothing.
 //
-// At an orientation the line of a patch is fixed to one shape: to the obstacle whose edge E it is, or to the robot. Along it and
-// across it, seen from where t = 0 and times |E|, pillar (p, k) covers
+// At an orientation the line of a patch is fixed to one shape: to the obstacle with its edge E, or to the robot. Along it and
+// across it, from the origin t = 0 and times |E|, pillar (p, k) covers
 //   v-e: O_k - b_j (+) -R (A_p - a_i),    e-v: A_p - a_i (+) -R^-1 (O_k - b_j),
-// the sum of one piece that stands still and one that turns. Boxes of both, and boxes half way between their axes, are found once an
-// edge, and once a patch for every slice of its range; a pair costs comparisons.
+// the sum of a fixed piece and a turning one. Boxes of both, and boxes half-way between their axes, are computed once per
+// edge, and once per patch for every slice of its range; a pair costs comparisons.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -17,28 +18,28 @@ class Shadows {
 public:
     explicit Shadows(const Scene& s) : scene(s), at_robot(static_cast<std::size_t>(s.robot.ring_vertices)) {}
 
-    // The patches to come are those of obstacle ring vertex j and the edge from it. The pieces near it; no two points of the
+    // Prepare for the patches of obstacle ring vertex j and the edge from it, with the pieces near it; no two points of the
     // robot are farther apart than `reach`.
     void around(Index j, const std::vector<Index>& near, double reach);
     struct Pillar {
         Index p, k;
         Index turning, still;  // places of its two pieces
-        bool may_pinch;        // may touch the surface along the line, which counts wherever on the line that is
-        std::uint32_t slices;  // where its shadow meets the patch, by bit
-        std::size_t ranges;    // by slice: where on the line
-        double cover;          // about how much of the patch
+        bool may_pinch;        // may touch the surface along the line, which counts anywhere on the line
+        std::uint32_t slices;  // slices in which its shadow meets the patch, by bit
+        std::size_t ranges;    // by slice: range on the line
+        double cover;          // approximate share of the patch
     };
-    // Pillars that may cover some of a patch between two angles of a chart, in the order in which they are best taken away.
+    // Pillars that may cover some of a patch between two angles of a chart, in the best order for subtraction.
     const std::vector<Pillar>& on(const Surface& surface, double lo, double hi);
-    // The slices of that patch; what is left in them is set by Trimmer::left.
+    // Slices of that patch; Trimmer::left sets the live range in them.
     Slices slices;
-    // Whether one of them is seen to cover all of the patch, its rim included.
+    // True if one of them certainly covers all of the patch, its rim included.
     bool cover_all(const Feature& contact);
-    // Where the pillar may cover some of what is left.
+    // Slices in which the pillar may cover something live.
     Slices::Part part(const Pillar& pillar) const;
 
 private:
-    // Between which values are: along, across, their sum, their difference.
+    // Bounds of the values along and across, of their sum and of their difference.
     struct Octagon {
         static constexpr double infinity = std::numeric_limits<double>::infinity();
         double low[4] = {infinity, infinity, infinity, infinity}, high[4] = {-infinity, -infinity, -infinity, -infinity};
@@ -59,21 +60,21 @@ private:
     struct Range {
         double low, high;
     };
-    // Vertices of one piece after another, seen from one of the shape's vertices.
+    // Vertices of one piece after another, relative to one of the shape's vertices.
     struct Side {
         std::vector<Index> start{0};
         std::vector<Vec<double>> seen;
-        double size = 0;  // no coordinate of a vertex seen is greater, nor were those it was rounded from
+        double size = 0;  // bound of all coordinates of vertices, before and after rounding
         Index count() const { return static_cast<Index>(start.size()) - 1; }
         void clear() { start.assign(1, 0), seen.clear(), size = 0; }
     };
-    // What stands still with an edge.
+    // Pieces that are fixed together with an edge.
     struct Standing {
         Side side;
         std::vector<Octagon> octagon;                          // by piece
         std::vector<double> along0, along1, across0, across1;  // the first half of that
-        std::vector<char> has_edge;                            // whether it has the edge
-        std::vector<std::array<double, 2>> parallel;           // how far across its edges along the line are; NaN: none
+        std::vector<char> has_edge;                            // true if it has the edge
+        std::vector<std::array<double, 2>> parallel;           // place across of its edges along the line; NaN: none
         bool is_known = false, any_parallel = false;
     };
     void look(const Shape& shape, Index origin, Index piece, Side& side) const;
@@ -90,18 +91,18 @@ private:
 
     const Scene& scene;
     std::vector<Index> near;
-    Side obstacles, within_reach, robot;   // the near pieces, of them what the robot can touch, and the robot's
-    Standing at_obstacle;                  // with the edge from the obstacle vertex
-    std::vector<Standing> at_robot;        // with the robot's edges
-    const Side* turning = nullptr;         // for the patch
+    Side obstacles, within_reach, robot;   // the near pieces, their parts that the robot can touch, and the robot's
+    Standing at_obstacle;                  // fixed with the edge from the obstacle vertex
+    std::vector<Standing> at_robot;        // fixed with the robot's edges
+    const Side* turning = nullptr;         // turning side of the patch
     const Standing* still = nullptr;
-    std::vector<double> along, across, radius;  // of what turns, by vertex
+    std::vector<double> along, across, radius;  // turning vertices
     std::vector<Octagon> turned;                // by slice and piece, rounded outwards
-    std::vector<Octagon> corners[2];            // scratch: of the angles between two slices
+    std::vector<Octagon> corners[2];            // scratch: octagons at the angles between two slices
     Side seen_robot;                            // scratch: one piece
-    Vec<double> E;                              // of the patch's edge
+    Vec<double> E;                              // vector of the patch's edge
     double length = 0;                          // |E|^2
-    std::vector<std::uint64_t> crossing, meeting;          // slices, by piece that stands still
+    std::vector<std::uint64_t> crossing, meeting;          // slices, by fixed piece
     std::vector<Pillar> pillars;
     std::vector<Range> ranges;
 };

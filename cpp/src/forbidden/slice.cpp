@@ -50,7 +50,7 @@ void Slicer::step_off_events(int& c, double& tau) const {
     }
 }
 
-// From the frame near by to the user's.
+// Move positions from the near frame to the user's.
 void Slicer::move(std::vector<double>& xy, const Turn& r) const {
     const auto& f = scene.frame;
     const double x = f[0] - (r.c * f[2] - r.s * f[3]), y = f[1] - (r.s * f[2] + r.c * f[3]);
@@ -70,7 +70,7 @@ Slicer::Segments Slicer::near(int c, double tau) const {
     step_off_events(c, tau);
     const Turn r = rotation_by(c, tau);
     const bool stepped = tau != was;
-    // Where lines are nearly parallel at the angle asked for, they meet where they do a step beyond it.
+    // Sine below which nearly parallel lines take their intersection from a step beyond the angle.
     constexpr double steep = 1e-6;
     Segments result;
     for (const Index x : index.at(index.part_of(c, tau))) {
@@ -102,7 +102,7 @@ Slicer::Name Slicer::end_name(Index x, std::uint64_t curve) const {
     return {std::min(own, other), std::max(own, other)};
 }
 
-// The segment after each, -1 if none is left: heads find tails by name, and of several the nearest.
+// Segment after each, -1 if none is left: heads find tails by name, the nearest of several.
 std::vector<Index> Slicer::chained(const Segments& s) const {
     const Trapezoids& t = boundary->trapezoids;
     const auto n = static_cast<Index>(s.trapezoid.size());
@@ -134,7 +134,7 @@ std::vector<Index> Slicer::chained(const Segments& s) const {
     return next;
 }
 
-// Chains as rings of at least three points; twice their areas.
+// Trace chains as rings of at least three points; returns twice their areas.
 std::vector<double> Slicer::trace(const Segments& s, const std::vector<Index>& next, Rings& result) {
     std::vector<char> used(next.size(), 0);
     std::vector<double> area;

@@ -1,4 +1,4 @@
-// The live region of a patch: bands taken away, parts without width kept; theory, "The trimmed boundary".
+// Live region of a patch: subtract bands, keep parts without width; theory, "The trimmed boundary".
 #include "cfree/forbidden/trim.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Index Trimmer::intern(const Event& event) {
 
 // --- curves ----------------------------------------------------------------------------------------------------------
 
-// A curve that is an end of the surface, t = 0 or t = 1, by identity of features, is named as that helix.
+// Name a curve that is an end of the surface, t = 0 or t = 1, by identity of features, as that helix.
 Feature Trimmer::normal_form(const Feature& f) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const auto touches = [](const Shape& s, Index e, Index v) {
@@ -38,7 +38,7 @@ Feature Trimmer::normal_form(const Feature& f) const {
     return f;
 }
 
-// By a hash table, twice as large as what is in it at least.
+// Look up a curve in a hash table at least twice as large as its content.
 Index Trimmer::curve_of(const Feature& f, bool flipped) {
     const Code c = code(scene, f);
     const auto place = [&](Code of, bool is_flipped) {
@@ -63,7 +63,7 @@ Index Trimmer::curve_of(const Feature& f, bool flipped) {
     return slots[slot];
 }
 
-// A bound on t between two angles: of N / D, a rational Bezier function, by its control values, and two ulps outwards for the
+// Bound of t between two angles: of N / D, a rational Bezier function, by its control values, and two ulps outwards for the
 // division and the sums.
 double Trimmer::extreme(const Curve& c, double lo, double hi, bool want_max) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ void Slices::cut(double lo, double hi, int chart) {
     constexpr double widest = 0.125;
     kappa = chart ? -1 : 1;
     count = std::clamp(1 + static_cast<int>((hi - lo) / widest), 1, most);
-    at[0] = lo, at[count] = hi;  // and not where critical angles are likely to be: at halves and quarters
+    at[0] = lo, at[count] = hi;  // avoid likely critical angles: halves and quarters
     for (int s = 1; s < count; ++s) at[s] = lo + (s - 0.375) * ((hi - lo) / (count - 0.375));
     std::fill(low, low + count, 0.0), std::fill(high, high + count, 1.0);
 }
@@ -141,14 +141,14 @@ void Trimmer::split(const Feature& helix) {
     subtract_from_live({seam, -1, -1, nullptr});
 }
 
-// Whether the band covers the inside of its segment at this one of its angles.
+// True if the band covers the inside of its segment at this one of its angles.
 bool Trimmer::covers_at(const Band& band, Index event) {
     if (band.state == nullptr) return true;
     const bool inside = before(band.area.from, event) && before(event, band.area.to);
     return inside || crosses_at(band, event);
 }
 
-// Whether the line passes through the open pillar at an end of the band: there are vertices on both its sides.
+// True if the line passes through the open pillar at an end of the band: there are vertices on both its sides.
 bool Trimmer::crosses_at(const Band& band, Index event) {
     const Event& e = events[event];
     const PillarEdge &l = band.state->lower, &u = band.state->upper;
@@ -196,8 +196,7 @@ void Trimmer::subtract_from_live(const Band& taken) {
     live.swap(next);
 }
 
-// Areas that are open end at an angle, but for those that stay; the others begin there. After a tip, where the width is zero, all
-// are new.
+// End open areas at an angle, except those that continue; the others begin there. After a tip, with width zero, all are new.
 void Trimmer::go_on(Index at, std::initializer_list<std::array<Index, 2>> parts, bool after_tip) {
     const std::size_t old = open.size();
     for (const auto& [lower, upper] : parts) {
@@ -215,9 +214,9 @@ void Trimmer::go_on(Index at, std::initializer_list<std::array<Index, 2>> parts,
     open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(old));
 }
 
-// False if nothing is taken away.
+// Subtract a band from an area; false if nothing is subtracted.
 //
-// Between two cuts the four orders are constant: the area is kept, or what is below and what is above the band.
+// Between two cuts the four orders are constant: all of the area stays, or its parts below and above the band.
 bool Trimmer::subtract_from(const Area& area, const Band& taken) {
     Overlap x(area, taken);
     if (!compare(x)) return false;
@@ -237,7 +236,7 @@ bool Trimmer::subtract_from(const Area& area, const Band& taken) {
         }
         last = cover;
         if (k == x.cuts.size()) break;
-        // on to the next angle, over all cuts that are there
+        // go on to the next angle, over all cuts there
         x.low_meets = x.high_meets = false;
         do {
             x.low_meets |= x.cuts[k].which == Overlap::lower_to_lower, x.high_meets |= x.cuts[k].which == Overlap::upper_to_upper;
@@ -255,7 +254,7 @@ bool Trimmer::may_meet(const Area& area, const Area& band) const {
            events[area.from].lo <= events[band.to].hi;
 }
 
-// The angles where both are, and the four orders there; false if the band covers nothing of the area, as far as can be seen.
+// Find the common angles and the four orders there; false if the band certainly covers nothing of the area.
 bool Trimmer::compare(Overlap& x) {
     const Area &area = x.area, &band = x.band.area;
     x.from = before(area.from, band.from) ? band.from : area.from;
@@ -272,7 +271,7 @@ bool Trimmer::compare(Overlap& x) {
     return true;
 }
 
-// The changes of the four orders in one list.
+// Sort the changes of the four orders into one list.
 void Trimmer::sort_cuts(Overlap& x) {
     for (int w = 0; w < 4; ++w) {
         for (const Event& at : x.orders[w].at) {
@@ -284,7 +283,7 @@ void Trimmer::sort_cuts(Overlap& x) {
     }
 }
 
-// From an angle on: all of the area, or what is below and what is above the band.
+// Continue from an angle on with all of the area, or with its parts below and above the band.
 void Trimmer::keep_around(const Overlap& x, Index start, const Cover& cover) {
     const Area &area = x.area, &band = x.band.area;
     const bool below = x.sign(Overlap::lower_to_lower) > 0, above = x.sign(Overlap::upper_to_upper) < 0;
@@ -295,13 +294,13 @@ void Trimmer::keep_around(const Overlap& x, Index start, const Cover& cover) {
     else go_on(start, {}, false);
 }
 
-// Bands are open: of an area that is covered, a curve that is the band's own is free.
+// Keep curves of a covered area that are the band's own: bands are open, so these curves are free.
 void Trimmer::keep_touched_curves(const Overlap& x, Index start, Index end, const Cover& cover) {
     if (cover.inside && x.sign(Overlap::lower_to_lower) == 0) add_thin(start, end, x.area.lower, x.area.lower);
     if (cover.inside && x.sign(Overlap::upper_to_upper) == 0) add_thin(start, end, x.area.upper, x.area.upper);
 }
 
-// What the band leaves of the area without width at an angle between two parts, all of them covered; one of them at an end.
+// Keep the parts without width that the band leaves of the area at an angle between two covered parts, or at the end of one.
 void Trimmer::keep_at(const Overlap& x, Index at, const Cover* before_it, const Cover* after_it) {
     const Area &area = x.area, &band = x.band.area;
     for (const Cover* c : {before_it, after_it})

@@ -1,4 +1,4 @@
-// Sums over the faces of closed surfaces.
+// Sum contributions of the faces of closed surfaces.
 #include "cfree/free/cell_facts.hpp"
 
 #include <limits>
@@ -13,11 +13,11 @@ namespace {
 
 using std::numbers::pi;
 constexpr double rounded = 0x1p-53;
-constexpr double enough = 1e-18;  // of a closed surface's extent, cubed: what quadrature may leave out of an interval
+constexpr double enough = 1e-18;  // times a closed surface's extent, cubed: greatest error of quadrature on an interval
 constexpr int halvings = 40;
-constexpr int most_intervals = 1000;  // of one trapezoid; then the bound is what it is
+constexpr int most_intervals = 1000;  // of one trapezoid; then the bound may be larger
 
-// Half the cross product of the two ends of a trapezoid's line, seen from a point, integrated over theta; and how far off it may be.
+// Half the cross product of the two ends of a trapezoid's line, from a point, integrated over theta; and its error.
 class Flux {
 public:
     Flux(const Boundary& of, const Limits& ends, Index which, Vec<double> from_here)
@@ -58,7 +58,7 @@ private:
         return sum;
     }
 
-    // At an orientation, with what rounding may do to it: the ends move along the line as far as its crossings are ill-conditioned.
+    // Value at an orientation, with its rounding: the ends move along the line as far as its crossings are ill-conditioned.
     Integral area(double theta) const {
         const TrapezoidLine at = trapezoid_line(limits, trapezoid, theta);
         const auto [c, s] = cosine_sine(theta);
@@ -70,11 +70,11 @@ private:
                 0.5 * off * (moved(at.lower_sine) + moved(at.upper_sine)) + slip * (norm(P.x, P.y) + norm(Q.x, Q.y))};
     }
 
-    // A bound of what eight nodes leave out: 64/15 M / (rho^14 - rho^12) times half the interval, where M is the integrand's bound on
-    // the ellipse around it whose axes are (rho + 1 / rho) / 2 and (rho - 1 / rho) / 2 times as long.
+    // Error bound of eight nodes: 64/15 M / (rho^14 - rho^12) times half the interval. M bounds the integrand on the ellipse
+    // around it whose axes are (rho + 1 / rho) / 2 and (rho - 1 / rho) / 2 times as long.
     double remainder(double from, double to) const {
         const double half = 0.5 * (to - from), middle = 0.5 * (from + to);
-        double least = (to - from) * size * size;  // twice what is between ends that are within `size` of the point
+        double least = (to - from) * size * size;  // twice the integral between ends within `size` of the point
         for (const double rho : {2.0, 4.0, 8.0, 16.0, 64.0, 1024.0}) {
             const double wide = 0.5 * half * (rho + 1 / rho), beyond = 0.5 * half * (rho - 1 / rho);
             if (beyond > 4) break;
@@ -110,7 +110,7 @@ private:
 Volumes enclosed(const Boundary& boundary, const std::vector<Facing>& facing, Index cells) {
     const Trapezoids& table = boundary.trapezoids;
     const Limits limits(boundary);
-    // of each closed surface a point near by, seen from where little cancels
+    // by closed surface: a point near by, for little cancellation
     std::vector<Vec<double>> origin;
     std::vector<double> count;
     for (const Facing& x : facing) {

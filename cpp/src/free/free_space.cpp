@@ -1,4 +1,4 @@
-// Closed surfaces nested by rays, and cells between them; theory, "Cells".
+// Nest closed surfaces by rays, and find the cells between them; theory, "Cells".
 #include "cfree/free/free_space.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Contact lines seen from a point, as values or as polynomials in tau.
+// Contact lines relative to a point, as values or as polynomials in tau.
 #pragma once
 #include "cfree/contact/contact_line.hpp"
 
@@ -28,7 +28,7 @@ inline Int value_at(const Poly& f, const Int& p, const Int& r) {
     return value;
 }
 
-// The sign of the first derivative that is not zero, and its number; -1 if there is none.
+// Sign of the first derivative that is not zero, and its number; -1 if there is none.
 struct Leading {
     int order, sign;
 };
@@ -44,7 +44,7 @@ T constant(int value) {
     else return {double(value), double(std::abs(value))};
 }
 
-// The line of a contact surface seen from a point q / w; all times w.
+// Line of a contact surface relative to a point q / w; all times w.
 template <class T>
 struct Line : ContactLine<T> {
     using ContactLine<T>::on_edge, ContactLine<T>::a, ContactLine<T>::b, ContactLine<T>::E;
@@ -65,12 +65,12 @@ struct Line : ContactLine<T> {
         return {-(w * dot(E, a)), -dot(E, d), -cross(E, d)};
     }
     Trig<T> length() const { return {w * dot(E, E), zero(), zero()}; }  // U . U
-    Trig<T> height() const { return {w * b.y - q.y, -(w * a.y), -(w * a.x)}; }  // of P over q
+    Trig<T> height() const { return {w * b.y - q.y, -(w * a.y), -(w * a.x)}; }  // height of P over q
     Trig<T> down() const {  // -U, vertically
         if (on_edge) return {-(w * E.y), zero(), zero()};
         return {zero(), w * E.y, w * E.x};
     }
-    Trig<T> distance() const { return {w * b.x - q.x, -(w * a.x), w * a.y}; }  // of P to the right of q
+    Trig<T> distance() const { return {w * b.x - q.x, -(w * a.x), w * a.y}; }  // distance of P to the right of q
     Trig<T> back() const {  // -U, horizontally
         if (on_edge) return {-(w * E.x), zero(), zero()};
         return {zero(), w * E.x, -(w * E.y)};

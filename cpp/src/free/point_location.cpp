@@ -1,4 +1,4 @@
-// Rays from poses, exact: trees of heights find the trapezoids they may cross, signs decide; theory, "Cells".
+// Exact rays from poses: trees of heights find the trapezoids that they may cross, signs decide; theory, "Cells".
 #include "cfree/free/point_location.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace cfree {
 
 namespace {
 
-// More than the roundings in any sign below: at most 40 in a row.
+// Bound of the roundings in any sign below: at most 40 in a row.
 constexpr double sign_error = 128 * u;
 
 }  // namespace
@@ -48,7 +48,7 @@ struct PointLocation::View {
         if constexpr (std::is_same_v<T, Int>) return Expansion{pose->chart};
         else return turn;
     }
-    // The sign of what `question` makes of either number type.
+    // Sign of the value that `question` computes in either number type.
     template <class Question>
     int sign(When when, Question&& question) const {
         const Approx quick = question.template operator()<Approx>();
@@ -60,7 +60,7 @@ struct PointLocation::View {
 
 struct PointLocation::Probe {
     ExactPose pose;
-    int rise;  // of the segment that it is on: the sign of U_y, of U_x if that is 0
+    int rise;  // of the segment that contains it: the sign of U_y, of U_x if that is 0
     bool is_level;
 };
 
@@ -77,7 +77,7 @@ PointLocation::PointLocation(SharedBoundary b, std::vector<Index> of)
     }
 }
 
-// The ends of a segment move on circles, and rise above their heights at both ends of an arc by at most its sagitta.
+// Extent of segments: their ends move on circles, and rise above their heights at both ends of an arc by at most its sagitta.
 PointLocation::Extent PointLocation::extent(Index k, double from, double to) const {
     constexpr double rounding = 0x1p-40;
     const Shape &A = scene.robot, &O = scene.obstacles;
@@ -153,7 +153,7 @@ bool PointLocation::may_be_on(const Feature& contact, const View& q) const {
     return !(std::abs(side.v) > sign_error * side.m + tiny);
 }
 
-// Is a pose of its line within the limits of a trapezoid? Where a curve ends at a pole of N / D, its limit counts.
+// True if a pose on its line is within the limits of a trapezoid. If a curve ends at a pole of N / D, its limit counts.
 bool PointLocation::is_on(Index k, const View& q, bool is_end) const {
     const Surface surface = surface_of(patches, trapezoids, k);
     const Predicates predicates(scene, surface);
@@ -174,7 +174,7 @@ bool PointLocation::is_on(Index k, const View& q, bool is_end) const {
 
 namespace {
 
-// Of p and p - q, and a bound of their errors.
+// Ranges of p and p - q, and a bound of their errors.
 struct Spread {
     double low, high, err;
 };
@@ -223,7 +223,7 @@ PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) c
     return seen;
 }
 
-// Trapezoids that hold the pose, and end there.
+// Find trapezoids that hold the pose, and end there.
 void PointLocation::look_on(const View& q, Nearby& seen) const {
     const Index part = index.part_of(q.pose->chart, 1);
     stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
@@ -297,7 +297,7 @@ std::vector<PointLocation::Ray> PointLocation::rays() const {
             if (!q) continue;
             Nearby seen = look(View(q->pose, scene.shift), When::at, k);
             if (!seen.generic || !seen.on.empty()) continue;
-            // the ray is from just left of the surface, or above it where that is level: forbidden if the surface rises
+            // the ray starts just left of the surface, or above it if it is level: forbidden if the surface rises
             result.push_back({q->pose, k, q->rise > 0, std::move(seen.crossed)});
             break;
         }
@@ -349,7 +349,7 @@ void PointLocation::locate(const double* xy, const int* chart, const double* tau
     });
 }
 
-// The surfaces of trapezoids, in order.
+// Surfaces of trapezoids, in order.
 std::vector<Index> PointLocation::surfaces(const std::vector<Index>& crossed) const {
     std::vector<Index> result;
     for (const Index k : crossed) result.push_back(component[k]);

@@ -1,4 +1,4 @@
-// What a ray crosses, in order: signs of polynomials in tau, exactly.
+// Order the crossings of a ray, by exact signs of polynomials in tau.
 #include <algorithm>
 
 #include "cfree/free/point_location.hpp"
@@ -13,7 +13,7 @@ std::vector<PointLocation::Crossing> PointLocation::in_order(const ExactPose& po
         return after ? leading(f, pose.p, pose.r).sign : value_at(f, pose.p, pose.r).sign();
     };
     struct Place {
-        Poly x, run, down;  // x / down: where it is crossed, from the pose; run / down: against a rise of the ray
+        Poly x, run, down;  // x / down: place of the crossing, from the pose; run / down: its change with a rise of the ray
         int descends;       // the sign of down
         Index trapezoid;
     };
@@ -28,7 +28,7 @@ std::vector<PointLocation::Crossing> PointLocation::in_order(const ExactPose& po
     };
     std::sort(places.begin(), places.end(), [&](const Place& x, const Place& y) {
         int order = compare(x.x, x, y.x, y);
-        if (order == 0) order = compare(x.run, x, y.run, y);  // through one point, but for a ray a little higher
+        if (order == 0) order = compare(x.run, x, y.run, y);  // at one point: compare for a ray a little higher
         return order > 0;
     });
     std::vector<Crossing> result;

@@ -1,4 +1,4 @@
-// Trapezoids found by their neighbours' sides in doubles, closed surfaces by gluing exactly; theory, "One surface alone".
+// Find trapezoids by their neighbours' sides in doubles, and closed surfaces by exact gluing; theory, "One surface alone".
 #include "cfree/free/surface_explorer.hpp"
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace cfree {
 
 namespace {
 
-// Where a segment of a trapezoid begins and ends at an angle: rounded.
+// Ends of a segment of a trapezoid at an angle, rounded.
 using Ends = std::array<Vec<double>, 2>;
 
 double apart(const Vec<double>& p, const Vec<double>& q) { return norm(p.x - q.x, p.y - q.y); }
 
-// What of a trapezoid says where its segments are.
+// Data of a trapezoid that determine its segments.
 struct Sheet {
     ContactLine<double> line;
     std::array<Curve, 2> curves;  // lower, upper
@@ -30,7 +30,7 @@ struct Doubles {
     Vec<double> edge(const Shape& s, Index e) const { return vertex(s, s.w[e]) - vertex(s, s.v[e]); }
 };
 
-// What is to be explored next: what is nearest, on the way to a target if there is one.
+// Growth of a surface: it explores the nearest trapezoid next, on the way to a target if there is one.
 struct Growth {
     struct Item {
         double cost, way;
@@ -40,12 +40,12 @@ struct Growth {
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
     enum class Seen : char { no, queued, explored };
     std::vector<Seen> seen;
-    std::vector<double> way;  // to each that is explored
+    std::vector<double> way;  // way to each explored trapezoid
     Index target = -1;
     Vec<double> goal{};
-    Index explored = 0, surely = 0;  // how many, and how many of them gluing has led to
+    Index explored = 0, surely = 0;  // numbers explored, and of these confirmed by gluing
     static constexpr Index least_trust = 512;
-    Index trust = least_trust;  // so many more before it is glued again
+    Index trust = least_trust;  // number of further ones before the next gluing
     bool has(Index k) const { return k >= 0 && k < static_cast<Index>(seen.size()) && seen[k] == Seen::explored; }
 };
 
@@ -83,18 +83,18 @@ struct SurfaceExplorer::State {
     PatchTrimming one;
     TouchingPatches touching;
     const Representatives names;
-    Trapezoids rows;                               // of patches in the order they were trimmed in
-    std::vector<std::array<Index, 2>> faces_of;    // each patch: its rows
+    Trapezoids rows;                               // trapezoids of patches in the order of trimming
+    std::vector<std::array<Index, 2>> faces_of;    // by patch: its rows
     std::vector<std::uint8_t> trimmed;
-    std::vector<Sheet> sheets;                     // of each row
-    std::vector<char> whole;                       // of each row, whether all that its sides meet is trimmed
+    std::vector<Sheet> sheets;                     // by row
+    std::vector<char> whole;                       // by row: true if all patches that its sides meet are trimmed
     struct Neighbours {
-        std::vector<Index> all;     // that its sides may meet
-        std::vector<Index> beside;  // that seem to be across them
+        std::vector<Index> all;     // trapezoids that its sides may meet
+        std::vector<Index> beside;  // trapezoids that seem to be across them
     };
     std::vector<Neighbours> around;                // then
     std::map<Index, Growth> growing;               // by seed
-    double nearness = 0;                           // of points that may be one; it decides what is looked at first
+    double nearness = 0;                           // distance of points that may be equal; it decides only the order
     Index pillars_of = -1;
     Shadows pillars = one.shadows();
     Tally tally;
@@ -140,12 +140,12 @@ Ends SurfaceExplorer::State::ends(Index k, double tau) const {
     return {at(sheet.curves[0]), at(sheet.curves[1])};
 }
 
-// Whether another trapezoid is there at an angle of this one.
+// True if another trapezoid is there at an angle of this one.
 bool SurfaceExplorer::State::may_share_curve(Index k, Index other) const {
     return rows.chart[k] == rows.chart[other] && rows.from_lo[k] <= rows.to_hi[other] && rows.from_lo[other] <= rows.to_hi[k];
 }
 
-// Then whether one of its sides is on the curve of a side of this one.
+// True if also one of its sides is on the curve of a side of this one.
 bool SurfaceExplorer::State::shares_curve(Index k, bool upper, Index other) const {
     const double from = std::max(rows.from_lo[k], rows.from_lo[other]), to = std::min(rows.to_hi[k], rows.to_hi[other]);
     const double tau = 0.5 * (from + to);
@@ -154,21 +154,21 @@ bool SurfaceExplorer::State::shares_curve(Index k, bool upper, Index other) cons
     return apart(p, q[0]) <= nearness || apart(p, q[1]) <= nearness;
 }
 
-// A little within a trapezoid: where it begins or ends its curves may be 0 / 0.
+// Angle a little within a trapezoid: at its ends its curves may be 0 / 0.
 double SurfaceExplorer::State::inside(Index k, double tau) const {
     constexpr double share = 1e-8;
     return tau + share * (0.5 * (rows.tau_from(k) + rows.tau_to(k)) - tau);
 }
 
-// Whether another trapezoid begins or ends at the angle where this one does.
+// True if another trapezoid begins or ends at the angle at which this one does.
 bool SurfaceExplorer::State::may_share_level(Index k, bool last, Index other) const {
     const auto& [lo, hi] = last ? std::pair{rows.to_lo[k], rows.to_hi[k]} : std::pair{rows.from_lo[k], rows.from_hi[k]};
-    if (rows.chart[k] != rows.chart[other])  // at the end of both charts
+    if (rows.chart[k] != rows.chart[other])  // at the common end of both charts
         return std::abs(lo) == 1 && lo == hi && (rows.from_lo[other] == -lo || rows.to_hi[other] == -lo);
     return (rows.from_lo[other] <= hi && lo <= rows.from_hi[other]) || (rows.to_lo[other] <= hi && lo <= rows.to_hi[other]);
 }
 
-// Then whether its line is the same, and it is beside it there.
+// True if also its line is the same, and the two are adjacent there.
 bool SurfaceExplorer::State::shares_level(Index k, bool last, Index other) const {
     const double tau = last ? rows.tau_to(k) : rows.tau_from(k);
     const double there = rows.chart[k] == rows.chart[other] ? tau : -tau;
@@ -180,7 +180,7 @@ bool SurfaceExplorer::State::shares_level(Index k, bool last, Index other) const
         if (std::abs(cross(U, x - p[0])) > nearness * length) return false;
     double low = dot(U, q[0] - p[0]), high = dot(U, q[1] - p[0]);
     if (low > high) std::swap(low, high);
-    constexpr double least = 1e-5;  // of the nearness: of what two that only touch seem to share
+    constexpr double least = 1e-5;  // times the nearness: apparent overlap of two that only touch
     return std::min(high, length * length) - std::max(low, 0.0) > least * nearness * length;
 }
 
@@ -229,13 +229,13 @@ void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
     if (g.seen.size() < rows.size()) g.seen.resize(rows.size()), g.way.resize(rows.size());
     if (g.seen[k] != Growth::Seen::no) return;
     g.seen[k] = Growth::Seen::queued;
-    constexpr double haste = 2;  // a way as short as possible is not asked for
+    constexpr double haste = 2;  // the way need not be the shortest
     g.queue.push({g.target < 0 ? way : way + haste * apart(middle(k), g.goal), way, k});
 }
 
-// The surface, if nothing of it is missing or if the target is reached. Else it is explored further from what is missing of it, and
-// what only seemed to be across its sides is forgotten. Glued is what may be reached from the seed over sides: of what has been
-// explored for it, or on the way to a target of all that is whole.
+// Glue a surface; return it if nothing is missing or the target is reached. Else exploration continues from the missing
+// trapezoids, and forgets those that only seemed to be across sides. Gluing takes the trapezoids within reach of the seed over
+// sides: the explored ones, or on the way to a target all whole ones.
 GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     const bool is_reached = g.has(target);
     const auto is_whole = [&](Index k) { return is_reached ? whole[k] != 0 : g.has(k); };
@@ -305,7 +305,7 @@ SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index targe
     if (g.target < 0 && target >= 0) g.target = target, g.goal = s.middle(target);
     for (;;) {
         heed_stop();
-        // glued again and again: what only seemed to be across a side may lead far into other surfaces
+        // glue again and again: a wrong guess across a side may lead far into other surfaces
         const Index new_ones = g.explored - g.surely;
         if (g.queue.empty() || new_ones > g.trust || (g.has(target) && 4 * new_ones >= g.surely)) {
             if (GluedPart part = s.glued(g, seed, target); part.complex) return {part.complex, part.missing.empty()};

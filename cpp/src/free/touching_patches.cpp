@@ -1,6 +1,6 @@
-// Signs of points against lines that doubles cannot tell from zero; theory, "One surface alone".
+// Find points that doubles cannot separate from lines; theory, "One surface alone".
 //
-// All that touches at one pose is within the robot's diameter of every obstacle feature that touches there.
+// All features that touch at one pose are within the robot's diameter of every obstacle feature that touches there.
 #include "free/touching_patches.hpp"
 
 #include "cfree/contact/contact_line.hpp"
@@ -10,7 +10,7 @@ namespace cfree {
 
 namespace {
 
-// More roundings than lead to any value below, in a row: at most 60.
+// Bound of the roundings of any value below: at most 60 in a row.
 constexpr double value_error = 128 * 0x1p-53;
 bool may_vanish(const Approx& x, double more = 0) { return !(std::abs(x.v) > (value_error + more) * x.m + 0x1p-1000); }
 
@@ -34,7 +34,7 @@ struct TouchingPatches::Turned {
 
     Vec<Approx> place(Index vertex) const { return difference<Approx>(scene.obstacles, vertex, b0); }
     const Vec<Approx>& vertex(Index i) const { return at.vertices[i]; }
-    // A contact's line: where its edge begins, and the edge.
+    // Line of a contact: the start of its edge, and the edge.
     Vec<Approx> start(const Feature& f) const {
         if (f.kind == Kind::vertex_edge) return place(scene.obstacles.v[f.obstacle]) - vertex(f.robot);
         return place(f.obstacle) - vertex(scene.robot.v[f.robot]);
@@ -68,8 +68,8 @@ const std::vector<Index>& TouchingPatches::near(Index feature) {
     return recent;
 }
 
-// The curve's point is p / d: where two lines meet, or a vertex of the robot is on one of an obstacle. With it the robot's
-// vertices are at places / d, and its edges pass at offsets / d.
+// The curve's point is p / d: the intersection of two lines, or a vertex of the robot on one of an obstacle. Relative to it
+// the robot's vertices are at places / d, and its edges pass at offsets / d.
 void TouchingPatches::on_curve(const Surface& on, const Feature& curve, double tau, std::vector<Index>& out) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Turned t = turned(obstacle_vertex(on.contact), on.chart, tau);
@@ -102,7 +102,8 @@ void TouchingPatches::on_curve(const Surface& on, const Feature& curve, double t
     }
 }
 
-// Between the two angles cosine and sine change by at most twice their distance, and what is tested has two of them as factors.
+// Between the two angles cosine and sine change by at most twice their distance, and tested values have two of them as
+// factors.
 void TouchingPatches::on_line(const Surface& on, double lo, double hi, std::vector<Index>& out) {
     const Shape& O = scene.obstacles;
     const Turned t = turned(obstacle_vertex(on.contact), on.chart, 0.5 * (lo + hi));
@@ -110,7 +111,7 @@ void TouchingPatches::on_line(const Surface& on, double lo, double hi, std::vect
     const auto P = t.start(on.contact), U = t.direction(on.contact);
     const auto is_parallel = [&](const Vec<Approx>& V) { return may_vanish(cross(U, V), width); };
     const auto is_on = [&](const Feature& f) { return may_vanish(cross(U, t.start(f) - P), width); };
-    std::array<std::vector<std::pair<Index, Index>>, 2> parallel;  // edges of the robot, and their places among their layer's
+    std::array<std::vector<std::pair<Index, Index>>, 2> parallel;  // edges of the robot, and their places in their layer
     for (const int layer : {0, 1})
         for (std::size_t k = 0; k < layers[layer].edges.size(); ++k)
             if (const Index e = layers[layer].edges[k]; is_parallel(edges[e])) parallel[layer].emplace_back(e, k);
@@ -126,8 +127,8 @@ void TouchingPatches::on_line(const Surface& on, double lo, double hi, std::vect
     }
 }
 
-// The edges e and f of the vertex in contact, and the other's edge: R e x E <= 0 <= R f x E for edges of the robot. A single
-// point has no edges: all is zero.
+// Test edges e and f of the vertex in contact against the other's edge: R e x E <= 0 <= R f x E for edges of the robot. A
+// single point has no edges: all is zero.
 bool TouchingPatches::is_there(Index patch, int chart, double lo, double hi) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Feature on = one.patches.contact(patch);
@@ -138,7 +139,7 @@ bool TouchingPatches::is_there(Index patch, int chart, double lo, double hi) con
     return sign(i, j) <= 0 && sign(i, O.previous[j]) >= 0;
 }
 
-// The robot's vertices from b0: (q - b0 + R o) + R a', where o + a' are its vertices as given.
+// The robot's vertices from b0 are (q - b0 + R o) + R a', where o + a' are its input vertices.
 void TouchingPatches::at_pose(const ExactPose& q, Index b0, std::vector<Index>& out) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const auto R = rotation_by(q.chart, q.p, q.r);

@@ -1,4 +1,4 @@
-// Everything of L, s, k and w: V = dx / dphi is k along the ruling and s across it.
+// Compute all from L, s, k and w: V = dx / dphi is k along the ruling and s across it.
 #include "cfree/geometry/local_geometry.hpp"
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace cfree {
 RulingPoint ruling_point(const Ruled& r, double t, double phi) {
     const double ex = r.qx + r.gx, ey = r.qy + r.gy, L = norm(ex, ey), dx = ex / L, dy = ey / L;
     const auto [c, n] = cosine_sine(phi);
-    if (r.gx != 0 || r.gy != 0)  // robot and obstacle are turned back together, so that no rounding of phi enters
+    if (r.gx != 0 || r.gy != 0)  // robot and obstacle are rotated back together, so that no rounding of phi enters
         return {true, L, n * dy - c * dx, -n * dx - c * dy, dx * r.ax + dy * r.ay + t * L, r.ax * dy - r.ay * dx};
     const double ax = c * r.ax - n * r.ay, ay = n * r.ax + c * r.ay;
     return {false, L, dx, dy, -(dx * ax + dy * ay), -(ax * dy - ay * dx)};

@@ -1,4 +1,4 @@
-// Along t in closed form, over theta by quadrature.
+// Integrate in t in closed form, over theta by quadrature.
 #include "cfree/geometry/quadrature.hpp"
 
 #include "cfree/contact/contact_curve.hpp"

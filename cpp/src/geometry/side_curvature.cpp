@@ -1,5 +1,5 @@
-// In the frame along and across the ruling a curve (x(theta), w theta) of the surface has the velocity (x'.u, R): u is the ruling,
-// R^2 = w^2 + s^2. Its acceleration (x'', 0) has the parts x''.u and (x''.Ju) s / R.
+// Geodesic curvature of sides. In the frame along and across the ruling u, a curve (x(theta), w theta) of the surface has the
+// velocity (x'.u, R), R^2 = w^2 + s^2. Its acceleration (x'', 0) has the parts x''.u and (x''.Ju) s / R.
 #include "cfree/geometry/side_curvature.hpp"
 
 #include <limits>
@@ -55,7 +55,7 @@ private:
     }
     bool is_wall(Index h) const { return side(h) == Side::first || side(h) == Side::last; }
     Side side(Index h) const { return static_cast<Side>(cells.side[static_cast<std::size_t>(h)]); }
-    // where a half-edge starts; the ends of a trapezoid are its own
+    // start of a half-edge; the ends of a trapezoid are its own
     double angle(Index h) const {
         const Index before = h == first ? last - 1 : h - 1;
         if (side(h) == Side::first) return from;
@@ -68,7 +68,7 @@ private:
     double across(Complex x, double phi) const {
         return turns ? -dot(x - b, std::polar(1.0, phi) * edge) : -dot(edge, std::polar(1.0, phi) * a);
     }
-    // In the frame, as the loop runs.
+    // Tangent in the frame, in the direction of the loop.
     Complex tangent_of(Index h, double phi) const {
         if (side(h) == Side::first) return 1;
         if (side(h) == Side::last) return -1;
@@ -77,12 +77,12 @@ private:
         const Complex along{dot(curve.velocity(phi), ruling(phi)), norm(w, across(curve.at(phi), phi))};
         return upper ? along : -along;
     }
-    // From 0 to pi, but for rounding.
+    // Turn from 0 to pi, up to rounding.
     static double turn(Complex before, Complex after) {
         const double by = std::arg(after * std::conj(before));
         return by < -0.5 * pi ? by + 2 * pi : by;
     }
-    // A step of theta's.
+    // Geodesic curvature per step of theta.
     double curvature(const ContactCurve& curve, double phi) const {
         const Complex u = ruling(phi), acceleration = curve.acceleration(phi);
         const double s = across(curve.at(phi), phi), R = norm(w, s), along = dot(curve.velocity(phi), u);

@@ -1,5 +1,5 @@
-// As many columns, as much shifted as leads to the fewest triangles to first order; how far apart they are follows, and how high
-// triangles may be is corrected by the bounds themselves.
+// Layout in columns: their number and shift lead to the fewest triangles to first order. Their distance follows, and the
+// bounds themselves correct the height of triangles.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,22 +11,22 @@ namespace cfree {
 
 namespace {
 
-constexpr double wall_cost = 0.25;   // triangles that a column needs more at each side, as measured
-constexpr double corner_cost = 6;   // and the face at its corners
-constexpr double least_gap = 0.03;  // of points from the face's sides, in steps
+constexpr double wall_cost = 0.25;   // measured extra triangles of a column at each side
+constexpr double corner_cost = 6;   // and of the face at its corners
+constexpr double least_gap = 0.03;  // gap of points from the face's sides, in steps
 constexpr double longest = 1.6;     // step, in units of the lattice
-constexpr double behind = 0.7;      // of the sum of both gaps beside it: a column's end with more is not next to the side
+constexpr double behind = 0.7;      // share of the sum of both gaps beside it; a column's end with more is not next to the side
 constexpr double usual = 2;         // distance of columns, in the same units
 constexpr int most_columns = 100, levels = 33, halvings = 10;
 
 struct Choice {
     int columns = 0;
-    double shift = 0.5;  // of a column against the one before, in steps
-    bool coarse = false;  // do the curves need points between those of the columns?
+    double shift = 0.5;  // shift of a column against the one before, in steps
+    bool coarse = false;  // true if the curves need points between those of the columns
     double triangles = 1e300;
 };
 
-// The greatest value up to a limit for which something holds that holds for small ones.
+// Greatest value up to a limit with a property that small values have.
 template <class Holds>
 double greatest(double limit, const Holds& holds) {
     if (holds(limit)) return limit;
@@ -52,7 +52,7 @@ public:
         return fit > 0 ? laid_out(best, fit) : Layout{};
     }
 
-    // As few columns as can be with these steps.
+    // Layout with as few columns as possible for these steps.
     Layout run(const Wanted& wanted) {
         const auto at = some_levels();
         const auto steps = [&](const Level&) { return wanted.step; };
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    // The face at an angle: u = low + share * wide, how that changes, and the greatest steps on the curves.
+    // The face at an angle: u = low + share * wide, its change, and the greatest steps on the curves.
     struct Level {
         double phi, low, wide, low_slope, wide_slope;
         std::array<double, 2> caps;
@@ -87,7 +87,7 @@ private:
         return of.coarse ? std::min(high, longest * unit()) : std::min(at.caps[0], at.caps[1]);
     }
 
-    // Of a column at an angle: position, its change, and how large the form of an edge there may be.
+    // Place of a column at an angle: position, its change, and the largest form of an edge there.
     struct Place {
         double s, slope, room;
     };
@@ -96,7 +96,7 @@ private:
         return {s, face.scale() * gradient * (at.low_slope + share * at.wide_slope), 4 * error * gradient};
     }
 
-    // The share of the width at which the last column is if each is as far from the one before as edges between them allow.
+    // Share of the width at the last column if each is as far from the one before as edges between them allow.
     double reach(const Level& at, const Choice& of, double step, std::vector<double>* found = nullptr) const {
         const double up = of.shift * step, down = step - up;
         double share = 0;
@@ -113,7 +113,7 @@ private:
         }
         return share;
     }
-    // The greatest step at which so many columns suffice.
+    // Greatest step at which this many columns suffice.
     double widest(const Level& at, const Choice& of) const {
         double most = cap(at, of);
         for (const double share : {0.0, 0.5, 1.0}) {
@@ -123,7 +123,7 @@ private:
         return greatest(most, [&](double step) { return reach(at, of, step) >= 1; });
     }
 
-    // The same with the columns where they are.
+    // Greatest step for columns at their present places.
     double step(const Level& at, const Choice& of) const {
         return greatest(cap(at, of), [&](double t) {
             const double up = of.shift * t, down = up - t;
@@ -167,7 +167,7 @@ private:
                 for (const Level& each : at) {
                     const double t = widest(each, of);
                     double rate = 2 * n * (1 / t + wall_cost / high);
-                    for (const double most : each.caps) {  // points of the curves that only this face needs, or only its neighbours
+                    for (const double most : each.caps) {  // points of the curves for this face, or for its neighbours
                         const double parts = std::ceil(t / most - 1e-9);
                         rate += (parts - 1) / t + spare_point_cost * std::max(0.0, parts / t - 1 / most);
                     }
@@ -187,7 +187,7 @@ private:
         for (double& each : shares) each /= shares.back();
     }
 
-    // The share of steps that the bounds allow.
+    // Share of the steps that the bounds allow.
     template <class Steps>
     double correction(const Choice& of, const Steps& steps) const {
         double fit = 1;
@@ -219,7 +219,7 @@ private:
         return most;
     }
 
-    // Without those that are behind the ends beside them.
+    // Ends without those that are behind the ends beside them.
     static std::vector<Layout::Point> in_front(const std::vector<Layout::Point>& ends, double phi) {
         std::vector<Layout::Point> chain;
         const auto gap = [&](std::size_t of) { return std::abs(ends[of].phi - phi); };
@@ -272,7 +272,7 @@ private:
 
     const MeshFace& face;
     const double error, high, half;
-    std::vector<double> shares;  // of the width, at each column
+    std::vector<double> shares;  // share of the width at each column
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Points as laid out, where there is room; more where the bound asks for them, none that are not needed.
+// Mesh a face: points of the layout where there is room, more where the bound needs them, none without need.
 #include "cfree/mesh/face_mesher.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace cfree {
 
 namespace {
 
-constexpr double doubt = 1.3;  // of estimates of how many triangles there will be
+constexpr double doubt = 1.3;  // factor of doubt in estimated numbers of triangles
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void FaceMesher::fill(const MeshFace& on, const Rim& rim, const Layout& layout, 
     if (net.triangles.size() >= first_net.triangles.size()) net = first_net, points = first_points;
 }
 
-// From the rim inwards: a disc zipped between the two curves, points as laid out, more where the bound asks for them.
+// Fill from the rim inwards: a disc zipped between the two curves, points of the layout, more where the bound needs them.
 void FaceMesher::fill(const Rim& rim, const Layout& layout) {
     net = {}, points.clear();
     const bool bare = layout.is_empty();
@@ -46,7 +46,7 @@ void FaceMesher::fill(const Rim& rim, const Layout& layout) {
     if (static_cast<Index>(points.size()) > rim_end) simplify(rim_end, layout_end);
 }
 
-// The face between its curves, then the points of its first and last side put on the rim.
+// Zip the face between its curves, then put the points of its first and last side on the rim.
 void FaceMesher::place(const Rim& rim) {
     std::array<std::vector<Index>, 4> sides;
     for (std::size_t side = 0; side < 4; ++side)
@@ -72,7 +72,7 @@ void FaceMesher::insert(double u, double phi, double off) {
     heed_stop();
     MeshPoint p = face->point_inside(face->s(u), phi);
     p.off = off;
-    if (off != 0 && face->excess({&p, &p, &p}) > 1) p.off = 0;  // too near a side, within which it counts whole
+    if (off != 0 && face->excess({&p, &p, &p}) > 1) p.off = 0;  // too near a side, where the offset counts in full
     const Index id = add_point(p);
     if (!net.insert(id)) points.pop_back(), net.places.pop_back();
 }
@@ -91,7 +91,7 @@ Index FaceMesher::add_middle(const std::array<Index, n>& of) {
     return add_point(face->point_inside(face->is_saddle ? face->s(stretch * x + lean * y) : x, y));
 }
 
-// Flips edges and puts points on them until every triangle is close.
+// Flip edges and put points on them until every triangle is close.
 void FaceMesher::improve(std::size_t most) {
     auto& open = net.changed;
     open.resize(net.triangles.size());
@@ -110,7 +110,7 @@ void FaceMesher::improve(std::size_t most) {
     }
 }
 
-// The other diagonal where that makes the worse of the two triangles better.
+// Flip to the other diagonal if that makes the worse of the two triangles better.
 bool FaceMesher::flip_to_better(Index t) {
     int best = -1;
     double least = 1;
@@ -128,7 +128,7 @@ bool FaceMesher::flip_to_better(Index t) {
     return true;
 }
 
-// Takes out inner points that are not needed; those amid lattice points are.
+// Remove inner points that are not needed; those amid lattice points are needed.
 void FaceMesher::simplify(Index rim, Index inner) {
     std::vector<Index> at(points.size(), -1);
     for (Index t = 0; t < static_cast<Index>(net.triangles.size()); ++t)

@@ -1,5 +1,5 @@
-// Points of the lattice of best triangles. On the surface: edges (1/g, g), (1, -1) and (g, 1/g), g the golden ratio, with
-// |dx dy| = 1; a third of the error below it |dx dy| is 2/3 for two of them and 4/3 for the third, (k, -k).
+// Layout in the lattice of best triangles. On the surface the edges are (1/g, g), (1, -1) and (g, 1/g), g the golden ratio,
+// with |dx dy| = 1. A third of the error below it, |dx dy| is 2/3 for two of them and 4/3 for the third, (k, -k).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,13 +12,13 @@ namespace cfree {
 namespace {
 
 constexpr double golden = std::numbers::phi;
-constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles a unit of w du dphi / error
+constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles per unit of w du dphi / error
 constexpr double rim_gap = 0.1;                       // least distance of points from the rim, in units of the lattice
-constexpr double rim_cost = 1.1;                      // triangles more for each unit of the rim, as measured
+constexpr double rim_cost = 1.1;                      // measured extra triangles per unit of the rim
 
 class Lattice {
 public:
-    // In a mirror where helices lean to the other side.
+    // Lattice on a face, mirrored if helices lean to the other side.
     Lattice(const MeshFace& on, double most_error, bool free)
         : face(on), error(most_error), stretch(usual_stretch), side(on.shear < 0 ? -1 : 1),
           m(free ? 1 - 1 / std::numbers::sqrt3 : 1 / golden), n(free ? 1 + 1 / std::numbers::sqrt3 : golden),
@@ -56,7 +56,7 @@ private:
     double low(double phi) const { return face.u(face.position(face.curves[0].at(phi), phi)); }
     double lifted(double u) const { return side * off * error * face.gradient(face.s(u)); }
 
-    // The largest share of the ideal area at which triangles of the lattice fit everywhere.
+    // Largest share of the ideal area at which triangles of the lattice fit everywhere.
     double scale() const {
         const double phi = 0.5 * (face.from + face.to), left = low(phi), wide = face.width_u(phi);
         const auto fits = [&](double share) {
@@ -85,7 +85,7 @@ private:
 
 }  // namespace
 
-// The best known density's integral over the face, by Simpson's rule.
+// Integral of the best known density over the face, by Simpson's rule.
 double least_triangles(const MeshFace& face, double error) {
     if (!face.is_saddle || face.is_thin()) return 0;
     double sum = 0;

@@ -1,4 +1,4 @@
-// Which layout suits a face, and what all of them ask.
+// Choose the layout of a face; common parts of all layouts.
 #include "cfree/mesh/layout.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace cfree {
 
 namespace {
-constexpr double spared = 1;  // triangles for each point that a neighbour wants as well
+constexpr double spared = 1;  // triangles per point that a neighbour also wants
 }
 
 double rim_step(const MeshFace& face, double error, double phi, int which) {

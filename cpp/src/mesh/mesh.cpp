@@ -15,8 +15,8 @@ namespace cfree {
 namespace {
 
 using std::numbers::pi;
-constexpr double most_turn = pi / 4;  // between two samples of a curve
-constexpr double nearest_part = 0.05;    // of a layout's step: ends of edges this close to a point of it do for that
+constexpr double most_turn = pi / 4;  // greatest turn between two samples of a curve
+constexpr double nearest_part = 0.05;    // share of a layout's step: an end of an edge so near to a point replaces it
 
 bool is_curve(std::uint8_t side) { return side == 1 || side == 3; }
 
@@ -26,7 +26,7 @@ public:
         : in(cells), trapezoids(cells.boundary->trapezoids), patches(cells.boundary->patches), scene(*cells.boundary->scene),
           error(most_error), angle_scale(scale), faces(static_cast<Index>(cells.component.size())),
           half_edges(static_cast<Index>(cells.face.size())), filler(most_error, off_surface) {
-        for (Index v = 0; v < in.vertices; ++v) {  // the robot as it is, the obstacles from their origin
+        for (Index v = 0; v < in.vertices; ++v) {  // the robot unchanged, the obstacles from their origin
             const auto [c, s] = cosine_sine(in.theta[v]);
             const double a = scene.frame[2], b = scene.frame[3];
             places.emplace_back(in.xy[2 * v] + (0 - (c * a - s * b)), in.xy[2 * v + 1] + (0 - (s * a + c * b)));
@@ -47,7 +47,7 @@ public:
 private:
     // Samples between the ends of an edge, in the direction of its first half-edge: angles of a curve, or shares of a side.
     using Samples = std::vector<double>;
-    // Those of a pair of twins: `count` vertices from `begin` on in that direction; a side at the seam has them twice.
+    // Samples of a pair of twins: `count` vertices from `begin` on in that direction; a side at the seam has them twice.
     struct Run {
         Index begin = 0, count = 0;
         bool forwards = true;
@@ -65,7 +65,7 @@ private:
     Index after(Index h) const { return h + 1 == in.first[in.face[h] + 1] ? in.first[in.face[h]] : h + 1; }
     bool on_seam(Index v) const { return std::abs(in.theta[v] - 0.5 * pi) > pi - 1e-12; }
     bool is_late(Index h) const { return trapezoids.chart[in.face[h]] == 1; }
-    // where the half-edge starts, as its face sees it
+    // start of the half-edge, by its face's equations
     double angle(Index h) const {
         const Index v = in.vertex[h];
         return on_seam(v) ? (is_late(h) ? 1.5 * pi : -0.5 * pi) : in.theta[v];
@@ -90,18 +90,18 @@ private:
     const Scene& scene;
     const double error, angle_scale;
     const Index faces, half_edges;
-    std::vector<Complex> places;  // of the complex's vertices
+    std::vector<Complex> places;  // places of the complex's vertices
     std::vector<MeshFace> mesh_faces;
     std::vector<Index> order, start;  // half-edges by edge
     std::vector<Index> early, late;   // mesh vertices of the complex's vertices; late ones at 3 pi / 2
-    std::vector<Run> runs;            // of each half-edge
+    std::vector<Run> runs;            // by half-edge
     Mesh out;
     Index rim_vertices = 0;
     std::vector<Layout> layouts;
     FaceMesher filler;
 };
 
-// Angles where the rows of one of the faces end, between which others are put where the curve bends too much.
+// Samples of a curve: angles at which the rows of one of the faces end, with others between them if the curve bends too much.
 Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     const Index first = order[start[edge]];
     const double a = std::min(angle(first), angle(after(first))), b = std::max(angle(first), angle(after(first)));
@@ -143,7 +143,7 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     return samples;
 }
 
-// As many parts as a row there has, or those that the points next to the side ask for, in all faces of its patch.
+// Samples of a side: as many parts as a row there has, or as the points next to the side need, in all faces of its patch.
 Mesher::Samples Mesher::samples_of_side(Index edge) const {
     const Index first = order[start[edge]];
     const Complex p = place(first), q = place(after(first));
@@ -183,7 +183,7 @@ Index Mesher::vertex_of(Index h) {
     return id;
 }
 
-// Vertices for the samples of a half-edge and its twin, which the other half-edges of the edge do not share.
+// Add vertices for the samples of a half-edge and its twin; the other half-edges of the edge do not share them.
 void Mesher::add_run(Index h, Index first_half_edge, const Samples& samples) {
     const Index twin = in.twin[h], count = static_cast<Index>(samples.size());
     const bool curve = is_curve(in.side[h]);
@@ -235,7 +235,7 @@ Rim Mesher::rim_of(Index f) {
     return rim;
 }
 
-// The triangles of a face, and its inner points as vertices.
+// Add the triangles of a face, and its inner points as vertices.
 void Mesher::triangulate(Index f) {
     const MeshFace& sheet = mesh_faces[f];
     out.least += least_triangles(sheet, error);
@@ -253,7 +253,7 @@ void Mesher::triangulate(Index f) {
     }
 }
 
-// Samples of all edges; of those between the same two vertices, without samples, all but one get one.
+// Samples of all edges; of edges without samples between the same two vertices, all but one get a sample.
 std::vector<Mesher::Samples> Mesher::samples_of_edges() const {
     std::vector<Samples> samples(static_cast<std::size_t>(in.edges));
     std::vector<std::array<Index, 3>> plain;
@@ -276,7 +276,7 @@ std::vector<Mesher::Samples> Mesher::samples_of_edges() const {
     return samples;
 }
 
-// Two faces may have inner edges between the same two points of their rims: such edges are cut in the middle.
+// Cut inner edges in the middle if two faces have them between the same two points of their rims.
 bool Mesher::part_equal_edges() {
     struct Edge {
         Index p, q, triangle, face;
@@ -314,7 +314,7 @@ bool Mesher::part_equal_edges() {
     return any;
 }
 
-// Large faces first; others have the same points on curves that they share with them, if that is cheap.
+// Lay out large faces first; others take the same points on common curves, if that is cheap.
 void Mesher::lay_out() {
     std::vector<double> least;
     for (const MeshFace& sheet : mesh_faces) least.push_back(least_triangles(sheet, error));
@@ -326,7 +326,7 @@ void Mesher::lay_out() {
         if (least[f] > few_triangles) layouts[f] = best_layout(mesh_faces[f], error, wanted_by_neighbours(f));
 }
 
-// At equal steps, by that with which the face shares most.
+// Points that neighbours want, at equal steps, by the neighbour that shares most.
 std::optional<Wanted> Mesher::wanted_by_neighbours(Index f) const {
     std::optional<Wanted> result;
     double most = 0;

@@ -1,4 +1,4 @@
-// Bounds of how far a triangle is from its face; theory, "The distance of a triangle".
+// Bounds of the distance of a triangle from its face; theory, "The distance of a triangle".
 #include "cfree/mesh/mesh_face.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
-// The greatest |cos| from one angle to another.
+// Greatest |cos| from one angle to another.
 double most_cosine(double from, double to) {
     if (std::floor(to / pi) > std::floor(from / pi)) return 1;
     return std::max(std::abs(cosine(from)), std::abs(cosine(to)));
@@ -83,17 +83,18 @@ MeshPoint MeshFace::point_inside(double s, double phi) const {
     return {s, phi, {s - low, std::max(0.0, high - s)}};
 }
 
-// In its own slice a point with weights l of the corners is off the line by the sum of l_k off_k, less that of l_j l_k form(j, k),
-// j < k, up to third order; in each slice this is linear, so the extremes over a triangle are on its edges.
+// A point with weights l of the corners is off the line in its slice by the sum of l_k off_k, minus the sum of
+// l_j l_k form(j, k), j < k, up to third order. This is linear in each slice, so the extremes over a triangle are on its
+// edges.
 double MeshFace::form(const MeshPoint& p, const MeshPoint& q) const {
     const double phi = q.phi - p.phi;
     return phi * (q.s - p.s + 0.5 * h * phi);
 }
 
-// Of an edge with weights 1 - l and l: off by a linear function, less l (1 - l) (form + at most even + at most odd |1 - 2 l|).
+// An edge with weights 1 - l and l is off by a linear function, less l (1 - l) (form + at most even + at most odd |1 - 2 l|).
 struct MeshFace::Wave {
     double form, even, odd;
-    // The greatest with the values a and b of a linear function at the ends, on one side.
+    // Greatest offset on one side, with the values a and b of a linear function at the ends.
     double most(double a, double b, int side) const {
         const double high = even - side * form, rise = std::abs(b - a) + 0.5 * odd;
         if (high > rise) return 0.5 * (a + b) + high / 4 + square(rise) / (4 * high);
@@ -110,7 +111,7 @@ MeshFace::Wave MeshFace::wave(const MeshPoint& p, const MeshPoint& q) const {
             0.5 * std::abs(p.s + q.s) * third};
 }
 
-// The largest on an edge.
+// Largest offset on an edge.
 double MeshFace::peak(const MeshPoint& p, const MeshPoint& q) const {
     const Wave of = wave(p, q);
     return std::max(of.most(p.off, q.off, 1), of.most(-p.off, -q.off, -1));
@@ -130,7 +131,7 @@ double MeshFace::slice_distance(const Corners& c, const Spread& d) const {
     return std::abs(fixed) * most_cosine(d.low + turned, d.high + turned) * square(d.angle) / 8;
 }
 
-// How far the foot on the line may be beyond the face's curves.
+// Greatest distance of the foot on the line beyond the face's curves.
 double MeshFace::beyond(const Corners& c, const Spread& d) const {
     double most = 0;
     for (int side = 0; side < 2; ++side) {
@@ -155,11 +156,11 @@ double MeshFace::excess(const Corners& c) const {
     return std::min(plain, std::max(norm(slice_distance_near_sides(c, d), over) / eps, excess_inside(c)));
 }
 
-// Within the slice, of the points from which a path of length `eps` down the gradient may leave the face by a side.
+// Distance within the slice of the points from which a path of length `eps` down the gradient may leave the face by a side.
 double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) const {
     const double all = slice_distance(c, d), forms = most_form(c) + d.off, turn = d.turn(), margin = eps / w;
     double most = 0;
-    // heights of the corners over a side, how high a point may be that counts, and how much the side may be bent
+    // heights of the corners over a side, greatest height of a point that counts, and bend of the side
     const auto add = [&](std::array<double, 3> height, double near_by, double bend) {
         std::array<int, 3> k{0, 1, 2};
         std::sort(k.begin(), k.end(), [&](int x, int y) { return height[x] < height[y]; });

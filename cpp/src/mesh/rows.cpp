@@ -1,4 +1,4 @@
-// From one side to the other, each pair of strips as high as its triangles allow.
+// Layout in rows from one side to the other, each pair of strips as high as its triangles allow.
 #include "cfree/mesh/layout.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ class Marcher {
 public:
     Marcher(const MeshFace& on, double most_error) : face(on), error(most_error) {}
 
-    // Of several numbers of parts to begin with, the one that leads to the fewest triangles.
+    // Layout with the first number of parts that leads to the fewest triangles.
     Layout run() const {
         const int likely = best_parts(0.5 * (face.from + face.to));
         Rows best;
@@ -37,10 +37,10 @@ public:
 private:
     struct Row {
         double angle;
-        int parts;  // of the row, or of those before and after it
+        int parts;  // parts of the row, or of the rows before and after it
     };
     struct Rows {
-        std::vector<Row> rows;  // an odd number, from the first side to the last; none if there is no good choice
+        std::vector<Row> rows;  // an odd number of rows, from the first side to the last; none without a good choice
         double stretch = 1;
     };
 
@@ -99,20 +99,20 @@ private:
         }
         return best;
     }
-    // One more or one less where that saves much.
+    // Best number of parts: one more or one less if that saves much.
     int best_near(double phi, int parts) const {
         const auto of = [&](int n) { return rate(phi, n, half_height(phi, n)); };
         const double here = 0.9 * of(parts);
         if (parts > 1 && of(parts - 1) < here) return parts - 1;
         return of(parts + 1) < here ? parts + 1 : parts;
     }
-    // Triangles a radian, with those of the neighbours for points on the rim that they do not need.
+    // Triangles per radian, with those of the neighbours for points on the rim that they do not need.
     double rate(double phi, int parts, double y) const {
         const double spare = std::max(0.0, 1 - 2 * y / rim_step(face, error, phi));
         return (4 * parts + spare_point_cost * spare) / (2 * y);
     }
 
-    // Half of the height of two strips from phi on, of so many parts.
+    // Half of the height of two strips from phi on, of this many parts.
     double half_height(double phi, int parts) const {
         const double cap = std::min(0.5 * rim_step(face, error, phi), 0.5 * (face.to - phi));
         double y = cap, good = 0;

@@ -1,4 +1,4 @@
-// Flips, splits and fans: combinatorics of one disc; theory, "Meshes".
+// Combinatorics of one disc: flips, splits and fans; theory, "Meshes".
 #include "cfree/mesh/triangulation.hpp"
 
 #include <algorithm>
@@ -111,7 +111,7 @@ void Triangulation::flip(Index t, int k) {
     replace_neighbour(y.across[next(m)], o, t), replace_neighbour(x.across[next(k)], t, o);
 }
 
-// The corner across is outside the circle through the triangle, or on it up to rounding.
+// True if the corner across is outside the circle through the triangle, or on it up to rounding.
 bool Triangulation::is_outside_circle(Index t, int k) const {
     const auto& x = triangles[t].corner;
     const Place &o = places[opposite(t, k)], &a = places[x[k]], &b = places[x[next(k)]], &c = places[x[previous(k)]];
@@ -191,7 +191,7 @@ bool Triangulation::insert(Index p) {
     bool found = false;
     for (int steps = 0; steps < 200 && !found; ++steps) {
         if ((found = is_in(t, out))) break;
-        // over any edge that has the point behind it, the first unless that is the rim
+        // over any edge that has the point behind it; the first unless that is on the rim
         int k = out;
         const auto& x = triangles[t];
         if (x.across[k] < 0)
@@ -250,7 +250,7 @@ void Triangulation::fan(const Star& star, std::size_t from) {
 }
 
 void Triangulation::sweep_dropped() {
-    std::erase_if(triangles, [](const Triangle& t) { return t.corner[0] < 0; });  // who is across is no longer known
+    std::erase_if(triangles, [](const Triangle& t) { return t.corner[0] < 0; });  // their neighbours are no longer valid
 }
 
 }  // namespace cfree

@@ -1,4 +1,4 @@
-// Points on a side of faces, each as far from the one before as edges to the points next to the side allow.
+// Place points on a side of faces, each as far from the one before as edges to the points next to the side allow.
 #include <algorithm>
 #include <cmath>
 
@@ -8,11 +8,11 @@ namespace cfree {
 
 namespace {
 
-constexpr double most_load = 0.96;  // of an edge, of what the error allows to first order
-constexpr double least_distance = 0.5;   // of the mean distance of points next to the side, between points on it
-constexpr double least_share = 1e-3;  // of the side, the same
+constexpr double most_load = 0.96;  // share of the error that an edge takes, to first order
+constexpr double least_distance = 0.5;   // between points on the side, per mean distance of points next to it
+constexpr double least_share = 1e-3;  // the same, per length of the side
 
-// The points of one face from left to right, and how far they have been joined to points on the side.
+// Points of one face from left to right; those before `next` have edges to points on the side.
 struct Chain {
     const MeshFace& face;
     const std::vector<Layout::Point>& points;
@@ -29,7 +29,7 @@ struct Chain {
         while (next + 1 < points.size() && points[next + 1].u <= end && is_close(u, next + 1)) ++next;
     }
     bool is_last(double end) const { return next + 1 >= points.size() || points[next + 1].u > end; }
-    // The farthest place whose edges to the last point joined and to the one after are close.
+    // Farthest place whose edges to the last joined point and to the next one are close.
     double reach(double from, double end) const {
         double least = end;
         for (std::size_t k = next; k <= next + !is_last(end) && k < points.size(); ++k) {

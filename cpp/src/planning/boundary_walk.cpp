@@ -1,4 +1,4 @@
-// From a way over faces to poses; theory, "Paths".
+// Convert a way over faces to poses; theory, "Paths".
 #include "cfree/planning/boundary_walk.hpp"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace cfree {
 
 namespace {
 
-constexpr int slid = 48;             // halvings after which slides along a trapezoid's curves are tried as well
-constexpr int steps_as_known = 8;    // towards a critical angle before it is known better
+constexpr int slid = 48;             // halvings after which slides along a trapezoid's curves are also tried
+constexpr int steps_as_known = 8;    // steps towards a critical angle before it is refined
 
 // The middle of a sheet at an orientation, and the pose beside it.
 struct Station {
@@ -19,7 +19,7 @@ struct Station {
     RationalPose on, off;
 };
 
-// A simple tau between one and an end: nearer to that.
+// A simple tau between one and an end, nearer to the end.
 Ratio nearer(const Ratio& tau, const Ratio& end, int halvings) {
     const Ratio from = end + (tau - end) / Ratio{Int(1) << static_cast<unsigned>(halvings - 1)};
     return simple_middle(std::min(from, end), std::max(from, end));
@@ -78,13 +78,13 @@ private:
         return {tau, t, f.pose(t, tau), landings.off(f, t, tau)};
     }
 
-    // From beside the middle of one sheet to the same on another, without the first pose.
+    // Crossing from beside the middle of one sheet to the same on another, without the first pose.
     struct Crossing {
         Station first;
         Poses way;
         Station last;
     };
-    // Over the last or the first angles of two sheets, from an orientation on the first.
+    // Cross over the last or the first angles of two sheets, from an orientation on the first.
     std::optional<Crossing> across(Sheet& f, bool f_last, Sheet& g, bool g_last, Ratio sigma, int attempts) const {
         Ratio tau = simple_middle(g.low, g.high);
         for (int k = 0; k < attempts; ++k) {
@@ -114,7 +114,7 @@ private:
         return {};
     }
 
-    // From off the middle at one orientation to the same at another; without the first pose.
+    // Go from beside the middle at one orientation to the same at another, without the first pose.
     void along(const Sheet& f, const Station& first, const Station& last, Poses& way) const {
         struct Part {
             Station end;
@@ -142,7 +142,7 @@ private:
         }
     }
 
-    // The same by a slide: always on the trapezoid.
+    // Go by a slide, always on the trapezoid.
     std::optional<Poses> along_curve(const Sheet& f, const Station& p, const Station& to) const {
         const auto [p_low, p_high] = f.limits(p.tau);
         const auto [to_low, to_high] = f.limits(to.tau);
@@ -153,7 +153,7 @@ private:
         return {};
     }
 
-    // From beside the middle of one sheet to the same on the other, over their common curve; without the first pose.
+    // Go from beside the middle of one sheet to the same on the other, over their common curve, without the first pose.
     void over_curve(const Sheet& f, const Station& p, const Sheet& g, const Station& q, bool upper, Poses& way) const {
         const auto [low, high] = f.limits(p.tau);
         const RationalPose corner = f.pose(upper ? high : low, p.tau);
@@ -162,11 +162,11 @@ private:
         append(way, *found, 1);
     }
 
-    // From one landing to another, both ways included.
+    // Follow steps from one landing to another, the ways of both landings included.
     void follow(const std::vector<FaceGraph::Step>& steps, const std::vector<const Landing*>& ends, const Landing* first,
                 const Landing* last, Poses& way) const {
         const auto base = static_cast<Index>(walker.cells->face.size());
-        const Landing* entered = first;  // none: over a side, and now off the middle
+        const Landing* entered = first;  // null: over a side, and now beside the middle
         std::optional<Station> at;
         for (std::size_t k = 0; k < steps.size(); ++k) {
             const auto [face, h] = steps[k];
@@ -194,7 +194,7 @@ private:
         }
     }
 
-    // Along a sheet and over a side of it to the next.
+    // Go along a sheet and over a side of it to the next.
     Station over(Sheet& f, const Station& from, Index h, Index next, Poses& way) const {
         Sheet g = landings.sheet(next);
         const auto side = static_cast<Side>(walker.cells->side[h]);
@@ -230,7 +230,7 @@ std::shared_ptr<const std::vector<Link>> BoundaryWalker::links(const Landings& l
         const std::lock_guard guard(lock);
         if (const auto it = known.find(cell); it != known.end()) return it->second;
     }
-    auto found = std::make_shared<const std::vector<Link>>(landings.links(cell));  // threads may find it twice, and find the same
+    auto found = std::make_shared<const std::vector<Link>>(landings.links(cell));  // threads may compute it twice, alike
     const std::lock_guard guard(lock);
     return known.emplace(cell, std::move(found)).first->second;
 }

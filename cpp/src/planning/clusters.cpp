@@ -1,4 +1,4 @@
-// Gaps in sorted coordinates.
+// Cluster points by gaps in sorted coordinates.
 #include "cfree/planning/clusters.hpp"
 
 #include <algorithm>

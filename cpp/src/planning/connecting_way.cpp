@@ -1,4 +1,4 @@
-// Stretches on surfaces, joined by straight ways; theory, "One surface alone".
+// Join stretches on surfaces by straight ways; theory, "One surface alone".
 #include "cfree/planning/connecting_way.hpp"
 
 #include <algorithm>

@@ -9,18 +9,18 @@ namespace cfree {
 
 namespace {
 
-constexpr int degree = 4;  // of slides
+constexpr int degree = 4;  // degree of slides
 
 bool touches(const Scene& scene, const Feature& contact) {
     const auto [kind, i, j] = contact;
     const Shape &A = scene.robot, &O = scene.obstacles;
     if (i >= A.ring_vertices || j >= O.ring_vertices) return false;
-    return A.emit[i] && O.emit[j] && A.layer[i] == O.layer[j];  // only the reference point has bounds
+    return A.emit[i] && O.emit[j] && A.layer[i] == O.layer[j];  // bounds apply only to the reference point
 }
 
-// Bernstein coefficients for t from 0 to tau, times a positive number: the polynomial is between the least and the largest.
+// Bernstein coefficients for t from 0 to tau, times a positive number: they bound the polynomial.
 std::vector<Int> control_points(const Poly& f, const Ratio& tau) {
-    constexpr int common = 60;  // of the binomial coefficients up to those of 6
+    constexpr int common = 60;  // common multiple of the binomial coefficients up to those of 6
     const int n = std::max(f.size() - 1, 0);
     std::vector<Int> binomial(static_cast<std::size_t>(n) + 1, 1), result(binomial.size(), 0);
     for (int k = 1; k <= n; ++k) binomial[k] = binomial[k - 1] * (n - k + 1) / k;
@@ -48,7 +48,7 @@ Poly scaled(Poly f, const Int& by) {
     return f;
 }
 
-// Whether a quotient is certainly between 0 and 1.
+// True if a quotient is certainly between 0 and 1.
 bool is_within_edge(const Poly& share, const Poly& whole, const Ratio& tau) {
     std::array<Poly, 2> parts{share, whole};
     cancel(parts);
@@ -134,7 +134,7 @@ std::optional<ContactSlide> free_slide(const Scene& scene, const MotionChecker& 
     const Index edge = on_edge ? curve.obstacle : curve.robot;
     const Shape& others = on_edge ? scene.robot : scene.obstacles;
     const Index vertex = on_edge ? curve.robot : curve.obstacle;
-    // curves have one name for all that coincides: a vertex of the robot may stand for the reference point
+    // curves have one name for all coinciding features: a vertex of the robot may stand for the reference point
     for (Index e = 0; e < shape.ring_vertices; ++e) {
         if (shape.line[e] != shape.line[edge]) continue;
         for (Index v = 0; v < others.ring_vertices; ++v) {

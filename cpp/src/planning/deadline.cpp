@@ -1,4 +1,4 @@
-// The message when time is up.
+// Message at the time limit.
 #include "cfree/planning/deadline.hpp"
 
 #include "cfree/exact/ratio.hpp"

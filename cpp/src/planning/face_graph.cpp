@@ -1,4 +1,4 @@
-// A* over the sides of faces: what is left is at least as long as the straight way; theory, "Paths".
+// A* over the sides of faces: the rest of a path is at least as long as the straight way; theory, "Paths".
 #include "cfree/planning/face_graph.hpp"
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// How far positions are from those of the frame.
+// Offset of positions from those of the frame.
 Vec<double> moved(const Scene& scene, double theta) {
     const auto [x, y, a, b] = scene.frame;
     if (x == 0 && y == 0 && a == 0 && b == 0) return {0, 0};
@@ -83,8 +83,8 @@ std::vector<FaceGraph::Step> FaceGraph::shortest(const Place& start, std::span<c
     constexpr Index unseen = -2;
     struct Node {
         Place at;
-        double left, cost = std::numeric_limits<double>::infinity();  // at least; and the least one known
-        Index before = unseen, face = far_away;                      // the half-edge before, and the face after that
+        double left, cost = std::numeric_limits<double>::infinity();  // lower bound of the rest; least known cost
+        Index before = unseen, face = far_away;                      // the half-edge before, and the face after it
     };
     // ends of links and of the way, then the sides of faces that have been entered, one after the other
     std::vector<Node> nodes;

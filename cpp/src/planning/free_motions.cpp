@@ -1,4 +1,4 @@
-// Rational poses as motions of integers; theory, "Motions".
+// Convert motions between rational poses to integers; theory, "Motions".
 #include "cfree/planning/free_motions.hpp"
 
 #include "cfree/support/lookout.hpp"

@@ -1,4 +1,4 @@
-// Curves that end where others begin; theory, "Paths", "Exact fits".
+// Join curves that end at the start of others; theory, "Paths", "Exact fits".
 #include "cfree/planning/irrational_places.hpp"
 
 #include <cmath>
@@ -11,12 +11,12 @@ namespace cfree {
 
 namespace {
 
-constexpr int most_turns = 256;              // attempts at one, nearer and nearer to the critical angle
-constexpr unsigned halvings[] = {4, 16, 64}; // of the way to the other end: how near to an irrational orientation a slide begins
+constexpr int most_turns = 256;              // attempts per turn, closer and closer to the critical angle
+constexpr unsigned halvings[] = {4, 16, 64}; // halvings towards the end: nearness of a slide to it
 
 bool are_near(double theta, double other) { return std::abs(std::remainder(theta - other, 2 * std::numbers::pi)) <= not_told_apart; }
 
-// One of the curves of a sheet near its first or last orientation, and what holds it.
+// One of the curves of a sheet near its first or last orientation, and its holder.
 struct Tail {
     Sheet sheet;
     std::size_t side;
@@ -24,7 +24,7 @@ struct Tail {
     Holder holder;
     std::vector<Int> name;
 
-    // On it, nearer and nearer to its end.
+    // Pose on it, closer and closer to its end.
     RationalPose pose(unsigned nearer) const {
         const Ratio &low = sheet.low, &high = sheet.high;
         const Ratio share = (high - low) / Ratio{Int(1) << nearer};
@@ -34,7 +34,7 @@ struct Tail {
     }
 };
 
-// Whether an angle of what meets is rational, and there.
+// True if an angle of a member of the encounter is rational, and there.
 bool is_rational(const MeetingPlaces& places, const Encounter& encounter) {
     const Boundary& boundary = *places.walker->space->boundary;
     for (const Index face : encounter.faces)
@@ -48,7 +48,7 @@ bool is_rational(const MeetingPlaces& places, const Encounter& encounter) {
     return false;
 }
 
-// What begins or ends at one, if its orientation is irrational.
+// Tails that begin or end at an encounter, if its orientation is irrational.
 std::vector<Tail> tails(const MeetingPlaces& places, const Encounter& encounter) {
     std::vector<Tail> found;
     if (is_rational(places, encounter)) return found;
@@ -70,7 +70,7 @@ std::vector<Tail> tails(const MeetingPlaces& places, const Encounter& encounter)
     return found;
 }
 
-// Slides through vertices at irrational orientations where several parts seem to meet.
+// Find slides through vertices at irrational orientations at which several parts seem to meet.
 void find_slides(const MeetingPlaces& places, std::vector<Poses>& found) {
     const FreeMotions motions = places.walker->motions();
     for (const Encounter& encounter : places.encounters()) {
@@ -90,7 +90,7 @@ void find_slides(const MeetingPlaces& places, std::vector<Poses>& found) {
     }
 }
 
-// Turns about a place within critical angles along which cells or surfaces with slits touch.
+// Find turns about a place within critical angles along which cells or surfaces with slits touch.
 void find_turns(const BoundaryWalker& walker, std::vector<Poses>& found) {
     const CellComplex& cells = *walker.cells;
     const auto end = [&](Index h) {

@@ -1,4 +1,4 @@
-// Boundary, surfaces and cells, one after the other; theory, "Cells" and "Separations".
+// Compute boundary, surfaces and cells when needed; theory, "Cells" and "Separations".
 #include "cfree/planning/known_scene.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 std::int64_t count_of(const std::vector<char>& flags) { return std::count_if(flags.begin(), flags.end(), [](char c) { return c != 0; }); }
 
-// The closed surfaces around a cell.
+// Closed surfaces around a cell.
 std::set<Index> around_cell(const Built& built, Index cell) {
     const FreeSpace& space = *built.space;
     const Surfaces& surfaces = space.surfaces;
@@ -26,7 +26,7 @@ std::set<Index> around_cell(const Built& built, Index cell) {
     return found;
 }
 
-// A boundary, with the share that is done; unless time is up.
+// Compute a boundary, and report the share done; throws if time is up.
 SharedBoundary computed(const std::shared_ptr<const Scene>& scene, bool regularized, const Listener& listener) {
     const Deadline deadline(listener);
     const auto* flag = stop_flag;
@@ -75,7 +75,7 @@ std::shared_ptr<KnownScene> KnownScene::of(const SceneShapes& shapes) {
     return std::make_shared<KnownScene>(std::move(features), std::move(checker));
 }
 
-// Within the bounds, and not beyond the frame around the workspace.
+// True if a pose is within the bounds, and not beyond the frame around the workspace.
 bool KnownScene::is_within_limits(const RationalPose& pose) const {
     if (shapes().bounds) {
         const auto& [x0, y0, x1, y1] = *shapes().bounds;

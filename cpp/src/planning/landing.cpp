@@ -19,7 +19,7 @@ RationalPose shifted(const RationalPose& q, const Ratio& share, const Ratio& dx,
     return {q.x + share * dx, q.y + share * dy, q.half};
 }
 
-// Where a way leads, to an orientation within: nearer and nearer to where it begins.
+// Try orientations within, closer and closer to the beginning of a way, until one has a free way.
 template <class F>
 RationalPose shortened(const Ratio& tau, Ratio far, F&& way) {
     for (int k = 0; k < most_halvings; ++k) {
@@ -40,7 +40,7 @@ Extent::Extent(const CellComplex& cells, const Ratio& of_robot) : reach(of_robot
         low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     const double size = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
-    const Ratio rounding = ratio_of(size * 0x1p-40);  // more than doubles are off
+    const Ratio rounding = ratio_of(size * 0x1p-40);  // exceeds the error of doubles
     length = ratio_of(2 * ((high.x - low.x) + (high.y - low.y))) + times(reach, 2) + rounding;
     far = ratio_of(low.x) - times(reach, 2) - rounding;
 }
@@ -61,7 +61,7 @@ RationalPose Landings::off(const Sheet& sheet, const Ratio& t, const Ratio& tau)
     return shifted(pose, simple_middle(room / Ratio{4}, times(room, 3) / Ratio{4}), dx, dy);
 }
 
-// --- ways off a pose: every cell in whose closure it is, is entered ---
+// --- ways off a pose: enter every cell whose closure contains it ---
 
 std::vector<Landing> Landings::departures(const RationalPose& pose, Index cell) const {
     std::vector<Landing> found;
@@ -74,8 +74,8 @@ std::vector<Landing> Landings::departures(const RationalPose& pose, Index cell) 
     return found;
 }
 
-// From a pose on a trapezoid, which begins (-1) or ends (1) at its orientation or does not, to one within: a rotation about the
-// point of contact leads there, or where it has no width a motion along one of its curves.
+// Poses from a pose on a trapezoid, which begins (-1) or ends (1) at its orientation or does not (0), to one within: by a
+// rotation about the point of contact, or, without width, by a motion along one of its curves.
 Poses Landings::inwards(const Sheet& sheet, const RationalPose& pose, int end) const {
     if (end == 0) return {pose};
     const Ratio tau = pose.half.tau_in(sheet.chart);
@@ -112,7 +112,7 @@ std::vector<Landing> Landings::of(const RationalPose& pose, Index cell) const {
     return found;
 }
 
-// What a straight way leads to; a way far away is one to the left.
+// Landings of a straight way; a way far away leads to the left.
 std::vector<Landing> Landings::straight(const RationalPose& pose, int x, int y, Index cell) const {
     const RationalPose there_far{extent.far, pose.y, pose.half};
     const bool is_left = x < 0 && y == 0;
@@ -133,7 +133,7 @@ std::vector<Landing> Landings::straight(const RationalPose& pose, int x, int y, 
 std::vector<Link> Landings::links(Index cell) const {
     const auto& component = space.surfaces.component;
     const Trapezoids& table = space.boundary->trapezoids;
-    std::map<Index, Index> widest;  // of each island
+    std::map<Index, Index> widest;  // by island
     const auto width = [&](Index k) { return table.tau_to(k) - table.tau_from(k); };
     for (Index k = 0; k < static_cast<Index>(component.size()); ++k) {
         const Index of = component[k];
@@ -176,7 +176,7 @@ void Landings::link(Index widest, Index cell, std::vector<Link>& found) const {
     }
 }
 
-// Where the line of a trapezoid is at a pose's height and orientation; nothing if it is level there.
+// Place of a trapezoid's line at a pose's height and orientation; nothing if the line is level there.
 std::optional<Ratio> Landings::crossing(Index face, const RationalPose& pose) const {
     const auto [P, U, w] = sheet(face).at(pose.half);
     if (U.y.is_zero()) return {};

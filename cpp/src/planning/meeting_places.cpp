@@ -1,4 +1,4 @@
-// Where to look for places without width, and what holds them; theory, "Paths", "Exact fits".
+// Candidates for places without width, and their holders; theory, "Paths", "Exact fits".
 #include "cfree/planning/meeting_places.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-// Each closed surface as a cell of its own: any two poses on one are joined along it.
+// Walker with each closed surface as a cell of its own: it joins any two poses on one along it.
 std::unique_ptr<const BoundaryWalker> walker_on_slits(const BoundaryWalker& walker, std::shared_ptr<const CellComplex> cells) {
     if (!cells) return nullptr;
     const auto count = static_cast<std::size_t>(cells->components);
@@ -122,7 +122,7 @@ Poses MeetingPlaces::candidates() const {
     return found;
 }
 
-// Of surfaces with slits: a pose well within each face, its corners, and where surfaces touch.
+// Add candidates on surfaces with slits: a pose well within each face, its corners, and contacts of surfaces.
 void MeetingPlaces::on_surfaces(Poses& found) const {
     if (!slits) return;
     for (Index face = 0; face < static_cast<Index>(slits->cells->component.size()); ++face) {
@@ -171,7 +171,7 @@ std::vector<Encounter> MeetingPlaces::find_encounters() const {
     return found;
 }
 
-// Of cells other than these, that a vertex is on.
+// Faces of other cells that contain a vertex.
 std::vector<Index> MeetingPlaces::faces_beside(Index vertex, const std::set<Index>& of_cells) const {
     const Boundary& boundary = *walker->space->boundary;
     const Scene& scene = *boundary.scene;
@@ -199,7 +199,7 @@ std::vector<Index> MeetingPlaces::faces_beside(Index vertex, const std::set<Inde
     return found;
 }
 
-// Of a face, at its first and last orientations as far as they are rational.
+// Corners of a face, at its first and last orientations if these are rational.
 Poses MeetingPlaces::corners(const BoundaryWalker& on, Index face) {
     heed_stop();
     const Sheet sheet = on.sheet(face);
@@ -215,7 +215,7 @@ Poses MeetingPlaces::corners(const BoundaryWalker& on, Index face) {
 
 // --- along edges ---
 
-// Within curves along which cells touch.
+// Add candidates within curves along which cells touch.
 void MeetingPlaces::at_edges(const BoundaryWalker& on, Poses& found) const {
     for (const auto& coedges : pinched(*on.cells)) {
         const auto side = static_cast<Side>(on.cells->side[coedges[0]]);
@@ -237,7 +237,7 @@ void MeetingPlaces::at_edges(const BoundaryWalker& on, Poses& found) const {
 
 // --- on isolated parts ---
 
-// Its ends, and where it crosses others.
+// Add the ends of a part, and its crossings with others.
 void MeetingPlaces::at_part(const ThinPart& part, Poses& found) const {
     heed_stop();
     for (const auto& end : part.ends)

@@ -1,4 +1,4 @@
-// Off a contact as a free pose nearby is, by a half, a quarter, and so on of that; theory, "Separations".
+// Move off a contact like a free pose near by, by a half, a quarter, and so on of its offset; theory, "Separations".
 #include "cfree/planning/off_contacts.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Offset {
     double length() const { return norm(nearest(x.n, x.d), nearest(y.n, y.d)); }
 };
 
-// From a pose of contact to a free one that is turned as it is; about as long as another.
+// Offset from a pose of contact to a free one of the same orientation, about as long as another offset.
 Offset between(const RationalPose& contact, const RationalPose& free) {
     if (contact.half != free.half) return {};
     return {free.x - contact.x, free.y - contact.y};
@@ -28,8 +28,8 @@ Offset scaled(const Offset& d, double by) {
     return {share * d.x, share * d.y};
 }
 
-// From a free pose over contacts to another free one. Free poses are off the contact of the first and off that of the last; off
-// both is the way in between.
+// Bridge from a free pose over contacts to another free one. The first pose is off the first contact, the last one is off the
+// last contact; the way in between is off both.
 std::optional<Poses> bridge(const RationalPose& from, const Poses& contacts, const RationalPose& to, const FreeMotions& motions) {
     if (motions.join({from, to})) return Poses{from, to};
     if (contacts.empty()) return {};

@@ -56,7 +56,7 @@ std::optional<Poses> Passages::path(const RationalPose& start, const RationalPos
     }
 }
 
-// Breadth first over poses, and, numbered after them, what holds them.
+// Search breadth first over poses, and their holders, numbered after them.
 std::optional<std::vector<Passages::Step>> Passages::fewest(const Spots& all, Index start, Index goal) const {
     const auto count = static_cast<Index>(all.poses.size());
     std::map<Holder, Index> number;

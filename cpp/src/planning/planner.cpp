@@ -1,4 +1,4 @@
-// Simple ways, search and surfaces in turns, all of the free space; theory, "Paths" and "One surface alone".
+// Alternate simple ways, search and surfaces, then use all of the free space; theory, "Paths" and "One surface alone".
 #include "cfree/planning/planner.hpp"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace cfree {
 
 namespace {
 
-constexpr int search_guesses = 40000;  // of motions, at most: each looks at all of the trees
-constexpr int quick_guesses = 2000;    // before anything exact is
-constexpr int guesses_each = 45;       // that take no longer than a patch of a surface
-constexpr double most_few = 0.75;      // of all patches: surfaces with more of them are not few
+constexpr int search_guesses = 40000;  // most guesses of motions: each scans all of the trees
+constexpr int quick_guesses = 2000;    // guesses before any exact work
+constexpr int guesses_each = 45;       // guesses that take no longer than a patch of a surface
+constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
 bool is_before(const RationalPose& a, const RationalPose& b) {
     if (a.x != b.x) return a.x < b.x;
@@ -25,7 +25,7 @@ bool is_before(const RationalPose& a, const RationalPose& b) {
     return Ratio{a.half.p, a.half.q} < Ratio{b.half.p, b.half.q};
 }
 
-// A quarter turn about the middle of two poses, from one to half a turn away from it.
+// Pose half-way between a pose and one half a turn away: a quarter turn about their middle.
 RationalPose half_way(const RationalPose& from, const RationalPose& to) {
     const Ratio half{1, 2}, x = half * (from.x + to.x), y = half * (from.y + to.y), u = from.x - x, v = from.y - y;
     return {x - v, y + u, HalfAngle::along(from.half.q - from.half.p, from.half.q + from.half.p)};
@@ -201,7 +201,7 @@ std::optional<Poses> Planner::in_a_cell(const End& start, const End& goal, const
     return walker(listener)->walk(start, goal, cell);
 }
 
-// Two poses in different cells, or in none.
+// Plan between two poses in different cells, or in none.
 Planner::Found Planner::by_all(const End& start, const End& goal, const Listener& listener) {
     const int first = insets().first();
     {

@@ -1,4 +1,4 @@
-// Poses as the planner has them, and as the rest of the core takes them; theory, "Poses, exactly".
+// Convert poses between the planner and the rest of the core; theory, "Poses, exactly".
 #include "cfree/planning/rational_pose.hpp"
 
 #include <cmath>

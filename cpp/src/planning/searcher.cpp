@@ -1,4 +1,4 @@
-// Few bits for random poses, more for those on paths; theory, "Paths".
+// Grids with few bits for random poses, and more for those on paths; theory, "Paths".
 #include "cfree/planning/searcher.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace cfree {
 
 namespace {
 
-constexpr int place_bits = 24, angle_bits = 20;            // of random poses: few, for short integers
-constexpr int fine_place_bits = 40, fine_angle_bits = 36;  // of poses on paths
+constexpr int place_bits = 24, angle_bits = 20;            // bits of random poses: few, for short integers
+constexpr int fine_place_bits = 40, fine_angle_bits = 36;  // bits of poses on paths
 
 Area scaled(const Area& area, double by) { return {area.x0 * by, area.y0 * by, area.x1 * by, area.y1 * by}; }
 

@@ -1,4 +1,4 @@
-// Lines of contact at rational orientations, and where they end; theory, "Paths".
+// Lines of contact at rational orientations, and their ends; theory, "Paths".
 #include "cfree/planning/sheet.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace cfree {
 
 namespace {
 
-// Without the factor r tau - n.
+// Divide by the factor r tau - n.
 Poly divided(const Poly& f, const Ratio& root) {
     Poly result;
     result.resize(f.size() - 1);
@@ -21,7 +21,7 @@ Poly divided(const Poly& f, const Ratio& root) {
     return result;
 }
 
-// t of where another line meets one, over its denominator.
+// t at the intersection of a line with another, as numerator and denominator.
 std::array<Poly, 2> quotient(const MovingLine& one, const MovingLine& other) {
     return {cross(difference(other.P, one.P), other.U), cross(one.U, other.U)};
 }
@@ -60,7 +60,7 @@ Sheet::Line Sheet::at(const HalfAngle& half) const {
     return {line.start(r), line.direction(r), r.w};
 }
 
-// t of a vertex on the line, where it always is.
+// Constant t of a vertex that is always on the line.
 Ratio Sheet::along(const Feature& helix) const {
     const Vec<Int> to = line.on_edge ? CoreUnits<Int>{}.vertex(scene.obstacles, helix.obstacle) - line.b
                                      : CoreUnits<Int>{}.vertex(scene.robot, helix.robot) - line.a;
@@ -102,7 +102,7 @@ std::vector<Int> Sheet::trace(std::size_t side) const {
     return name;
 }
 
-// Where two lines coincide: common factors are divided out.
+// Limit of t at an orientation at which two lines coincide: common factors are divided out.
 Ratio Sheet::limit_around(const ContactLine<Int>& other, const Ratio& tau) const {
     auto [n, d] = quotient(moving(line), moving(other));
     while (!d.empty() && value_at(d, tau).is_zero() && value_at(n, tau).is_zero()) {

@@ -12,8 +12,8 @@ namespace cfree {
 
 namespace {
 
-constexpr Index first_step = 64, last_step = 1 << 29;  // trapezoids around each of two poses
-constexpr int most_attempts = 48;  // places near a pose from which a ray is tried, nearer and nearer
+constexpr Index first_step = 64, last_step = 1 << 29;  // trapezoids around each of the two poses
+constexpr int most_attempts = 48;  // places near a pose, closer and closer, from which rays are tried
 
 Int largest(const std::vector<Int>& X, const std::vector<Int>& Y) {
     Int result = 0;
@@ -56,7 +56,7 @@ bool Surroundings::start_again(Search& s) const {
     return false;
 }
 
-// What the ray meets first: a trapezoid of it is kept.
+// Find the first surface that the ray meets, and store a trapezoid of it.
 Surroundings::Met Surroundings::meet(Search& s) {
     const ExactPose& q = s.at;
     const Int length = q.X - far_left() * q.W;  // over W
@@ -78,14 +78,14 @@ Surroundings::Met Surroundings::meet(Search& s) {
     return Met::surface;
 }
 
-// The surface with a contact, if it is known.
+// Known surface with a contact, if there is one.
 Index Surroundings::known_at(const ExactPose& contact) const {
     for (Index k = 0; k < static_cast<Index>(surfaces.size()); ++k)
         if (!surfaces[k].rays->nearby(contact).on.empty()) return k;
     return -1;
 }
 
-// Go on behind a surface that is no outer boundary; false if the ray meets something of it that is not clear.
+// Go on behind a surface that is no outer boundary; false if a crossing of the ray with it is unclear.
 bool Surroundings::pass(Search& s, Index surface) const {
     const auto seen = surfaces[surface].rays->nearby(s.from);
     if (!seen.generic || !seen.on.empty()) return false;
@@ -100,7 +100,7 @@ bool Surroundings::pass(Search& s, Index surface) const {
     return true;
 }
 
-// The leftmost of the places where the ray crosses trapezoids.
+// Leftmost of the places at which the ray crosses trapezoids.
 std::optional<ExactPose> Surroundings::beyond(const Search& s, const Known& surface, const std::vector<Index>& crossed) const {
     const ExactPose& q = s.from;
     const auto R = rotation_by(q.chart, q.p, q.r);
@@ -190,7 +190,7 @@ void Connecting::look(int k, Index most) {
         result.verdict = Connection::Verdict::apart, result.surface = around->surface(one.surface), result.inside = k;
 }
 
-// Over islands, then over a surface or far away, then over other islands.
+// Join over islands, then over a surface or far away, then over other islands.
 void Connecting::join(const std::shared_ptr<const CellComplex>& common) {
     result.verdict = Connection::Verdict::joined;
     result.near_start = ends[0].from, result.near_goal = ends[1].from;

@@ -1,4 +1,4 @@
-// Poses on parts without width, exact; theory, "Paths", "Exact fits".
+// Exact poses on parts without width; theory, "Paths", "Exact fits".
 #include "cfree/planning/thin_part.hpp"
 
 #include <algorithm>
@@ -13,21 +13,21 @@ namespace cfree {
 
 namespace {
 
-constexpr int samples = 8;             // of a curve
-constexpr std::size_t most_parts = 64; // of a curve: one slide does unless its formula cannot be seen to be defined on all of it
+constexpr int samples = 8;             // samples of a curve
+constexpr std::size_t most_parts = 64; // parts of a curve: one slide suffices if its formula is proved to be defined
 
 std::optional<Ratio> rational_angle(const Scene& scene, const CriticalAngle& x) {
     return x.lo == x.hi ? ratio_of(x.lo) : rational_value(x.exact(scene.near()));
 }
 
-// A part's first or last angle.
+// First or last angle of a part.
 CriticalAngle angle_of(const Boundary& boundary, Index k, bool last) {
     const IsolatedParts& all = boundary.isolated;
     const Surface on{boundary.patches.contact((last ? all.to_patch : all.from_patch)[k]), all.parts.chart[k]};
     return last ? angle_to(on, all.parts, k) : angle_from(on, all.parts, k);
 }
 
-// Whether it has more than one orientation.
+// True if a part has more than one orientation.
 bool turns(const Boundary& boundary, Index k) {
     const auto from = angle_of(boundary, k, false), to = angle_of(boundary, k, true);
     const auto said = [](const CriticalAngle& x) { return std::tuple(packed(x.on().contact), packed(x.first), packed(x.second), x.lo, x.hi, x.place); };

@@ -1,4 +1,4 @@
-// Vertices joined with those they see to their left, then edges flipped; docs/inside-the-core.md.
+// Join vertices with those visible to their left, then flip edges; docs/inside-the-core.md.
 #include "cfree/polygons/constrained_delaunay.hpp"
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace cfree {
 
 namespace {
 
-// Hertel and Mehlhorn's sweep. Between two edges that the sweep line cuts, where the interior is, a chain of vertices from
-// the lower edge's start to the upper one's separates what is triangulated from what is not: no corner of it, seen from the
-// right, is convex. A vertex met at either end of the chain cuts off the corners it makes convex.
+// Hertel and Mehlhorn's sweep. Between two edges that the sweep line cuts, with the interior between them, a chain of
+// vertices from the lower edge's start to the upper one's separates the triangulated part from the rest: no corner of it,
+// viewed from the right, is convex. A vertex met at either end of the chain cuts off the corners that it makes convex.
 class SweptTriangles {
 public:
     SweptTriangles(const Points& v, const std::vector<std::vector<Index>>& rings) : points(v), line(v, start, end) {
@@ -30,7 +30,7 @@ public:
         std::vector<Index> edges(start.size());
         std::iota(edges.begin(), edges.end(), 0);
         std::sort(edges.begin(), edges.end(), [&](Index e, Index f) { return points.before(start[e], start[f]); });
-        // where edges end and none starts is a point, too
+        // a point at which edges end and none starts also counts
         std::vector<Index> stops = start;
         stops.insert(stops.end(), end.begin(), end.end());
         std::sort(stops.begin(), stops.end());
@@ -54,7 +54,7 @@ private:
     };
     const Points& points;
     std::vector<Index> start, end;
-    std::vector<char> rightward;  // by edge: then the interior is above it
+    std::vector<char> rightward;  // by edge: true if the interior is above it
     SweepLine line;
     std::vector<Node> nodes;
     std::vector<Chain> chains;  // by the edge below
@@ -90,7 +90,7 @@ private:
         const bool is_inside_below = under >= 0 && rightward[under];
         Chain above;  // right above p, if the interior is there
         if (arriving.empty() && is_inside_below) {
-            // the latest vertex of the chain sees p: both parts begin with it
+            // p is visible from the latest vertex of the chain: both parts begin with it
             Chain& chain = chains[under];
             const Index latest = chain.latest, beyond = nodes[latest].above, copy = add(nodes[latest].vertex, -1, beyond);
             above = {copy, beyond < 0 ? copy : chain.highest, copy};
@@ -118,7 +118,7 @@ private:
     }
 };
 
-// Is a point inside a circle, in the frame of the points' box?
+// Exact tests that points are inside circles, in the frame of the points' box.
 class Circles {
 public:
     explicit Circles(const Points& v) : points(v) {
@@ -139,10 +139,10 @@ public:
             const auto [qx, qy] = place[d];
             about[k] = {{px - qx, px + qx}, {py - qy, py + qy}};
         }
-        // fifteen roundings in a row: of differences 2, of their squares' sum 6, of their cross product 6, then 13, and two sums
+        // fifteen roundings in a row: differences 2, their squares' sum 6, their cross product 6, then 13, and two sums
         const Approx value = determinant(about, [](const Vec<Approx>& u) { return dot(u, u); });
         if (std::abs(value.v) > 16 * 0x1p-53 * value.m + 0x1p-900) return value.v > 0 ? 1 : -1;
-        if (are_tiny) {  // differences of 20 bits, stretched ones of 40, their squares' sums of 81, times cross products of 41
+        if (are_tiny) {  // differences have 20 bits, stretched ones 40, their squares' sums 81, cross products 41
             const auto w = static_cast<std::int64_t>(width), h = static_cast<std::int64_t>(height);
             std::array<Vec<Wide>, 3> exact;
             for (std::size_t k = 0; k < 3; ++k)

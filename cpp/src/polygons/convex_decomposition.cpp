@@ -1,4 +1,4 @@
-// Diagonals taken out while both sides stay convex, the least useful first; docs/inside-the-core.md.
+// Remove diagonals while both sides stay convex, the least useful first; docs/inside-the-core.md.
 #include "cfree/polygons/convex_decomposition.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using IndexRings = std::vector<std::vector<Index>>;
 
-// Rings of vertices, in which points of other rings that touch an edge are vertices too.
+// Rings of vertices, including points of other rings that touch an edge.
 IndexRings outline(const Polygon& polygon) {
     const Points& v = polygon.vertices;
     const RingLinks links(polygon.offsets);
@@ -25,7 +25,7 @@ IndexRings outline(const Polygon& polygon) {
         const auto order = swept_order(v);
         for (std::size_t k = 1; k < order.size(); ++k)
             if (v.same(order[k - 1], order[k])) names[order[k]] = names[order[k - 1]];
-        touching = std::get<Nesting>(sweep(v, polygon.offsets)).touching;  // a polygon's rings do not cross
+        touching = std::get<Nesting>(sweep(v, polygon.offsets)).touching;  // rings of a polygon do not cross
         for (auto& [edge, point] : touching) point = names[point];
         std::sort(touching.begin(), touching.end(), [&](const auto& a, const auto& b) {
             return a.first != b.first ? a.first < b.first : v.before(a.second, b.second);
@@ -46,7 +46,7 @@ IndexRings outline(const Polygon& polygon) {
     return rings;
 }
 
-// Diagonals by the number of reflex vertices each of them would cure alone, longer ones first.
+// Order of diagonals by the number of reflex vertices that each of them removes alone, longer ones first.
 class Usefulness {
 public:
     Usefulness(const Points& points, const IndexRings& rings) : v(points), around(static_cast<std::size_t>(points.size())) {
@@ -76,7 +76,7 @@ private:
     }
 };
 
-// The face without straight vertices, from its least index on.
+// Face without straight vertices, from its least index on.
 std::vector<Index> corners_only(const Points& v, const std::vector<Index>& face) {
     std::vector<Index> corners;
     const std::size_t n = face.size();
@@ -100,7 +100,7 @@ Pieces merged(const Points& v, const IndexRings& rings, const Cover& cover) {
         if (twin[h] >= 0 && origin(h) < origin(twin[h])) diagonals.push_back(usefulness.of(origin(h), origin(twin[h]), h));
     std::sort(diagonals.begin(), diagonals.end(), std::cref(usefulness));
 
-    // the corner at the origin of h, once h and its reverse are gone (below 2 pi, as at every vertex)
+    // the corner at the origin of h, without h and its reverse (below 2 pi, as at every vertex)
     const auto is_convex_without = [&](Index h, Index back) {
         return v.orient(origin(preceding[h]), origin(h), origin(following[following[back]])) >= 0;
     };

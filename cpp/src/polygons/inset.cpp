@@ -1,4 +1,4 @@
-// Mitred corners, in doubles, checked exactly; theory, "Separations".
+// Mitre corners in doubles, and check the result exactly; theory, "Separations".
 #include "cfree/polygons/inset.hpp"
 
 #include <algorithm>
@@ -9,16 +9,16 @@ namespace cfree {
 
 namespace {
 
-constexpr double least_share = 0x1p-30;  // corners sharper than any that a mitre is of use to move no farther
-constexpr int finer = 12;  // bits of an inset that survive the rounding of its polygons
+constexpr double least_share = 0x1p-30;  // limit of a mitre: corners that are sharper move no farther
+constexpr int finer = 12;  // bits of an inset that the rounding of its polygons leaves
 
-// The k of 2^(k - 1) <= x < 2^k, x > 0.
+// Exponent k with 2^(k - 1) <= x < 2^k, x > 0.
 int exponent_of(const Ratio& x) {
     const int k = static_cast<int>(msb(x.n)) - static_cast<int>(msb(x.d));
     return x < power_of_two(k) ? k : k + 1;
 }
 
-// The nearest multiple, of two the even one.
+// Nearest multiple, the even one of two.
 Ratio snapped(const Ratio& x, const Ratio& grid) {
     const Ratio steps = x / grid;
     Int floor, rest;
@@ -36,7 +36,7 @@ Vec<double> unit(const Polygon& polygon, Index from, Index to) {
     return {x / length, y / length};
 }
 
-// Rings whose edges have moved inwards, as far as directions of vertices can be rounded; none if an edge turns.
+// Rings with edges moved inwards, up to the rounding of directions of vertices; none if an edge turns.
 std::vector<RatioRing> mitred(const Polygon& polygon, const Ratio& by) {
     const auto& v = polygon.vertices;
     std::vector<RatioRing> rings;

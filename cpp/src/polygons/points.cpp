@@ -1,4 +1,4 @@
-// Signs of exact points, in machine integers where these hold them; docs/inside-the-core.md.
+// Signs of exact points, in machine integers if these can hold them; docs/inside-the-core.md.
 #include "cfree/polygons/points.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace cfree {
 namespace {
 
 constexpr unsigned small_bits = 62;    // differences have 63, products of two 126, their sum 127
-constexpr int scaled_bits = 100;       // of the doubles: nothing overflows, and what underflows is below `least`
+constexpr int scaled_bits = 100;       // bits of the doubles: nothing overflows, and underflows are below `least`
 constexpr double least = 0x1p-900;
 
 unsigned bits(const Int& n) { return n.is_zero() ? 0 : static_cast<unsigned>(msb(abs(n))) + 1; }

@@ -1,4 +1,4 @@
-// From points as a user gives them to rings that bound a polygon: read, clean, check, turn around.
+// Convert input points to rings that bound a polygon: read, clean, check, turn around.
 #include "cfree/polygons/polygon.hpp"
 
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace {
 
 std::string name_of(Index ring) { return ring ? "hole " + std::to_string(ring - 1) : "outer ring"; }
 
-// The points of one ring that are left, by their numbers in the input.
+// Remaining points of one ring, by their numbers in the input.
 struct Cleaned {
     std::vector<Index> source;
     std::vector<Removed> removed;
 };
 
-// Leaves out repeated and collinear points; refuses rings on a line and spikes.
+// Leave out repeated and collinear points; refuse rings on a line and spikes.
 Cleaned cleaned(Index ring, const Points& v) {
     Cleaned result;
     std::vector<Index> different;
@@ -45,7 +45,7 @@ Cleaned cleaned(Index ring, const Points& v) {
     return result;
 }
 
-// Does a ring without straight vertices turn to one side only, and once round?
+// True if a ring without straight vertices turns to one side only, and once round.
 bool is_convex_chain(const Points& v) {
     const Index n = v.size();
     const int side = v.orient(n - 1, 0, 1);
@@ -58,7 +58,8 @@ bool is_convex_chain(const Points& v) {
     return changes == 2;
 }
 
-// Of a simple ring without straight vertices, the points first to beyond - 1: its extreme corner turns as it does.
+// True if a simple ring without straight vertices, points first to beyond - 1, is counter-clockwise: its extreme corner turns
+// like it.
 bool is_counterclockwise(const Points& v, Index first, Index beyond) {
     Index k = first;
     for (Index m = first + 1; m < beyond; ++m)
@@ -66,21 +67,21 @@ bool is_counterclockwise(const Points& v, Index first, Index beyond) {
     return v.orient(k > first ? k - 1 : beyond - 1, k, k + 1 < beyond ? k + 1 : first) > 0;
 }
 
-// A point over a denominator, exactly if that is short.
+// Text of a point, exact if that is short.
 std::string shown(const Ratio& x, const Ratio& y) {
     const std::string a = text_of(x), b = text_of(y);
     if (a.size() + b.size() <= 24) return "(" + a + ", " + b + ")";
     return "about (" + text_of(nearest(x.n, x.d)) + ", " + text_of(nearest(y.n, y.d)) + ")";
 }
 
-// A point that the edges pq and rs have in common.
+// Text of a common point of the edges pq and rs.
 std::string common_point(const Points& v, Index p, Index q, Index r, Index s, Meeting met, const Int& denominator) {
     const auto at = [&](Index k) { return shown(reduced(v.X[k], denominator), reduced(v.Y[k], denominator)); };
     if (met == Meeting::touch || met == Meeting::overlap) {
         const bool meet_at_end = met == Meeting::touch;
         for (const Index k : {p, q})
             if (meet_at_end && (v.same(k, r) || v.same(k, s))) return at(k);
-        if (!meet_at_end) {  // the first point of what they share
+        if (!meet_at_end) {  // the first common point
             const Index a = v.before(p, q) ? p : q, b = v.before(r, s) ? r : s;
             return at(v.before(a, b) ? b : a);
         }
@@ -171,7 +172,7 @@ void Polygon::check(std::vector<Points>&& rings, bool is_least) {
     is_convex_ring = count == 1 && is_convex_chain(vertices);
     std::vector<char> counterclockwise;
     for (std::size_t r = 0; r < count; ++r) counterclockwise.push_back(is_counterclockwise(vertices, offsets[r], offsets[r + 1]));
-    // refuse rings whose edges meet, and holes that are not right inside the outer ring
+    // refuse rings whose edges meet, and holes that are not directly inside the outer ring
     if (!is_convex_ring) {
         const RingLinks links(offsets);
         const auto found = sweep(vertices, offsets);
@@ -207,7 +208,7 @@ void Polygon::check(std::vector<Points>&& rings, bool is_least) {
             turned = true;
         }
     if (turned) vertices = vertices.chosen(order);
-    // points left out may leave a common factor
+    // removed points may leave a common factor
     Int common = is_least && removed.empty() ? Int(1) : denominator;
     for (Index k = 0; k < vertices.size() && common != 1; ++k) common = gcd(gcd(common, vertices.X[k]), vertices.Y[k]);
     if (common != 1) {

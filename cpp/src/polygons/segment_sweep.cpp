@@ -1,4 +1,4 @@
-// Edges from left to right, compared as they become neighbours; docs/inside-the-core.md.
+// Sweep edges from left to right, and compare new neighbours; docs/inside-the-core.md.
 #include "cfree/polygons/segment_sweep.hpp"
 
 #include <algorithm>
@@ -82,16 +82,16 @@ private:
     static constexpr Index unknown = -2;
     const Points& points;
     const RingLinks links;
-    std::vector<Index> start, end;  // of each edge, in the order of the sweep
+    std::vector<Index> start, end;  // by edge, in the order of the sweep
     SweepLine line;
-    std::vector<Index> here;  // the points met at once
+    std::vector<Index> here;  // the coincident points of this event
     EdgesMeet found{};
     Nesting nesting;
 
     bool ends_here(Index e) const { return points.same(end[e], here[0]); }
     bool report(Index e, Index f) { return found = {std::min(e, f), std::max(e, f)}, false; }
 
-    // Passes the points here; false if edges meet there as they must not.
+    // Pass the points here; false if edges meet there in a forbidden way.
     bool pass() {
         const Index point = here[0];
         const auto range = line.through(point);
@@ -126,7 +126,7 @@ private:
 
     [[noreturn]] static void lose() { throw BrokenInvariant("the sweep over a polygon's rings lost an edge"); }
 
-    // Do rings that pass through a point neither cross nor overlap there?
+    // True if rings that pass through a point neither cross nor overlap there.
     bool corners_are_apart(Index point, const std::vector<Index>& passing) {
         std::vector<std::array<Index, 3>> corners;  // an edge, a point before and a point after
         for (const Index k : here) corners.push_back({k, links.next[k], links.previous[k]});
@@ -142,7 +142,7 @@ private:
         return true;
     }
 
-    // May the edges below and above a gap of the line be neighbours?
+    // True if the edges below and above a gap of the line may be neighbours.
     bool are_apart(std::size_t above) {
         if (above == 0 || above >= line.edges.size()) return true;
         const Index e = line.edges[above - 1], f = line.edges[above];

@@ -1,4 +1,4 @@
-// The order of critical angles, and samples between them; theory, "Degrees".
+// Order critical angles, and find samples between them; theory, "Degrees".
 #include <stdexcept>
 
 #include "cfree/support/elementary.hpp"
@@ -10,13 +10,13 @@ namespace {
 
 const Event chart_end(int side) { return {{}, {}, double(side), double(side)}; }
 
-// A direction times a power of two, so that products of two are neither huge nor tiny.
+// Direction times a power of two, so that products of two are neither huge nor tiny.
 Vec<Approx> of_unit_size(const Vec<Approx>& d) {
     const double scale = power_below(std::max(d.x.m, d.y.m));
     return {{d.x.v * scale, d.x.m * scale}, {d.y.v * scale, d.y.m * scale}};
 }
 
-// Edge e of a shape against the line through two of its vertices.
+// True if edge e of a shape is parallel to the line through two of its vertices.
 bool is_parallel(const Shape& s, Index e, Index p, Index q, Counters& counters) {
     return settled(counters, [&]<class T>() { return certain_sign(cross(edge<T>(s, e), difference<T>(s, p, q))); }) == 0;
 }
@@ -44,7 +44,7 @@ struct ParallelAngle {
     double tau, half;
 };
 
-// Of a direction whose coordinates are together within 8 u times `error` of the truth, x on the side given.
+// Angle of a direction whose coordinates are together within 8 u times `error` of the truth, with x on the given side.
 ParallelAngle angle_of(double x, double y, int side, double error) {
     const double length = norm(x, y);
     return {side, y > 0, side * y / (length + std::abs(x)), 16 * u * error / length + 4 * u};
@@ -133,7 +133,7 @@ bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
     return f.sign(lo) * f.sign(hi) < 0;
 }
 
-// Whether two polynomials are one, up to a factor.
+// True if two polynomials are equal, up to a factor.
 template <class T>
 std::optional<bool> are_proportional(const Coefficients<T>& p, const Coefficients<T>& q) {
     const int count = std::max(p.count, q.count);
@@ -145,7 +145,7 @@ std::optional<bool> are_proportional(const Coefficients<T>& p, const Coefficient
     return true;
 }
 
-// Whether two angles are roots of one polynomial for a reason of identity.
+// True if two angles are roots of one polynomial by identity of features.
 bool Predicates::same_polynomial(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none || y.first.kind == Kind::none) return false;
     const auto same = [&](const Feature& p, const Feature& q) { return same_feature(scene, p, q); };
@@ -162,7 +162,7 @@ bool Predicates::same_polynomial(const Event& x, const Event& y) {
            is_parallel(A, surface.contact.robot, x.first.robot, y.first.robot, counters);
 }
 
-// Whether a root of a + b cos + c sin is the angle at which two edges are parallel: that of the direction d = (G.F, G x F),
+// True if a root of a + b cos + c sin is the angle at which two edges are parallel: that of the direction d = (G.F, G x F),
 // so that a |d| = -(b, c).d.
 template <class T>
 std::optional<bool> Predicates::meets_parallel(const Event& parallel, const Event& x) const {
@@ -197,7 +197,7 @@ bool Predicates::is_touch_of_quadratic(const Event& x) const {
     return x.fine < 0 && p.count == 3 && below && above && *below == *above;
 }
 
-// A polynomial that changes sign at the root and nowhere else in its interval: of a touch, the quadratic's derivative.
+// Polynomial that changes sign at the root and nowhere else in its interval; for a touch, the quadratic's derivative.
 std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
     if (x.fine >= 0) return {};
     const auto p = coefficients<Ball>(x.first, x.second);
@@ -236,7 +236,7 @@ std::optional<Predicates::Bracket> Predicates::bracket(const Event& x) const {
     const auto& p = *factor;
     Ball t = 0.5 * (x.lo + x.hi);
     double value = 0, slope = 1;
-    for (int k = 0; k < 3; ++k) {  // Newton's method; whether it succeeds is seen from the signs
+    for (int k = 0; k < 3; ++k) {  // Newton's method; the signs decide whether it succeeds
         Ball v = p.c[p.count - 1];
         slope = 0;
         for (int i = p.count - 1; i-- > 0;) slope = slope * t.hi + v.hi, v = v * t + p.c[i];
@@ -263,7 +263,7 @@ bool Predicates::are_one_of_few_digits(const Event& x, const Predicates& other, 
            cfree::sign_at(other.coefficients<Ball>(y.first, y.second), t) == 0;
 }
 
-// Of two angles whose intervals overlap.
+// Order of two angles whose intervals overlap.
 int Predicates::order_of_close(const Event& x, const Event& y) {
     const auto sign = [](double d) { return (d > 0) - (d < 0); };
     if (double_only) return ++counters.filter, sign((x.lo + x.hi) - (y.lo + y.hi));
@@ -323,10 +323,10 @@ int Predicates::order(const Event& x, const Sample& at) {
 
 namespace {
 
-// The part of an interval after which a sample lies, over 2^16: 1/2, then the golden section again and again.
+// Share of an interval before a sample, over 2^16: 1/2, then the golden section again and again.
 unsigned part(int attempt) { return (32768u + 40503u * static_cast<unsigned>(attempt)) & 0xffffu; }
 
-// Of no more digits than tell 2^17 parts of the interval apart.
+// Sample with just enough digits to distinguish 2^17 parts of the interval.
 Sample finely(const Dyadic& lo, const Dyadic& hi, int attempt) {
     const unsigned k = std::max(lo.k, hi.k);
     const Int from = lo.n << (k - lo.k), width = (hi.n << (k - hi.k)) - from;

@@ -1,4 +1,4 @@
-// Inside the core: what signs, roots and angles share. Error constants, the rungs, and the polynomials whose roots are sought.
+// Common parts of signs, roots and angles, inside the core: error constants, the rungs, and the polynomials with their roots.
 #pragma once
 #include <algorithm>
 #include <chrono>
@@ -12,7 +12,7 @@ inline constexpr double product_error = 8 * u;
 
 inline std::optional<int> certain_sign(const Int& n) { return n.sign(); }
 
-// What the filter leaves open, one formula for both number types: balls, and exact integers where they are uncertain.
+// Decide cases that the filter leaves open, with one formula for both number types: balls, then exact integers.
 template <class Question>
 auto settled(Counters& counters, Question&& question) {
     const auto by_balls = question.template operator()<Ball>();
@@ -39,8 +39,8 @@ inline Filtered combination(const Filtered& k, const Filtered& f, const Filtered
     return {a, b, c, err * (1 + 8 * u) + tiny};
 }
 
-// The order of two curves, N1 D2 - N2 D1: a quadratic p where constants allow, without the factor 1 + tau^2 that is then
-// common, or the quartic p q - r s.
+// Order of two curves, N1 D2 - N2 D1: a quadratic p if constants allow, without the then common factor 1 + tau^2, or the
+// quartic p q - r s.
 template <class Q>
 struct Terms {
     int degree;
@@ -57,7 +57,7 @@ Terms<Q> terms(Constants first, const Q& N1, const Q& D1, Constants second, cons
     return {4, N1, D2, N2, D1};
 }
 
-// Of a quadratic.
+// Coefficients of a quadratic.
 template <class T>
 Coefficients<T> derivative(const Coefficients<T>& p) {
     return {{p.c[1], p.c[2] + p.c[2], {}, {}, {}}, 3};
@@ -110,9 +110,9 @@ struct Predicates::Form : Terms<Filtered> {
         for (int i = 0; i <= degree; ++i) sum += each[i];
         return std::abs(sum) < degree + 1 ? 0 : sum > 0 ? 1 : -1;
     }
-    // Where two close roots are parted: that is left to halving.
+    // Place between two close roots: left to halving.
     std::optional<double> extremum(double, double) const { return {}; }
-    // Whether its two roots may be one, so that halving would not part them.
+    // True if its two roots may be equal, so that halving would not separate them.
     bool may_touch() const {
         if (degree != 2) return false;
         const double A = p.a - p.b, B = p.c, C = p.a + p.b;

@@ -37,7 +37,7 @@ Junction::Junction(const Scene& s, int in, double from, double to, std::function
 Poly Junction::polynomial(const Trig<Int>& f) const { return on({}).polynomial(f); }
 Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtered(f); }
 
-// Sign at the angle of a trigonometric form given for every number type.
+// Sign at the angle of a trigonometric form, available in every number type.
 template <class F>
 int Junction::sign(const F& trig) const {
     if (const int s = Predicates::sign_on(filtered(trig(Approx{})), lo, hi); s != 0) return s;
@@ -45,7 +45,7 @@ int Junction::sign(const F& trig) const {
     return s ? *s : sign_at(polynomial(trig(Int{})), here());
 }
 
-// In a ball around the angle, which most often is enough where doubles are not; then at the angle, if it has few digits.
+// Sign in a ball around the angle, which mostly suffices if doubles do not; then at the angle, if it has few digits.
 template <class Question>
 std::optional<int> Junction::by_balls(const Question& question) const {
     if (const Ball* tau = narrow())
@@ -66,7 +66,7 @@ const Ball* Junction::narrow() const {
     return narrowed ? &*narrowed : nullptr;
 }
 
-// The angle, if it is a number of few digits: then balls often decide, ties as well.
+// The angle, if it is a number of few digits: then balls often decide, even ties.
 const Ball* Junction::dyadic() const {
     if (here().is_dyadic() && !few_digits) few_digits = ball(root->lo.n, static_cast<int>(root->lo.k));
     return few_digits && few_digits->radius == 0 ? &*few_digits : nullptr;
@@ -77,7 +77,7 @@ Ball Junction::value_at(const Trig<Ball>& f, const Ball& tau) const {
     return p.c[0] + tau * (p.c[1] + tau * p.c[2]);
 }
 
-// Of f times 1 + tau^2: between its Bernstein coefficients, each within err.
+// Range of f times 1 + tau^2: between its Bernstein coefficients, each within err.
 Interval Junction::range(const Filtered& f) const {
     const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
     return widened(std::min({p, q, r}) - f.err, std::max({p, q, r}) + f.err);
@@ -164,7 +164,7 @@ std::array<Code, 2> Junction::helices(const Feature& f) const {
     return {code(scene, end_helix(scene, f, 0)), code(scene, end_helix(scene, f, 1))};
 }
 
-// Whether a helix is known to be on a surface here.
+// True if a helix is known to be on a surface here.
 bool Junction::meets(const Feature& surface, Code helix) const {
     const auto ends = helices(surface);
     if (helix == ends[0] || helix == ends[1]) return true;
@@ -172,7 +172,7 @@ bool Junction::meets(const Feature& surface, Code helix) const {
     return known.contains({0, std::min(own, helix), std::max(own, helix)});
 }
 
-// Whether two surfaces are known to have one line here.
+// True if two surfaces are known to have one line here.
 bool Junction::are_one_line(const Feature& x, const Feature& y) const {
     const Feature &on_edge = is_on_edge(x) ? x : y, &of_edge = is_on_edge(x) ? y : x;
     if (x.kind == y.kind ? turn_of_kind(x, y) != 0 : !known.contains(parallels(of_edge.robot, on_edge.obstacle))) return false;
@@ -259,7 +259,7 @@ double Junction::value(const Feature& line, const Spot& p) const {
         for (int k = f.size(); k-- > 0;) value = value * tau.n + (f[k] << (tau.k * static_cast<unsigned>(2 - k)));
         return value;
     };
-    for (RealRoot near = exact();; near.narrow()) {  // not as narrow as others have left it: the same double each time
+    for (RealRoot near = exact();; near.narrow()) {  // a fresh root: the same double each time
         const int sign = sign_on(d, near.lo, near.hi);
         const double t = sign == 0 ? 0 : ratio(at(n, near.lo), at(d, near.lo)), most = 0x1p-40 * (1 + std::abs(t));
         const auto side_of = [&](double bound) {
@@ -271,7 +271,7 @@ double Junction::value(const Feature& line, const Spot& p) const {
     }
 }
 
-// N / D, whatever they are within their ranges.
+// Range of N / D over the ranges of both.
 Interval Junction::range(const Feature& line, const Spot& p) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (p.given) return {-infinity, infinity};
@@ -282,8 +282,8 @@ Interval Junction::range(const Feature& line, const Spot& p) const {
     return widened(std::min({a, b, c, e}), std::max({a, b, c, e}));
 }
 
-// Whether what is known to meet here says that two places are one: the two curves and the line's surface, a helix and the other
-// curve, or a helix that both curves pass through and that surface.
+// True if the features known to meet here prove two places equal: the two curves and the line's surface, a helix and the
+// other curve, or a helix through which both curves pass and that surface.
 bool Junction::is_known(const Feature& line, const Spot& p, const Spot& q) const {
     std::array<Code, 3> name{code(scene, line), p.code, q.code};
     std::sort(name.begin(), name.end());
@@ -297,8 +297,8 @@ bool Junction::is_known(const Feature& line, const Spot& p, const Spot& q) const
     return false;
 }
 
-// A tie is remembered by what meets in that point: the line's surface and the two curves, each a surface or a helix. Neither
-// surface's line is parallel to this one, so that all three meet there and nowhere else, whichever of them is asked about next.
+// A tie is stored by the features that meet in that point: the line's surface and the two curves, each a surface or a helix.
+// Neither surface's line is parallel to this one, so all three meet there and nowhere else, in later queries for any of them.
 int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
     if (!p.given && !q.given) {
         if (p.code == q.code) return 0;

@@ -25,8 +25,8 @@ Feature end_helix(const Scene& scene, const Feature& contact, int end) {
 
 // --- the quadratics, one formula for every number type ---------------------------------------------------------------
 
-// The half-plane of a pillar's edge e cuts the surface's line P + t U, P = b_j - R a_i, where e's direction V and point Q give
-// V x (P - Q) + t (V x U) = 0, so t = N / D with N = -V x (P - Q), D = V x U.
+// The half-plane of a pillar's edge, with direction V and point Q, cuts the surface's line P + t U, P = b_j - R a_i. There
+// V x (P - Q) + t (V x U) = 0. So t = N / D with N = -V x (P - Q) and D = V x U.
 template <class T>
 std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
@@ -34,7 +34,7 @@ std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
     const Index i = surface.contact.robot, j = surface.contact.obstacle;
     const Index a0 = on_edge ? i : A.v[i], b0 = on_edge ? O.v[j] : j;
     const auto E = on_edge ? edge<T>(O, j) : edge<T>(A, i);
-    if (f.kind == Kind::vertex_vertex) {  // t is where the vertex lies on the edge
+    if (f.kind == Kind::vertex_vertex) {  // t is the place of the vertex on the edge
         const auto w = on_edge ? difference<T>(O, f.obstacle, b0) : difference<T>(A, f.robot, a0);
         return {Trig<T>{dot(w, E), T{}, T{}}, Trig<T>{dot(E, E), T{}, T{}}};
     }

@@ -1,4 +1,4 @@
-// Where the signs change: roots isolated in doubles, then in balls, then exactly; theory, "Degrees".
+// Isolate roots, at which signs change, in doubles, then in balls, then exactly; theory, "Degrees".
 #include <stdexcept>
 
 #include "predicates/form.hpp"
@@ -7,16 +7,16 @@ namespace cfree {
 
 namespace {
 
-// None of these decides anything: signs at the ends of an interval do, and what they leave open goes to the next rung.
+// None of these constants decides anything: signs at the ends of an interval decide, and open cases go to the next rung.
 constexpr double closest = 0x1p-51;          // false position stops here: two units in the last place of 1
 constexpr double nearby = 0x1p-30;           // the slope at a root is taken over this distance
-constexpr double margin = 0x1p-40;           // how far beyond the ends roots are sought, in case one is there
+constexpr double margin = 0x1p-40;           // search for roots so far beyond the ends, in case one is there
 constexpr double narrow = 0x1p-20;           // roots closer than this are left to balls
 constexpr double narrow_in_balls = 0x1p-46;  // and closer than this to exact integers
 
 enum class Found { none, one, unclear, hopeless };
 
-// How many roots inside: by the variations of certain signs, uncertain ones allowed only where they cannot add any.
+// Number of roots inside, by the variations of certain signs; uncertain signs are allowed only if they cannot add any.
 Found roots_inside(const int* sign, int degree) {
     int changes = 0, last = 0, gap = 0;
     bool ends = true;
@@ -60,7 +60,7 @@ double false_position(const Form& form, double a, double b, double fa, double fb
     return t;
 }
 
-// An interval with certain, opposite signs at its ends and one root inside, shrunk around t: widened until the signs are
+// Shrink an interval with certain, opposite signs at its ends and one root inside around t: widen until the signs are
 // certain again.
 template <class Form>
 std::array<double, 2> around(const Form& form, double t, double delta, double lo, double hi) {
@@ -104,7 +104,7 @@ struct Balls {
     }
     bool may_touch() const { return false; }
     int sign(double t) const { return sign_at(p, t).value_or(0); }
-    // Where two close roots are parted, if they can be: an extremum, found by Newton's method.
+    // Place that separates two close roots, if possible: an extremum, by Newton's method.
     std::optional<double> extremum(double lo, double hi) const {
         double t = 0.5 * (lo + hi);
         for (int k = 0; k < 8; ++k) {
@@ -133,7 +133,7 @@ struct Balls {
 
 std::array<double, 2> refine(const Balls& form, double lo, double hi) {
     double t = 0.5 * (lo + hi);
-    for (int k = 0; k < 8; ++k) {  // Newton's method; if it goes astray, halving
+    for (int k = 0; k < 8; ++k) {  // Newton's method; if it fails, halving
         double value = form.p.c[form.degree].hi, slope = 0;
         for (int i = form.degree; i-- > 0;) slope = slope * t + value, value = value * t + form.p.c[i].hi;
         const double next = t - value / slope;
@@ -155,7 +155,7 @@ std::array<double, 2> refine(const Balls& form, double lo, double hi) {
 constexpr int enough = 8;
 using Brackets = Few<std::array<double, 2>, enough>;
 
-// Brackets of the roots in [lo, hi], in order; false if certain signs do not tell.
+// Find brackets of the roots in [lo, hi], in order; false if certain signs do not suffice.
 template <class Form>
 bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brackets& found) {
     struct Span {
@@ -191,7 +191,7 @@ bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brac
     return true;
 }
 
-// A root may be one of the two ends: look a little beyond them.
+// Find brackets a little beyond the two ends, as a root may be one of them.
 template <class Form>
 bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {
     return isolate_by_signs(form, lo - margin, hi + margin, narrow, found);
@@ -208,7 +208,7 @@ struct Predicates::Candidates {
     bool all_zero = false;
 };
 
-// Where doubles say that a simple root is: between certain, opposite signs.
+// Interval around a simple root near its double, with certain, opposite signs.
 std::optional<std::array<double, 2>> straddling(const Coefficients<Ball>& p, double t) {
     double delta = 2 * u * std::max(1.0, std::abs(t));
     for (int k = 0; k < 32 && std::isfinite(t); ++k, delta *= 2) {
@@ -220,8 +220,8 @@ std::optional<std::array<double, 2>> straddling(const Coefficients<Ball>& p, dou
     return {};
 }
 
-// All roots of a quadratic with a certain discriminant: one that counts twice, or two, one each in disjoint intervals around which the
-// sign changes. False if their places are not certain.
+// Isolate all roots of a quadratic with a certain discriminant: one that counts twice, or two in disjoint intervals with sign
+// changes. False if their places are not certain.
 bool isolate_quadratic(const Coefficients<Ball>& p, const Ball& discriminant, Brackets& found) {
     const auto leading = certain_sign(p.c[2]);
     if (!leading || *leading == 0) return false;
@@ -240,7 +240,8 @@ bool isolate_quadratic(const Coefficients<Ball>& p, const Ball& discriminant, Br
     return true;
 }
 
-// Of a quadratic, whose touch is the root of its derivative; of a quartic whose roots are simple: multiple ones are divided out exactly.
+// Roots of a quadratic, whose touch is the root of its derivative; or of a quartic with simple roots: multiple ones are
+// divided out exactly.
 std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& first, const Feature& second, double lo,
                                                                  double hi) const {
     const auto p = coefficients<Ball>(first, second);

@@ -1,4 +1,4 @@
-// Scenes refused for their numbers, and what is said of them; docs/exact.md.
+// Refuse scenes for their numbers, with messages; docs/exact.md.
 #include "cfree/scene/coordinate_range.hpp"
 
 #include <array>
@@ -17,9 +17,9 @@ std::string formatted(const char* format, double value) {
     return text.data();
 }
 
-// About this number, however long it is.
+// Approximate text of a number of any length.
 std::string shown(const Int& value) {
-    const int power = std::max(0, static_cast<int>(bits(value)) * 30103 / 100000 - 6);  // leaves six digits or seven
+    const int power = std::max(0, static_cast<int>(bits(value)) * 30103 / 100000 - 6);  // six or seven digits remain
     if (power <= 6) return value.str();
     const Int leading = floor_divide(value, boost::multiprecision::pow(Int(10), static_cast<unsigned>(power)));
     const std::string text = formatted("%e", static_cast<double>(leading));

@@ -1,4 +1,4 @@
-// Points, lines and directions numbered, frames put around bounds and workspace; theory, "Surfaces that coincide".
+// Number points, lines and directions; put frames around bounds and workspace; theory, "Surfaces that coincide".
 #include "cfree/scene/features.hpp"
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace cfree {
 
 namespace {
 
-constexpr int far = 1 << 10;       // sizes: farther away shapes are measured from a place near them
-constexpr int largest_bits = 100;  // of the core's doubles, so that products of four of their products stay finite
+constexpr int far = 1 << 10;       // in sizes: shapes farther away are measured from a place near them
+constexpr int largest_bits = 100;  // bits of the core's doubles: products of four of their products stay finite
 
 struct Box {
     Int x0, y0, x1, y1;
@@ -30,7 +30,7 @@ Box box_of(const std::vector<Int>& x, const std::vector<Int>& y) {
 
 Points rectangle(const Int& x0, const Int& y0, const Int& x1, const Int& y1) { return {{x0, x1, x1, x0}, {y0, y0, y1, y1}}; }
 
-// A shape while polygons are put in.
+// Builder of a shape from polygons.
 struct Builder {
     const Int& scale;
     std::vector<Int> x, y;
@@ -48,7 +48,7 @@ struct Builder {
 
     Index count() const { return static_cast<Index>(x.size()); }
 
-    // A ring of the vertices put in last, from `first` on.
+    // Close a ring of the latest vertices, from `first` on.
     void close_ring(Index first) {
         const Index n = count() - first;
         for (Index k = 0; k < n; ++k)
@@ -81,7 +81,7 @@ struct Builder {
         piece_layer.push_back(of_layer);
     }
 
-    // Vertices of the bounds, as a ring.
+    // Add vertices of the bounds as a ring.
     void add_bound_ring(const Points& ring, bool is_convex) {
         const Index start = count();
         for (Index k = 0; k < ring.size(); ++k) {
@@ -93,13 +93,13 @@ struct Builder {
     }
 };
 
-// Numbers equal items alike, in order of appearance; `before` orders them.
+// Number items in order of appearance, equal ones alike; `before` orders them.
 template <class Before>
 std::vector<Index> classes(std::size_t count, Before before) {
     std::vector<Index> order(count), number(count);
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), before);
-    std::vector<Index> first(count);  // the least of the items that are equal
+    std::vector<Index> first(count);  // least of equal items
     for (std::size_t k = 0, beyond; k < count; k = beyond) {
         Index least = order[k];
         for (beyond = k + 1; beyond < count && !before(order[k], order[beyond]); ++beyond) least = std::min(least, order[beyond]);
@@ -125,7 +125,7 @@ std::vector<Index> ranks(const std::vector<Index>& group, std::size_t count, Key
     return rank;
 }
 
-// By vertex: how many places come before its own.
+// Number of places before that of each vertex.
 std::vector<Index> place_orders(const Points& points) {
     std::vector<Index> order(static_cast<std::size_t>(points.size())), place(order.size());
     std::iota(order.begin(), order.end(), 0);
@@ -176,7 +176,7 @@ Shape finished(Builder&& from, int shift, const Rounded& before) {
         const bool backward = low(e) != s.v[e], other_backward = low(f) != s.v[f];
         return backward != other_backward ? other_backward : points.orient(low(e), high(e), low(f)) > 0;
     });
-    // geometry, not numbering, decides who owns what coincides
+    // geometry, not numbering, decides the owner of coinciding features
     const std::size_t rings = from.next.size();
     s.vertex_rank = ranks(s.point, rings, [&](Index v) { return std::pair(place[from.next[v]], place[from.previous[v]]); });
     s.edge_rank = ranks(s.line, rings, [&](Index e) { return std::pair(place[s.v[e]], place[s.w[e]]); });
@@ -187,7 +187,7 @@ Shape finished(Builder&& from, int shift, const Rounded& before) {
     return s;
 }
 
-// What the robot must stay out of: a frame around the workspace and all else, thicker than the robot, and its holes.
+// Add the forbidden region of a workspace: a frame around it and all else, thicker than the robot, and its holes.
 void add_workspace(const Polygon& workspace, const Builder& robot, Builder& obstacles, const std::optional<Box>& others) {
     const Int factor = obstacles.scale / workspace.denominator;
     std::vector<Int> x, y;
@@ -213,7 +213,7 @@ void add_workspace(const Polygon& workspace, const Builder& robot, Builder& obst
     }
 }
 
-// The reference point against the complement of the bounds: overlapping rectangles that reach past every pillar.
+// Add the reference point and the complement of the bounds: overlapping rectangles that reach past every pillar.
 void add_bounds(Builder& robot, Builder& obstacles, const std::vector<Int>& inner, const Box& outer) {
     robot.add_bound_ring({{0}, {0}}, true);
     robot.piece_vertex.push_back(robot.count() - 1);
@@ -241,7 +241,7 @@ int shift_of(const Int& widest) {
     return widest.is_zero() ? 0 : std::max(0, static_cast<int>(msb(widest)) + 1 - largest_bits);
 }
 
-// The middle of vertices that are far away, in whole units of the user where these are small; else 0.
+// Middle of vertices that are far away, in whole units of the user if these are small; else 0.
 Vec<Int> place_near(const Box& box, const Int& scale) {
     const Int size = std::max(Int(box.x1 - box.x0), Int(box.y1 - box.y0));
     Int widest = 0;
@@ -298,7 +298,7 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
         robot.add_polygon(*shapes.robot[k], static_cast<Index>(k), true, own);
     for (std::size_t k = 0; k < shapes.obstacles.size(); ++k)
         obstacles.add_polygon(*shapes.obstacles[k], static_cast<Index>(k), true, own);
-    std::optional<Box> given;  // around all obstacles of the whole, and bounds
+    std::optional<Box> given;  // box around all obstacles of the whole, and bounds
     const auto give = [&](const Int& x, const Int& y) { given ? given->add(x, y) : void(given = Box{x, y, x, y}); };
     if (whole.box) {
         const Int more = scale / whole.scale;
@@ -317,7 +317,7 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
             if (abs(robot.y[k]) > reach_y) reach_y = abs(robot.y[k]);
         }
         Box outer = *given;
-        // so that doubles see the difference
+        // so that doubles can distinguish it
         const Int reach = 1 + reach_x + reach_y + std::max(Int(outer.x1 - outer.x0), Int(outer.y1 - outer.y0)) / 8;
         outer = {outer.x0 - reach, outer.y0 - reach, outer.x1 + reach, outer.y1 + reach};
         result.rim = {nearest(outer.x0, scale), nearest(outer.y0, scale), nearest(outer.x1, scale),

@@ -1,4 +1,4 @@
-// Coordinates in doubles, exact or with what they leave, and from origins near the shapes; theory, "Coordinates".
+// Coordinates in doubles, exact or with remainders, and from origins near the shapes; theory, "Coordinates".
 #include "cfree/scene/scene.hpp"
 
 #include <limits>
@@ -46,7 +46,7 @@ std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_ori
 
 namespace {
 
-// Of each feature the first of its class, by layer, then by rank; features of no ring come last.
+// First feature of the class of each feature, by layer, then by rank; features of no ring come last.
 std::vector<Index> firsts(const std::vector<Index>& of_class, const Shape& shape, const std::vector<Index>& rank) {
     const auto count = static_cast<Index>(of_class.size());
     constexpr auto last = std::numeric_limits<Index>::max();

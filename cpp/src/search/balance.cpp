@@ -1,4 +1,4 @@
-// From any free path to the ridge beside it, level by level, and from there to a short path; theory, "Paths".
+// Lead from any free path to the ridge beside it, level by level, and from there to a short path; theory, "Paths".
 #include "cfree/search/balance.hpp"
 
 #include <algorithm>
@@ -16,23 +16,23 @@ namespace cfree {
 namespace {
 
 constexpr double lowest = 1.0 / 64;                        // level of distance, in radii
-constexpr double share_asked = 0.7, share_between = 0.85;  // of a ridge's distances; from one level to the next
-constexpr double gained = 0.7;                             // of what a level could ask for, at least, to try the next
+constexpr double share_asked = 0.7, share_between = 0.85;  // share of a ridge's distances; factor from one level to the next
+constexpr double gained = 0.7;                             // least share of a level's possible distance, to try the next
 constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii; times the narrowest place
-constexpr double radii_beside = 3;                         // of way before and after it
+constexpr double radii_beside = 3;                         // radii of way before and after it
 constexpr double worth_of_motion = 0.1;                    // in radii
 constexpr double not_much = 1.08;                          // longer
-constexpr std::size_t most_nodes = 40;                     // joined each with each
-constexpr int most_fails = 2;                              // before longer joins are not tried
-constexpr double wider = 1.3;                              // than a narrow place, another way
-constexpr double almost = 0.9, straight = 1e-3;            // of a distance kept; turning, of travel, that is none
+constexpr std::size_t most_nodes = 40;                     // nodes, joined each with each
+constexpr int most_fails = 2;                              // failures before longer joins are skipped
+constexpr double wider = 1.3;                              // factor by which another way must be wider than a narrow place
+constexpr double almost = 0.9, straight = 1e-3;            // share of a distance that suffices; negligible turning per travel
 constexpr double shortest_line = 0.05;                     // radii
 constexpr double step_of_guess = 0.25;                     // radii
-constexpr int guesses_by_pose = 300, most_guesses = 30000;  // to find them: more on a way that was hard to find itself
+constexpr int guesses_by_pose = 300, most_guesses = 30000;  // to find them: more on a way that was hard to find
 constexpr int guesses_at_once = 500, runs = 4;              // at one place
 constexpr std::array beside_place = {1.0, 4.0};             // radii: of the area for that
 
-// A few motions instead of many that cost as much, each pose one of the path's: doubling, then halving.
+// Replace many motions by a few that cost as much, between poses of the path: doubling, then halving.
 Marked pruned(const Way& way, const Marked& path) {
     const Route& route = path.route;
     const std::vector<double> at = costs_along(route, way.costs);
@@ -54,7 +54,7 @@ Marked pruned(const Way& way, const Marked& path) {
     return found;
 }
 
-// The shortest path over some poses of another and others near them that are turned as the start or the goal.
+// Shortest path over some poses of another, and poses near them with the orientation of the start or the goal.
 Marked shortest(const Way& way, const Marked& path, std::size_t most) {
     const Route& route = path.route;
     struct Node {
@@ -84,7 +84,7 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
     struct Edge {
         double cost;
         bool known = false;
-        int fails = 0;  // of edges between poses in between, turned alike
+        int fails = 0;  // failures of edges between intermediate poses of one orientation
         Marked way;
     };
     const auto price = [&](const Route& r) { return cost_of(r, way.costs) + way.per_motion * static_cast<double>(r.size() - 1); };
@@ -128,12 +128,12 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
     }
 }
 
-// Of all motions.
+// Least distance of all motions.
 double narrowest_of(const Ridge& top) {
     return top.distance.size() < 3 ? top.distance.front() : *std::min_element(top.distance.begin() + 1, top.distance.end() - 1);
 }
 
-// A part of a ridge replaced by another ridge.
+// Replace a part of a ridge by another ridge.
 void replace(Ridge& top, std::size_t i, std::size_t j, const Ridge& by) {
     const auto put = [&](auto& values, const auto& with) {
         values.erase(values.begin() + static_cast<std::ptrdiff_t>(i), values.begin() + static_cast<std::ptrdiff_t>(j) + 1);
@@ -147,7 +147,7 @@ void replace(Ridge& top, std::size_t i, std::size_t j, const Ridge& by) {
     put(top.path.mark, mark), put(top.path.route, by.path.route), put(top.distance, distance);
 }
 
-// From one pose of a ridge to another anew, by two trees, keeping a distance.
+// Search a new way from one pose of a ridge to another, by two trees, with a distance.
 Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j, double asked, double beside, int& guesses) {
     const Route& route = top.path.route;
     const double radius = way.costs.weight, step = step_of_guess * radius;
@@ -169,22 +169,22 @@ Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j
     return found;
 }
 
-// A part of a ridge, what may come in its place, and which distance that keeps.
+// Part of a ridge, its possible replacement, and the distance that this keeps.
 struct Detour {
     std::size_t i, j;
     Route route;
     double kept;
 };
 
-// Its ridge, or itself if that is narrower.
+// Put in the detour's ridge, or the detour itself if its ridge is narrower.
 void put_in(const Way& way, Ridge& top, const Detour& by, double level) {
     Ridge part = ridge(way, by.route, level);
     if (narrowest_of(part) < by.kept) part = {{by.route, costs_along(by.route, way.length())}, std::vector<double>(by.route.size(), by.kept)};
     replace(top, by.i, by.j, part);
 }
 
-// Straight into a narrow place, turned before it: the line of a motion beyond the place that does not turn is followed back until
-// a pose before the place can be joined to its end.
+// Detour straight into a narrow place, with the turn before it: follow the line of a translation beyond the place back until a
+// pose before the place can be joined to its end.
 Detour straight_into(const Way& way, const Ridge& top, std::size_t narrowest, double asked) {
     const auto& at = top.path.mark;
     const Route& route = top.path.route;
@@ -215,7 +215,7 @@ Detour straight_into(const Way& way, const Ridge& top, std::size_t narrowest, do
     return {};
 }
 
-// The same in either direction.
+// Detour straight past a narrow place, in either direction.
 Detour straight_past(const Way& way, const Ridge& top, std::size_t narrowest, double asked) {
     if (Detour found = straight_into(way, top, narrowest, asked); !found.route.empty()) return found;
     Ridge back = top;
@@ -229,7 +229,7 @@ Detour straight_past(const Way& way, const Ridge& top, std::size_t narrowest, do
     return {last - found.j, last - found.i, std::move(found.route), found.kept};
 }
 
-// Past the narrowest place that has not been tried by another way, wider than that. False: there is none.
+// Lead past the narrowest untried place by another, wider way. False: there is none.
 bool past_narrowest(const Way& way, Ridge& top, double level, Route& tried, int& guesses) {
     const auto& at = top.path.mark;
     const Route& route = top.path.route;
@@ -266,13 +266,13 @@ bool past_narrowest(const Way& way, Ridge& top, double level, Route& tried, int&
     return false;
 }
 
-// No part's ends, a radius from start and goal, can be farther from everything.
+// Upper bound of the distances of parts: that of their ends, a radius from start and goal.
 double most_distance(const Way& way, const Route& route) {
     const auto distance = [&](const Configuration& q) { return way.nearness->distance({q.px, q.py, q.theta}, HUGE_VAL); };
     return std::min({distance(route.front()), distance(route.back()), cost_of(route, way.length())}) + way.costs.weight;
 }
 
-// From the ridge itself, about its narrowest place, while that makes it wider.
+// Climb from the ridge itself, about its narrowest place, while that makes it wider.
 void climb_on(const Way& way, Ridge& top, double level) {
     const double radius = way.costs.weight;
     for (double least; top.distance.size() > 2 && (least = narrowest_of(top)) < narrow * radius;) {
@@ -289,7 +289,7 @@ void climb_on(const Way& way, Ridge& top, double level) {
     }
 }
 
-// All parts keep a share of what each could, if that is not much longer than if only the first do.
+// Shortest path with a share of the possible distance in all parts, if it is not much longer than with only the first parts.
 Balanced shortest_along(const Way& way, const Ridge& top, std::size_t nodes) {
     std::optional<Balanced> found;
     for (const int depth : {1, all_parts}) {
@@ -303,13 +303,13 @@ Balanced shortest_along(const Way& way, const Ridge& top, std::size_t nodes) {
     return std::move(*found);
 }
 
-// A ridge, the distance up to which it was pushed, and the most that makes sense.
+// Ridge, the distance up to which it was pushed, and the greatest useful distance.
 struct Pushed {
     Ridge ridge;
     double level, most;
 };
 
-// On to greater distances, until no part gains.
+// Push on to greater distances, until no part gains.
 void push_on(const Way& way, Pushed& top) {
     const double radius = way.costs.weight;
     for (;;) {

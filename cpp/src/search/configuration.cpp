@@ -13,7 +13,7 @@ using std::numbers::pi;
 Configuration Grid::exact(double px, double py, double theta) const {
     Configuration q;
     q.theta = std::remainder(theta, 2 * pi);
-    const bool beside = std::abs(q.theta) > 0.5 * pi;  // half the angle is nearer to the y axis
+    const bool beside = std::abs(q.theta) > 0.5 * pi;  // true if half the angle is nearer to the y axis
     const double half = 0.5 * (beside ? q.theta - std::copysign(pi, q.theta) : q.theta);
     const auto across = static_cast<long long>(std::llround(std::ldexp(tangent(half), angle_bits)));
     const long long one = 1LL << angle_bits;
@@ -56,7 +56,7 @@ Motion motion_between(const Configuration& a, const Configuration& b) {
 double turn_between(const Configuration& a, const Configuration& b) { return wrapped(b.theta - a.theta); }
 
 double wrapped(double angle) {
-    while (angle > pi) angle -= 2 * pi;  // exact, as std::remainder is
+    while (angle > pi) angle -= 2 * pi;  // exact, like std::remainder
     while (angle < -pi) angle += 2 * pi;
     return angle;
 }

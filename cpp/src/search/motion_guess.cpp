@@ -1,4 +1,4 @@
-// Poses of a motion, coarse to fine: most that are forbidden are so at one of the first.
+// Sample poses of a motion, coarse to fine: most forbidden motions are forbidden at one of the first.
 #include "cfree/search/motion_guess.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ MotionGuess::MotionGuess(std::shared_ptr<const PoseChecker> checker, double r, d
 
 bool MotionGuess::operator()(const Place& a, const Place& b) const {
     const double turn = std::abs(wrapped(b.theta - a.theta));
-    const double length = norm(b.x - a.x, b.y - a.y) * (1 + turn * turn / 16) + radius * turn;  // of an arc, about
+    const double length = norm(b.x - a.x, b.y - a.y) * (1 + turn * turn / 16) + radius * turn;  // approximate length of an arc
     const double parts = length / radius * looks_in_radius;
     const int count = parts < most_looks ? static_cast<int>(parts) + 1 : static_cast<int>(most_looks);
     return all_along(a, b, count, [this](const Place& q) { return !is_forbidden(q); });

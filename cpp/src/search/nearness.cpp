@@ -11,11 +11,11 @@ namespace cfree {
 
 namespace {
 
-constexpr int deepest = 16, most_parts = 4096;  // of a motion: where more would be needed it does not keep its distance
+constexpr int deepest = 16, most_parts = 4096;  // of a motion: one that needs more does not keep its distance
 constexpr double nearly = 0.95;
-constexpr double looks_apart = 0.125;  // poses looked at, in the robot's radii
+constexpr double looks_apart = 0.125;  // distance of sampled poses, in the robot's radii
 constexpr int most_counted = 32;
-constexpr double rounding = 0x1p-40;  // of the size of the scene
+constexpr double rounding = 0x1p-40;  // per size of the scene
 
 }  // namespace
 
@@ -84,7 +84,7 @@ bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, W
     const double ax = placed.px + (placed.c * a.x - placed.s * a.y), ay = placed.py + (placed.s * a.x + placed.c * a.y);
     const double dx = ax - b.x, dy = ay - b.y, between = within + a.radius + b.radius;
     if (dx * dx + dy * dy >= between * between) return false;
-    // the line of an edge parts them by at least so much
+    // greatest separation by the line of an edge
     double parted = -HUGE_VAL, x0 = 0, y0 = 0;
     Index edge = 0;
     bool of_robot = false;
@@ -167,7 +167,7 @@ double Nearness::distance(const Placed& placed, double within) const {
     return best;
 }
 
-// In the middle, in the middles of both halves, and so on.
+// Sample the middle, the middles of both halves, and so on.
 bool Nearness::overlaps(const Configuration& a, const Configuration& b) const {
     const double most = travel_between(a, b) + reach * std::abs(turn_between(a, b));
     int count = 1;
@@ -178,8 +178,9 @@ bool Nearness::overlaps(const Configuration& a, const Configuration& b) const {
     return false;
 }
 
-// Halved, what is in the middle first. A part keeps its distance if the middle has enough for how far the robot gets from
-// there, or if the direction between the closest points parts them all the way, at rest in the world or in the robot.
+// Halve the motion, the middle parts first. A part keeps its distance if that of the middle covers the robot's travel from
+// there. It also does if the direction between the closest points, fixed in the world or in the robot, separates them all
+// the way.
 bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::function<double(double)>& need) const {
     struct Part {
         double lo, hi;
@@ -192,7 +193,7 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
         const auto [lo, hi, depth] = parts[next];
         const double mid = 0.5 * (lo + hi), in_middle = need(mid);
         const Placed m = at(mid);
-        if (0.5 * (hi - lo) * most > 4 * in_middle + 2 * reach) {  // far too long: only look at the middle
+        if (0.5 * (hi - lo) * most > 4 * in_middle + 2 * reach) {  // far too long: test only the middle
             if (in_middle > least_distance && distance(m, in_middle) < in_middle) return false;
             if (depth == deepest || parts.size() > most_parts) return false;
             parts.push_back({lo, mid, depth + 1});

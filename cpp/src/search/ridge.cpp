@@ -1,4 +1,4 @@
-// Poses pushed uphill by linear steps, and joined; theory, "Paths".
+// Push poses uphill by linear steps, and join them; theory, "Paths".
 #include "cfree/search/ridge.hpp"
 
 #include <algorithm>
@@ -14,16 +14,16 @@ namespace {
 using Three = std::array<double, 3>;
 
 constexpr int most_steps = 12;      // uphill
-constexpr double idle = 0.05;       // of a step: what it must gain at least
-constexpr double longest = 0.5;     // step, in radii: beyond, a linear one says little
+constexpr double idle = 0.05;       // least gain, as a share of a step
+constexpr double longest = 0.5;     // longest step, in radii: longer linear ones mean little
 constexpr int most_cuts = 16;
-constexpr double spacing = 1.0 / 3; // of poses, in radii
-constexpr double most_poses = 300;  // about
+constexpr double spacing = 1.0 / 3; // distance of poses, in radii
+constexpr double most_poses = 300;  // approximate
 constexpr int most_inserted = 100;  // poses between those
-constexpr int bridges = 3;          // halvings of what poses have not joined
+constexpr int bridges = 3;          // halvings of gaps between poses
 constexpr double most_of_apart = 0.75;
-constexpr double off_limits = 0.01; // radii: that much room for arcs beside them
-constexpr double ease_off = 0.5;    // how fast distances may change along a way
+constexpr double off_limits = 0.01; // radii of room for arcs beside the limits
+constexpr double ease_off = 0.5;    // greatest change of distances along a way
 
 double dot(const Three& a, const Three& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Three cross(const Three& a, const Three& b) {
@@ -34,12 +34,12 @@ Three unit(const Three& a) {
     return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-// A distance that changes by (u, v) . step.
+// Distance that changes by (u, v) . step.
 struct Slope {
     double value, u, v;
 };
 
-// Of a concave function of two numbers at one place: its value, its slope in one of them and in the other.
+// Concave function of two numbers at one place: its value, and its slopes in both.
 struct Tangent {
     double value, slope, across;
 };
@@ -48,8 +48,8 @@ struct Peak {
     Tangent there;
 };
 
-// Where a concave function is greatest between -most and most: tangents from both sides are cut, the one there replaces one of
-// them. If the function is made of lines they are few.
+// Maximum of a concave function between -most and most: intersect tangents from both sides; the tangent there replaces one of
+// them. If the function is piecewise linear, few steps suffice.
 template <class F>
 Peak peak(F&& tangent, double most) {
     double lo = -most, hi = most;
@@ -66,7 +66,7 @@ Peak peak(F&& tangent, double most) {
     }
 }
 
-// The step in a square that makes the least of some distances greatest.
+// Step in a square that maximises the least of some distances.
 std::array<double, 3> best_step(const std::vector<Slope>& slopes, double trust) {
     const auto beside = [&](double u) {
         return peak([&](double v) {
@@ -123,15 +123,15 @@ double climb(const Way& way, Place& q, const Three& direction, double enough) {
 namespace {
 
 struct Sample {
-    double where;            // on the route
-    Configuration own, high; // there, and uphill
+    double where;            // place on the route
+    Configuration own, high; // pose there, and uphill
     double distance;
-    bool is_on_route;  // and not beside it, rounded, where there is no room for that
+    bool is_on_route;  // true if it is on the route, for lack of room beside it
 };
 
 struct Step {
     Configuration pose;
-    double distance;  // of the motion to it
+    double distance;  // distance of the motion to it
 };
 
 class Climber {
@@ -177,7 +177,7 @@ Sample Climber::sample(double where, double up_to) const {
     return s;
 }
 
-// From goal to start. Near a narrow place no higher than a way from there can be.
+// Samples from goal to start; near a narrow place, no higher than a way from there can be.
 std::vector<Sample> Climber::samples() const {
     const double step = std::max(spacing * way.costs.weight, at.back() / most_poses);
     std::vector<Sample> found;
@@ -201,10 +201,10 @@ std::vector<Sample> Climber::samples() const {
     return found;
 }
 
-// Which share of a distance a motion keeps, as far as that is looked for; 0: it is free, and no more is known.
+// Measure the share of a distance that a motion keeps, up to a limit; 0: it is free, and no more is known.
 std::optional<Step> Climber::measured(const Configuration& a, const Configuration& b, double most, bool roughly) const {
     constexpr std::array shares{0.95, 0.8, 0.65, 0.5, 0.35, 0.2, 0.1, 0.03};
-    constexpr std::size_t close = 2;  // of them: unless poses are inserted
+    constexpr std::size_t close = 2;  // number of samples, unless poses are inserted
     const auto keeps = [&](double share) { return way.keeps(a, b, share * most); };
     if (most > way.nearness->least()) {
         if (keeps(shares[0])) return Step{b, shares[0] * most};
@@ -221,7 +221,7 @@ std::optional<Step> Climber::measured(const Configuration& a, const Configuratio
     return Step{b, 0};
 }
 
-// One motion; or, where its arc may leave the limits, a turn and a straight way in either order.
+// One motion; or, if its arc may leave the limits, a turn and a straight way in either order.
 std::vector<Step> Climber::leg(const Configuration& a, const Configuration& b, double most, bool roughly) const {
     if (const auto step = measured(a, b, most, roughly)) return {*step};
     if (way.is_within(a, b)) return {};
@@ -231,7 +231,7 @@ std::vector<Step> Climber::leg(const Configuration& a, const Configuration& b, d
     return {};
 }
 
-// Over poses half way between, pushed across.
+// Steps over poses half-way between, pushed across.
 std::vector<Step> Climber::bridged(const Configuration& a, const Configuration& b, int depth) const {
     const double apart = cost_between(a, b, way.length());
     Place q = along(a, b, 0.5);
@@ -249,7 +249,7 @@ std::vector<Step> Climber::bridged(const Configuration& a, const Configuration& 
     return steps;
 }
 
-// Down to the route, along it and up again. Whole motions of the route are free.
+// Steps down to the route, along it and up again. Whole motions of the route are free.
 std::vector<Step> Climber::around(const Sample& a, const Sample& b) const {
     if (!a.is_on_route || !b.is_on_route) return {};
     std::vector<Step> steps;
@@ -273,7 +273,7 @@ std::vector<Step> Climber::around(const Sample& a, const Sample& b) const {
 Ridge Climber::run() {
     std::vector<Sample> ahead = samples(), kept{ahead.back()};
     ahead.pop_back();
-    std::vector<std::vector<Step>> steps{{}};  // to each sample kept
+    std::vector<std::vector<Step>> steps{{}};  // steps to each remaining sample
     bool may_divide = true;
     for (int inserted = 0; !ahead.empty();) {
         heed_stop();
@@ -291,10 +291,10 @@ Ridge Climber::run() {
         if (between.empty()) between = around(last, next);
         may_divide = !between.empty();
         if (may_divide) kept.push_back(next), steps.push_back(std::move(between)), ahead.pop_back();
-        else if (kept.size() == 1 || (ahead.size() > 1 && (is_above(last) || !is_above(next)))) ahead.pop_back();  // by another sample
-        else kept.pop_back(), steps.pop_back();  // at last along the route itself
+        else if (kept.size() == 1 || (ahead.size() > 1 && (is_above(last) || !is_above(next)))) ahead.pop_back();  // via another sample
+        else kept.pop_back(), steps.pop_back();  // finally along the route itself
     }
-    if (kept.back().where != at.back()) return {{route, at}, std::vector<double>(at.size(), 0)};  // rounding has lost it
+    if (kept.back().where != at.back()) return {{route, at}, std::vector<double>(at.size(), 0)};  // rounding lost it
     Ridge r{{{route.front()}, {0}}, {kept.front().distance}};
     for (const auto& between : steps)
         for (const auto& [pose, kept_there] : between) {
@@ -305,7 +305,7 @@ Ridge Climber::run() {
             r.distance.push_back(std::min(kept_there, distance(pose)));
         }
     const Configuration &last = r.path.route.back(), &goal = route.back();
-    if (last.x != goal.x || last.y != goal.y || last.unit != goal.unit || last.hx != goal.hx || last.hy != goal.hy)  // nearer than doubles tell
+    if (last.x != goal.x || last.y != goal.y || last.unit != goal.unit || last.hx != goal.hx || last.hy != goal.hy)  // within rounding
         r.path.route.push_back(goal), r.path.mark.push_back(r.path.mark.back()), r.distance.push_back(r.distance.back());
     return r;
 }
@@ -317,7 +317,7 @@ Ridge ridge(const Way& way, const Route& route, double enough) { return Climber(
 std::vector<double> distances_asked(const Ridge& ridge, double radius, double share, int most_depth) {
     const auto& at = ridge.path.mark;
     const std::size_t count = at.size();
-    // the narrowest place of each part; of what is cut out around one, the wider part beside it
+    // the narrowest place of each part; for cut-outs around one, the wider part beside it
     std::vector<double> asked(count, 0);
     struct Part {
         std::size_t begin, end;  // included
@@ -331,7 +331,7 @@ std::vector<double> distances_asked(const Ridge& ridge, double radius, double sh
             std::min_element(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end) + 1) - first);
         for (std::size_t k = begin; k <= end; ++k) asked[k] = ridge.distance[narrow];
         if (depth == most_depth) continue;
-        if (depth > 0 && (narrow == begin || narrow == end)) {  // on with what is between its slopes
+        if (depth > 0 && (narrow == begin || narrow == end)) {  // go on between its slopes
             std::size_t from = begin, to = end;
             while (from < to && ridge.distance[from + 1] >= ridge.distance[from]) ++from;
             while (from < to && ridge.distance[to - 1] >= ridge.distance[to]) --to;

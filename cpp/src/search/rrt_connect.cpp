@@ -1,4 +1,4 @@
-// Two trees that grow towards each other; theory, "Paths".
+// Grow two trees towards each other; theory, "Paths".
 #include "cfree/search/rrt_connect.hpp"
 
 #include <algorithm>
@@ -14,14 +14,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double longest_step = 0.2;  // of the extent of the configuration space
-constexpr int certainty = 16;         // guesses that take as long
-constexpr Index few = 200;             // nodes: all of them are looked at
+constexpr double longest_step = 0.2;  // share of the extent of the configuration space
+constexpr int certainty = 16;         // guesses that take as long as an exact test
+constexpr Index few = 200;             // nodes: all of them are scanned
 constexpr int squares = 24;            // along the longer side of the area
-constexpr double kept = 0.5;           // share of tries that do not turn: for less needless turning
-constexpr int some = 2000;            // guesses, for at least so many
+constexpr double kept = 0.5;           // share of tries without turning, against needless turning
+constexpr int some = 2000;            // at least so many guesses
 constexpr std::size_t new_parts = 3;
-constexpr int parts = 8;              // of each side of the configuration space, to see where trees have been
+constexpr int parts = 8;              // parts per side of the configuration space, which record visits of trees
 
 bool are_one(const Place& a, const Place& b) { return a.x == b.x && a.y == b.y && a.theta == b.theta; }
 
@@ -73,7 +73,7 @@ double RrtConnect::distance(const Place& a, const Place& b) const {
     return norm(norm(b.x - a.x, b.y - a.y), weight * wrapped(b.theta - a.theta));
 }
 
-// In its square, then in rings of squares around that, as long as these may be nearer.
+// Nearest node: in its square, then in rings of squares around that, as long as these may be nearer.
 Index RrtConnect::nearest(const Tree& tree, const Place& q) const {
     Index best = 0;
     double least = HUGE_VAL;
@@ -99,7 +99,7 @@ Index RrtConnect::nearest(const Tree& tree, const Place& q) const {
     return best;
 }
 
-// From a node of a tree on; the second tree's motions are run the other way, which matters for half turns.
+// Guess a motion from a node of a tree on; motions of the second tree run the other way, which matters for half turns.
 bool RrtConnect::are_joined(bool of_goal, const Place& a, const Place& b) {
     --left;
     return of_goal ? joins.seems(b, a) : joins.seems(a, b);
@@ -118,7 +118,7 @@ Place RrtConnect::towards(const Place& a, const Place& b) const {
     return q;
 }
 
-// A new node on the way from the nearest one, or -1.
+// Add a node on the way from the nearest one; its number, or -1.
 Index RrtConnect::extend(const Place& q) {
     Tree& tree = trees[turn];
     const Index from = nearest(tree, q);
@@ -134,7 +134,7 @@ Configuration RrtConnect::exact(bool of_goal, Index k) const {
     return k == 0 ? tree.root : grid.exact(tree.x[k], tree.y[k], tree.theta[k]);
 }
 
-// From the root; nothing if that is not free all along.
+// Route from the root; nothing if some motion is not free.
 Route RrtConnect::branch(bool of_goal, Index last) {
     Tree& tree = trees[of_goal];
     std::vector<Index> chain;
@@ -152,7 +152,7 @@ Route RrtConnect::branch(bool of_goal, Index last) {
     return route;
 }
 
-// Over two nodes that seem to be joined.
+// Route over two nodes that seem to be joined.
 Route RrtConnect::joined(Index of_first, Index of_second) {
     Route route = branch(false, of_first);
     const Route rest = branch(true, of_second);

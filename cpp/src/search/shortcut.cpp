@@ -1,4 +1,4 @@
-// Poses of a path left out or moved while its motions stay free and keep their distance; theory, "Paths".
+// Leave out or move poses of a path while its motions stay free and keep their distance; theory, "Paths".
 #include "cfree/search/shortcut.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace cfree {
 
 namespace {
 
-constexpr double least_gain = 1e-9;  // of the length
+constexpr double least_gain = 1e-9;  // per length
 constexpr std::size_t most_merged = 6;
 
 }  // namespace
@@ -36,7 +36,7 @@ void Shortcut::merge() {
         }
 }
 
-// The path from one of its poses to another by a fresh route, if that is shorter and keeps what is asked.
+// Replace the path between two of its poses by a fresh route, if that is shorter and keeps the required distances.
 bool Shortcut::replace(std::size_t i, std::size_t last, Route fresh) {
     const double motions = static_cast<double>(last - i) - static_cast<double>(fresh.size() - 1);
     const double gain = at[last] - at[i] - cost_of(fresh, way.costs) + way.per_motion * motions, least = least_gain * length();
@@ -57,7 +57,7 @@ bool Shortcut::replace(std::size_t i, std::size_t last, Route fresh) {
     return true;
 }
 
-// A pose, turned ahead or back on its way.
+// Turn a pose to point ahead or back on its way.
 void Shortcut::steer() {
     if (route.size() < 3) return;
     const std::size_t k = 1 + static_cast<std::size_t>(random() * static_cast<double>(route.size() - 2));
@@ -67,7 +67,7 @@ void Shortcut::steer() {
         if (replace(k - 1, k + 1, {before, way.turned(route[k], theta), beyond})) return;
 }
 
-// All on the way between two poses with the orientation of one of them, as far as that helps.
+// Give all poses between two poses the orientation of one of them, as far as that helps.
 void Shortcut::straighten() {
     const auto any = [&] { return static_cast<std::size_t>(random() * static_cast<double>(route.size())); };
     std::size_t i = any(), j = any();
@@ -83,15 +83,15 @@ void Shortcut::straighten() {
         return a.px == b.px && a.py == b.py && a.theta == b.theta;
     });
     fresh.erase(last, fresh.end());
-    fresh.back() = route[j];  // doubles may not tell it from the one before
+    fresh.back() = route[j];  // doubles may not distinguish it from the one before
     replace(i, j, std::move(fresh));
 }
 
-// Two places on the path, joined anew: a turn and a straight way, in either order, or one rotation.
+// Join two places on the path anew: by a turn and a straight way, in either order, or by one rotation.
 void Shortcut::attempt() {
     if (way.costs.prefer() && random() < 0.2) return steer();
     if (way.nearness && random() < 0.2) return straighten();
-    const auto place = [&](double where) {  // the pose that begins its motion, and it
+    const auto place = [&](double where) {  // the pose at the start of its motion, and the place
         const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, where);
         const auto k = static_cast<std::size_t>(after - at.begin()) - 1;
         const double share = (where - at[k]) / std::max(at[k + 1] - at[k], 1e-300);
@@ -103,7 +103,7 @@ void Shortcut::attempt() {
         return std::pair{k, std::optional{way.grid.exact(x, y, theta)}};
     };
     double one = random() * length(), two = random() * length();
-    // nearby places more often than not: far ones seldom see each other in a maze
+    // prefer near places: straight ways between far ones are rare in a maze
     if (random() < 0.5) two = std::clamp(one + (two - one) * random() * random(), 0.0, length());
     if (one > two) std::swap(one, two);
     const auto [i, p] = place(one);

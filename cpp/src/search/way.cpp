@@ -1,4 +1,4 @@
-// Costs of motions, and whether they keep what is asked; theory, "Paths".
+// Costs of motions, and tests of their required distances; theory, "Paths".
 #include "cfree/search/way.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace cfree {
 
-constexpr double radii_around = 2;  // of way, before and after
+constexpr double radii_around = 2;  // radii of way, before and after
 
 void Marked::append(const Marked& further) {
     route.insert(route.end(), further.route.begin() + 1, further.route.end());
@@ -19,7 +19,7 @@ void Marked::append(const Marked& further) {
 double cost_between(const Configuration& a, const Configuration& b, const Costs& costs) {
     const double turn = turn_between(a, b), turning = costs.weight * std::abs(turn), travel = travel_between(a, b);
     if (!costs.prefer()) return travel + turning;
-    const double heading = a.theta + 0.5 * turn, dx = b.px - a.px, dy = b.py - a.py;  // all along, as of the chord
+    const double heading = a.theta + 0.5 * turn, dx = b.px - a.px, dy = b.py - a.py;  // constant, like that of the chord
     const auto [c, s] = cosine_sine(heading);
     const double ahead = c * dx + s * dy, across = c * dy - s * dx;
     const double factor = norm(ahead < 0 ? costs.backward * ahead : ahead, costs.sideways * across) / std::max(norm(dx, dy), 1e-300);
@@ -116,7 +116,7 @@ bool Way::is_free(const Configuration& a, const Configuration& b) const {
     return !(nearness && nearness->overlaps(a, b)) && checker.is_free(motion_between(a, b));
 }
 
-// Its arc is beside the chord by no more than an eighth.
+// True if the motion stays within the limits: its arc is beside the chord by at most an eighth.
 bool Way::is_within(const Configuration& a, const Configuration& b) const {
     const double off = travel_between(a, b) * std::abs(turn_between(a, b)) / 8 + nearness->least();
     const auto [x0, x1] = std::minmax(a.px, b.px);

@@ -1,4 +1,4 @@
-// Arguments brought near 0, and Taylor's series there.
+// Reduce arguments to near 0, and use Taylor's series there.
 #include "cfree/support/elementary.hpp"
 
 #include <algorithm>
@@ -18,18 +18,18 @@ double horner(const std::array<double, N>& coefficients, double x) {  // the fir
     return sum;
 }
 
-// For |x| up to pi / 4: the first term left out is below 2^-65 of the sum.
+// Series for |x| up to pi / 4: the first omitted term is below 2^-65 of the sum.
 constexpr std::array sine_series{1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800, -1.0 / 39916800,
                                  1.0 / 362880,          -1.0 / 5040,          1.0 / 120,        -1.0 / 6};
 constexpr std::array cosine_series{-1.0 / 6402373705728000, 1.0 / 20922789888000, -1.0 / 87178291200, 1.0 / 479001600,
                                    -1.0 / 3628800,          1.0 / 40320,          -1.0 / 720,         1.0 / 24};
-// For |x| up to 1 / 16.
+// Series for |x| up to 1 / 16.
 constexpr std::array arc_series{-1.0 / 15, 1.0 / 13, -1.0 / 11, 1.0 / 9, -1.0 / 7, 1.0 / 5, -1.0 / 3};
 
 // A quarter of a turn: 33 bits, 33 bits, and the rest.
 constexpr double quarter = 0x1.921fb544p+0, quarter_next = 0x1.0b4611a6p-34, quarter_last = 0x1.3198a2e037073p-69;
 
-// Arc tangents of 0, 1/8, .. 1, and what they are rounded by.
+// Arc tangents of 0, 1/8, .. 1, and their rounding errors.
 constexpr std::array arcs{0.0,
                           0.12435499454676144,
                           0.24497866312686414,
@@ -48,7 +48,7 @@ constexpr std::array arcs_rounding{0.0,
                                    1.5834785051444286e-17,
                                    -2.1478388444456983e-17,
                                    3.061616997868383e-17};
-constexpr double most_quarters = 0x1p+20;  // times what 33 bits are of one, they are doubles
+constexpr double most_quarters = 0x1p+20;  // up to this many quarters, products with 33 bits are exact doubles
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double pi_rounding = 1.2246467991473532e-16, half_pi_rounding = pi_rounding / 2;
 

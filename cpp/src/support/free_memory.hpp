@@ -1,4 +1,4 @@
-// Memory that has been freed, given back: the GNU library keeps blocks below some size, gigabytes after a large scene.
+// Return freed memory to the system: the GNU library keeps small blocks, gigabytes of them after a large scene.
 #pragma once
 #include <cstddef>
 #if defined(__GLIBC__)
@@ -7,7 +7,7 @@
 
 namespace cfree {
 
-// After work on so many things; where they are few it does not pay.
+// Call after work on this many things; it does nothing for few of them.
 inline void give_back_memory([[maybe_unused]] std::size_t things) {
 #if defined(__GLIBC__)
     if (things > 100'000) malloc_trim(0);

@@ -1,4 +1,4 @@
-// Work divided among threads; one thread is this one, and no other is made.
+// Divide work among threads; with one thread it runs in the caller, without new ones.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -50,7 +50,7 @@ void in_parallel(int threads, std::atomic<bool>& stop, Work&& work) {
     if (error) std::rethrow_exception(error);
 }
 
-// Items of one piece of work, of so many: enough pieces for all threads, none too small to be handed out.
+// Items per block of work, out of `count`: enough blocks for all threads, none too small to be handed out.
 inline std::size_t block_of(std::size_t count) { return std::clamp<std::size_t>(count / 64, 64, 4096); }
 
 // work(0) to work(count - 1), in no order.
@@ -63,7 +63,7 @@ void for_each_in_parallel(int threads, std::size_t count, Work&& work) {
     });
 }
 
-// The same of short work, block by block.
+// Run short work(0) to work(count - 1), block by block.
 template <class Work>
 void for_each_block_in_parallel(int threads, std::size_t count, Work&& work) {
     const std::size_t block = block_of(count);

@@ -1,4 +1,4 @@
-// Classes of numbers.
+// Disjoint sets of numbers.
 #pragma once
 #include <numeric>
 #include <vector>
@@ -14,12 +14,12 @@ public:
         while (parent[x] != x) x = parent[x] = parent[parent[x]];
         return x;
     }
-    // The least of a class stands for it.
+    // Unite two classes; the least member represents its class.
     void unite(Index x, Index y) {
         x = find(x), y = find(y);
         (x < y ? parent[y] : parent[x]) = std::min(x, y);
     }
-    // Classes numbered in the order of their least members; returns how many.
+    // Number classes in the order of their least members; return their count.
     Index number(std::vector<Index>& of) {
         Index count = 0;
         of.resize(parent.size());

@@ -1,7 +1,7 @@
-"""Contact surfaces among each other: before any trimming, and the arrangement of what bounds each pair.
+"""Intersections of contact surfaces before any trimming, and the arrangement of the boundaries of all pairs.
 
-`intersection` has the curve of two surfaces, `triple` the poses on three, `census` those of all triples. `arrangement`
-has every vertex, edge, face and cell that the boundaries of all pairs make, with the depth of each cell.
+`intersection` has the curve of two surfaces, `triple` the poses on three, `census` the poses of all triples.
+`arrangement` has every vertex, edge, face and cell that the boundaries of all pairs form, with the depth of each cell.
 """
 
 from typing import TYPE_CHECKING

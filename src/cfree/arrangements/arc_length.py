@@ -1,4 +1,4 @@
-"""Length of a curve whose x and y are rational functions of tau, in balls that hold the true value (Arb)."""
+"""Length of curves whose x and y are rational functions of tau, in ball arithmetic (Arb)."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from cfree.exact.algebraic import near
 from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
 from cfree.exact.forms import Form, in_chart
 
-PRECISION = 128  # bits, or more where an end is close to an asymptote
+PRECISION = 128  # bits; more if an end is close to an asymptote
 
 
 def arc_length(rows: tuple[Form, Form, Form], interval: AngleInterval, angle_scale: float) -> tuple[float, float]:
-    """Length, and a bound on its error, of (x / w, y / w, angle_scale theta) over orientations where w is not 0.
+    """Length of (x / w, y / w, angle_scale theta) over orientations where w is not 0, and a bound on its error.
 
     Notes
     -----
-    In a chart, theta = 2 atan(tau) but for a half turn, so that with u = x' w - x w' and v = y' w - y w' the integrand
+    In a chart, theta = 2 atan(tau), up to a half turn. Let u = x' w - x w' and v = y' w - y w'. The integrand
     is sqrt((u^2 + v^2) / w^4 + (2 angle_scale / (1 + tau^2))^2), analytic around the interval.
     """
     bits = PRECISION
@@ -44,7 +44,7 @@ def _over(rows: tuple[Form, Form, Form], angle_scale: float, chart: int, low: ar
 
 
 def _parts(interval: AngleInterval, bits: int) -> list[tuple[int, arb, arb]]:
-    """Charts, and from where to where in them."""
+    """Parts of an interval: chart, start and stop in it."""
     whole = arb(-1), arb(1)
     if interval.start is None or interval.stop is None:
         return [(0, *whole), (1, *whole)]

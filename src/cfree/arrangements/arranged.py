@@ -1,9 +1,10 @@
-"""The arrangement of the boundaries of all pairs of a scene: vertices, edges, faces, and cells with their depth.
+"""Arrangement of the boundaries of all pairs of a scene: vertices, edges, faces, and cells with their depth.
 
-A *pair* is a polygon of the robot and an obstacle, and F its poses in which their interiors meet. The surfaces are the
-boundaries of all F, each pair's own: of convex shapes the paper's contact patches (Definition 2). They are not its
-contact surfaces (Definition 1), which go on where the pair overlaps: see `cfree.arrangements.census`. The *depth* of a
-pose is the number of pairs with the pose in F; depth 0 is free. docs/theory/arrangement.md has the proofs.
+A *pair* is a polygon of the robot and an obstacle; F is the set of poses in which their interiors meet. The surfaces
+are the boundaries of all F, one for each pair; for convex shapes they are the paper's contact patches (Definition 2).
+They are not the paper's contact surfaces (Definition 1), which continue where the pair overlaps: see
+`cfree.arrangements.census`. The *depth* of a pose is the number of pairs with the pose in F; depth 0 is free.
+docs/theory/arrangement.md has the proofs.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from cfree.scene.scene import Scene
 from cfree.value import Value
 
 MOST_VERTICES = 2_000_000
-BYTES_PER_PIECE = 1_000  # with everything that is made of it, at most
+BYTES_PER_PIECE = 1_000  # upper bound, including all derived data
 ON_SURFACE = -1
 VERTEX_KINDS = ("triple contact", "helix crossing", "end")
 EDGE_KINDS = ("helix", "crossing", "segment")
@@ -41,21 +42,21 @@ Pair = tuple[int, int]
 
 @checked
 def arrangement(scene: Scene, *, threads: int | None = None, max_memory: float | None = None) -> Arrangement:
-    """The boundary of every pair against every other: the whole configuration space, not only what is free.
+    """Intersect the boundaries of all pairs: the whole configuration space, not only its free part.
 
     A pair is a polygon of the robot and an obstacle. Its boundary consists of contact patches, where the two touch. The
-    paper's contact surfaces also have the pseudo contacts, at poses where the two overlap: two of one pair may cross
-    there, which is no vertex here. `census` has these.
+    paper's contact surfaces also have the pseudo contacts, at poses where the two overlap. Two surfaces of one pair may
+    cross there, which is not a vertex here; `census` counts these crossings.
 
     Parameters
     ----------
     scene : Scene
-        The complements of its `workspace` and of its `bounds` are one obstacle each: the workspace's meets all polygons
-        of the robot, that of the bounds its reference point. So with either, depth 0 is what is free there, too.
+        The complement of its `workspace` is one obstacle, for all polygons of the robot. The complement of its `bounds`
+        is another, for the reference point. So depth 0 is the free space inside them.
     threads : int, optional
-        All cores by default. The result does not depend on it.
+        Number of threads, all cores by default. The result does not depend on it.
     max_memory : float, optional
-        Bytes that this process may use.
+        Greatest number of bytes that this process may use.
 
     Returns
     -------
@@ -64,16 +65,16 @@ def arrangement(scene: Scene, *, threads: int | None = None, max_memory: float |
     Raises
     ------
     UnsupportedError
-        If there are more than 2 million vertices, or there is not so much memory: pieces of surfaces are counted before
-        anything is made of them. Or if surfaces meet in a way that is not decided; it names the pairs.
+        If there are more than 2 million vertices, or memory does not suffice: pieces of surfaces are counted before
+        anything is computed from them. Also if surfaces meet in an undecided way; the message names the pairs.
     InvariantError
-        If the computation contradicts itself: a fault of cfree.
+        If the computation contradicts itself: a bug in cfree.
 
     Notes
     -----
-    Time is about linear in the pairs of a patch and a pillar near it, times the pieces that the patch is cut into:
-    some 10 microseconds and 600 bytes a piece. All signs are exact. Where a polygon of the robot fits one obstacle
-    exactly, with no width to spare (`Boundary.isolated`), the pair counts as overlapping.
+    Time is about linear in the number of pairs of a patch and a pillar near it, times the pieces that the patch is cut
+    into: some 10 microseconds and 600 bytes a piece. All signs are exact. If a polygon of the robot fits one obstacle
+    exactly, with zero clearance (`Boundary.isolated`), the pair counts as overlapping.
 
     Examples
     --------
@@ -111,46 +112,45 @@ def arrangement(scene: Scene, *, threads: int | None = None, max_memory: float |
 
 
 class Arrangement(Value):
-    """The boundaries of all pairs of a scene; see `arrangement`.
+    """Arrangement of the boundaries of all pairs of a scene; see `arrangement`.
 
-    A *face* is a part of one contact patch on which nothing changes, and has two sides: the outer one, and the inner
-    one, just in F of its pair. Surfaces of several pairs may coincide; such a face has all of them as owners. *Edges*
-    are where faces end or others meet them, and *vertices* where edges do. *Pieces* are the trapezoids that faces are
-    made of.
+    A *face* is a part of one contact patch that no other surface crosses. Its inner side is in F of its pair, its outer
+    side is not. Surfaces of several pairs may coincide; such a face has all of them as owners. Faces end, or meet other
+    faces, at *edges*; edges do so at *vertices*. Faces consist of *pieces*, which are trapezoids.
 
     Attributes
     ----------
     scene : Scene
     sheets : BoundaryRecord
-        The pieces, as trapezoids of patches.
+        Pieces, as trapezoids of patches.
     vertex_pose : (V, 3) float64
         x, y and theta, rounded; theta in [-pi/2, 3 pi/2].
     vertex_kind : (V,) uint8
         0: three surfaces cross; 1: a helix meets a surface; 2: a segment of edge-edge contacts ends, among others.
     vertex_degree : (V,) int32
-        Ends of edges there.
+        Number of ends of edges there.
     vertex_pairs : (V,) int32
-        How many pairs have it on their boundary.
+        Number of pairs whose boundary contains it.
     edge_kind : (E,) uint8
         0: a helix, vertex on vertex; 1: two surfaces cross; 2: a segment at one orientation, edge on edge.
     edge_vertices : (E, 2) int32
-        Both are -1 if it is closed.
+        First and last vertex; both are -1 if the edge is closed.
     edge_start, edge_face : (E + 1,) and (n,) int32
         The faces around edge e, counter-clockwise, are ``edge_face[edge_start[e]:edge_start[e + 1]]``.
     face_patch : (F,) int32
-        Its patch, of `sheets`; of faces that coincide the first one's.
+        Its patch in `sheets`; for coincident faces, the first one's.
     face_cells : (F, 2) int32
-        On its outer and its inner side.
+        Cells on its outer and its inner side.
     face_owners : (F,) int32
-        Set of the pairs whose boundary it is.
+        Number, in `sets`, of the set of pairs whose boundary contains it.
     face_euler, cell_euler : (F,) and (C,) int32
-        Euler characteristic: 1 for a disc or a ball. Of a cell half that of the closed surfaces around it.
+        Euler characteristic: 1 for a disc or a ball. A cell has half of that of the closed surfaces around it.
     cell_set : (C,) int32
-        Set of the pairs that hold it.
+        Number, in `sets`, of the set of pairs that overlap in it.
     cell_depth : (C,) int64
     sets : tuple of tuple of (int, int)
-        Sets of pairs (polygon of the robot, obstacle). The obstacle is -2 for the workspace, and -1 for the bounds,
-        where the polygon is as many as the robot has.
+        Sets of pairs (polygon of the robot, obstacle). The obstacle is -2 for the workspace. For the bounds it is -1,
+        and the polygon is the number of the robot's polygons.
     """
 
     def __init__(self, scene: Scene, core: _core.Arrangement) -> None:
@@ -189,9 +189,9 @@ class Arrangement(Value):
 
     @property
     def euler(self) -> int:
-        """Euler characteristic of all surfaces together: vertices minus edges that end, plus that of each face.
+        """Euler characteristic of all surfaces together: vertices minus edges with ends, plus that of each face.
 
-        It is the sum of those of the cells: the characteristic of the whole, R^2 x S^1, with compact support is 0.
+        It is the sum of those of the cells: the whole space R^2 x S^1 has characteristic 0, with compact support.
         """
         ending = int((self.edge_vertices[:, 0] >= 0).sum())
         return len(self.vertex_pose) - ending + int(self.face_euler.sum())
@@ -209,12 +209,12 @@ class Arrangement(Value):
 
     @property
     def volumes(self) -> Floats:
-        """(C,) volumes of the cells, in length^2 radians, infinite for the first; see `FreeSpace.volumes`."""
+        """Volumes of the cells, (C,), in length^2 radians, infinite for the first; see `FreeSpace.volumes`."""
         return self._volumes[0]
 
     @property
     def volume_errors(self) -> Floats:
-        """(C,) estimates of their errors; see `FreeSpace.volume_errors`."""
+        """Estimated errors of the volumes, (C,); see `FreeSpace.volume_errors`."""
         return self._volumes[1]
 
     @cached_property
@@ -223,16 +223,16 @@ class Arrangement(Value):
 
     @cached_property
     def cells(self) -> tuple[DepthCell, ...]:
-        """The cells; what is beyond everything comes first."""
+        """All cells; the unbounded one comes first."""
         rows = zip(
             self.cell_set.tolist(), self.cell_euler.tolist(), self.core.cell_surfaces.tolist(), self.volumes.tolist(),
             strict=True,
         )  # fmt: skip
-        return tuple(DepthCell(k, self.sets[of], *row) for k, (of, *row) in enumerate(rows))
+        return tuple(DepthCell(k, self.sets[pairs], *row) for k, (pairs, *row) in enumerate(rows))
 
     @cached_property
     def statistics(self) -> ArrangementStatistics:
-        """Counts by sort."""
+        """Counts of vertices, edges, faces and cells by kind."""
         return ArrangementStatistics(
             vertices=len(self.vertex_pose),
             edges=len(self.edge_kind),
@@ -251,12 +251,12 @@ class Arrangement(Value):
 
     @property
     def face_depth(self) -> NDArray[np.int64]:
-        """(F,) depth on each face: of pairs that hold it, not counting those whose boundary it is."""
+        """Depth on each face, (F,): the number of pairs that overlap there, without the face's owners."""
         return self.depth_of_pieces[self.core.face_first]
 
     @cached_property
     def depth_of_pieces(self) -> NDArray[np.int64]:
-        """(T,) the same for each piece."""
+        """Depth on each piece, (T,); see `face_depth`."""
         size = self._set_sizes
         outer, inner, owners = size[self.core.outer], size[self.core.inner], size[self.core.owners]
         depths: NDArray[np.int64] = (outer + inner - owners) // 2
@@ -270,16 +270,16 @@ class Arrangement(Value):
 
     @checked
     def cell(self, pose: PoseLike) -> int:
-        """Number of the cell that a pose is in, exactly; -1 if it is on a surface."""
+        """Number of the cell that contains a pose, decided exactly; -1 if the pose is on a surface."""
         return self._place(pose)[0]
 
     @checked
     def depth(self, pose: PoseLike) -> int:
-        """Number of pairs whose interiors meet at a pose, exactly."""
+        """Number of pairs whose interiors meet at a pose, decided exactly."""
         cell, on = self._place(pose)
         if cell != ON_SURFACE:
             return int(self.cell_depth[cell])
-        sets = [set(self.sets[of]) for piece in on for of in (self.core.outer[piece], self.core.inner[piece])]
+        sets = [set(self.sets[k]) for piece in on for k in (self.core.outer[piece], self.core.inner[piece])]
         return len(set.intersection(*sets))
 
     def _place(self, pose: PoseLike) -> tuple[int, list[int]]:
@@ -287,12 +287,12 @@ class Arrangement(Value):
 
     @checked
     def slice(self, theta: Angle) -> Slice:
-        """The segments of all surfaces at one orientation, which `cfree.plot.plot_depths` draws.
+        """Segments of all surfaces at one orientation, which `cfree.plot.plot_depths` draws.
 
         Parameters
         ----------
         theta : float in radians, "30deg" or {"tau": "p/q"}
-            At a critical angle the slice is that of the orientations just after it.
+            At a critical angle it is the slice of the orientations just after it.
 
         Returns
         -------

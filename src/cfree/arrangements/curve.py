@@ -1,8 +1,8 @@
-"""The curve in which two contact surfaces meet: x and y as quotients of polynomials in tau = tan(theta / 2).
+"""Intersection curve of two contact surfaces: x and y as quotients of polynomials in tau = tan(theta / 2).
 
-Two v-e surfaces meet in the way of a robot that keeps two points on two lines: x and y are a + b cos + c sin, of degree
-2. For two e-v surfaces, where two lines of the robot pass through two points, and for one of each, the degree is 4, or
-less where factors cancel.
+Two v-e surfaces meet in the motion of a robot that keeps two points on two lines: x and y are a + b cos + c sin, of
+degree 2. For two e-v surfaces, two lines of the robot pass through two points. For these, and for one surface of each
+kind, the degree is 4, or less if factors cancel.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ from cfree.exact.pose import Pose
 from cfree.geometry.ruled import check_scale
 
 Floats = NDArray[np.float64]
-Harmonics = tuple[Fraction, Fraction, Fraction, Fraction, Fraction]  # of 1, cos, sin, cos 2 theta, sin 2 theta
+Harmonics = tuple[Fraction, Fraction, Fraction, Fraction, Fraction]  # 1, cos, sin, cos 2 theta, sin 2 theta
 
 
 @dataclass(frozen=True, slots=True)
 class IntersectionCurve:
-    """A curve x(tau) = x / w, y(tau) = y / w that lies on two contact surfaces, or on more, edges taken as lines.
+    """A curve x(tau) = x / w, y(tau) = y / w on two or more contact surfaces, with edges extended to lines.
 
     Attributes
     ----------
     x, y, w : tuple of int
-        Coefficients of 1, tau, tau^2, ..., all three without common factors. As forms: what they are at the half turn,
-        tau infinite, is their last coefficients' ratio.
+        Coefficients of 1, tau, tau^2, ..., all three without common factors. They are forms: at the half turn, tau
+        infinite, the values are the ratios of their last coefficients.
     origin : pair of Fraction
-        A point of the plane nearby, from which doubles are counted.
+        A point of the plane nearby, the origin of computations in doubles.
 
     Examples
     --------
@@ -67,7 +67,7 @@ class IntersectionCurve:
 
     @property
     def degree(self) -> int:
-        """Of x(tau) and y(tau): as many poses as this have a x + b y = c for general a, b, c, complex ones counted."""
+        """Degree of x(tau), y(tau): the number of poses with a x + b y = c for general a, b, c, with complex ones."""
         return len(self.w) - 1
 
     @property
@@ -77,12 +77,12 @@ class IntersectionCurve:
 
     @property
     def harmonics(self) -> tuple[Harmonics, Harmonics, Harmonics]:
-        """Of x's numerator, of y's, and of their denominator: coefficients of 1, cos, sin, cos 2 theta, sin 2 theta.
+        """Coefficients of 1, cos, sin, cos 2 theta, sin 2 theta in the numerators of x and y and their denominator.
 
-        The denominator is 1 where it can be.
+        The denominator is 1 if possible.
         """
         rows = [self.x, self.y, self.w]
-        if self.degree % 2:  # over a linear factor: times its opposite
+        if self.degree % 2:  # a linear denominator: multiply by its opposite
             a, b = _without_unit(self.w)
             rows = [product(row, (b, -a)) for row in rows]
         while len(rows[0]) < 5:
@@ -93,12 +93,12 @@ class IntersectionCurve:
 
     @checked
     def point(self, tau: Number | None) -> ExactPoint:
-        """Exact (x, y) at a half-angle tangent; None is the half turn.
+        """Return the exact (x, y) at a half-angle tangent; None is the half turn.
 
         Raises
         ------
         ValueError
-            At an asymptote.
+            If `tau` is an asymptote.
         """
         chart, local = to_chart(half_tangent(tau))
         x, y, w = (_value(in_chart(row, chart), local) for row in (self.x, self.y, self.w))
@@ -108,19 +108,19 @@ class IntersectionCurve:
 
     @checked
     def pose(self, theta: Angle) -> Pose:
-        """The exact pose at an orientation, as `Pose` takes it."""
+        """Return the exact pose at an orientation, as `Pose` takes it."""
         turn = Pose(0, 0, theta)
         return Pose(*self.point(turn.tau)) @ turn
 
     @checked
     def near(self, angle: AlgebraicAngle, bits: int) -> ExactPoint:
-        """(x, y) at an exact angle, with errors of at most 2^-bits; no asymptote."""
+        """Return (x, y) at an exact angle that is no asymptote, with errors of at most 2^-bits."""
         x, y, w = (value_at(row, angle) for row in (self.x, self.y, self.w))
         return near(ratio(x, w), bits), near(ratio(y, w), bits)
 
     @checked
     def rounded(self, angle: AlgebraicAngle) -> tuple[float, float]:
-        """The same in doubles, each within 0.51 units of its last place."""
+        """Return (x, y) at an exact angle in doubles, each within 0.51 units of its last place."""
         x, y, w = (value_at(row, angle) for row in (self.x, self.y, self.w))
         return rounded(ratio(x, w)), rounded(ratio(y, w))
 
@@ -146,7 +146,7 @@ class IntersectionCurve:
 
     @checked
     def curvature(self, theta: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
-        """Curvature as of a curve in space, in 1 / length, (...); a radian counts for `angle_scale`, 1 in the paper.
+        """Curvature of the space curve, in 1 / length, (...); a radian has length `angle_scale`, 1 in the paper.
 
         Examples
         --------
@@ -160,7 +160,7 @@ class IntersectionCurve:
 
     @checked
     def torsion(self, theta: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
-        """Torsion, in 1 / length, (...): positive where the curve is a right-handed screw; NaN where it is straight."""
+        """Torsion, in 1 / length, (...): positive for a right-handed screw; NaN where the curve is straight."""
         first, second, third = self._derivatives(theta, angle_scale)
         with np.errstate(invalid="ignore", divide="ignore"):
             normal = np.cross(first, second)
@@ -173,8 +173,8 @@ class IntersectionCurve:
 
         Notes
         -----
-        The integral of |(x', y', angle_scale)| in ball arithmetic (Arb, through python-flint), over both charts of tau,
-        where the integrand has no poles. Infinite, with error 0, over an asymptote.
+        It is the integral of |(x', y', angle_scale)| in ball arithmetic (Arb, through python-flint), over both charts
+        of tau, where the integrand has no poles. Over an asymptote it is infinite, with error 0.
 
         Examples
         --------
@@ -188,7 +188,7 @@ class IntersectionCurve:
         return arc_length((self.x, self.y, self.w), interval, float(check_scale(angle_scale)))
 
     def _derivatives(self, theta: ArrayLike, angle_scale: float) -> list[Floats]:
-        """Three derivatives by a parameter, (..., 3) each."""
+        """First three derivatives by the chart's coordinate, (..., 3) each."""
         check_scale(angle_scale)
         angles = finite("theta", theta)
         xy, (_, tau) = self._series(angles), chart_of(angles)
@@ -201,19 +201,19 @@ class IntersectionCurve:
         ]
 
     def _series(self, theta: Floats) -> Floats:
-        """x and y from the origin as power series in the chart's coordinate, up to the third power: (..., 2, 4)."""
+        """Power series of x and y from the origin in the chart's coordinate, up to the third power: (..., 2, 4)."""
         charts, tau = chart_of(theta)
-        found = np.empty((*theta.shape, 2, 4))
+        series = np.empty((*theta.shape, 2, 4))
         rows = self._around_origin()
         for chart in (0, 1):
             chosen = charts == chart
             x, y, w = (_taylor(in_chart(row, chart), tau[chosen]) for row in rows)  # type: ignore[arg-type]
             with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-                found[chosen] = np.stack((_divided(x, w), _divided(y, w)), axis=-2)
-        return found
+                series[chosen] = np.stack((_divided(x, w), _divided(y, w)), axis=-2)
+        return series
 
     def _around_origin(self) -> list[list[float]]:
-        """Numerators and denominator in doubles, of the curve moved so that the origin is at 0."""
+        """Numerators and denominator in doubles of the curve, moved so that the origin is at 0."""
         (a, b), (c, d) = (part.as_integer_ratio() for part in self.origin)
         x, y = (plus(tuple(n * k for k in row), self.w, -m) for row, m, n in ((self.x, a, b), (self.y, c, d)))
         rows = [[d * k for k in x], [b * k for k in y], [b * d * k for k in self.w]]
@@ -222,7 +222,7 @@ class IntersectionCurve:
 
 
 def curve_on(first: MovingLine, T: Form, D: Form, origin: ExactPoint) -> IntersectionCurve:
-    """The curve P + t U, t = T / D."""
+    """Return the curve P + t U, t = T / D."""
     x, y = (plus(product(P, D), product(T, U)) for P, U in zip(first.P, first.U, strict=True))
     x, y, w = reduced((x, y, product(W, D, (first.unit,))))
     sign = -1 if next(c for c in w if c) < 0 else 1
@@ -237,7 +237,7 @@ def _without_unit(w: Form) -> Form:
 
 
 def _harmonics(form: Form) -> Harmonics:
-    """Of a form of degree 4, over W^2."""
+    """Trigonometric coefficients of a form of degree 4, over W^2."""
     p = [Fraction(c) for c in form]
     middle = (p[0] + p[4]) / 2
     cos2 = (2 * middle - p[2]) / 8
@@ -249,10 +249,10 @@ def _over(row: Harmonics, unit: Fraction) -> Harmonics:
     return a, b, c, d, e
 
 
-def _value(form: Form, at: Fraction) -> Fraction:
+def _value(form: Form, tau: Fraction) -> Fraction:
     total = Fraction(0)
     for c in reversed(form):
-        total = total * at + c
+        total = total * tau + c
     return total
 
 

@@ -1,12 +1,12 @@
-"""Where two contact surfaces meet, before any trimming: a curve, lines of one orientation, or all of the surface.
+"""Intersection of two contact surfaces before any trimming: a curve, lines of one orientation, or a whole surface.
 
 At an orientation a contact surface is a line, P + t U (`moving_lines`). With D = U_1 x U_2, two lines meet at
 
     t_1 = (P_2 - P_1) x U_2 / D,    t_2 = (P_2 - P_1) x U_1 / D
 
-unless they are parallel, D = 0: then they are apart, or one. D is constant for two surfaces of one kind; for a v-e
-and an e-v surface it is 0 at two opposite orientations. Where lines are one, the surfaces share a line of theta =
-constant, and only there they can be tangent.
+unless they are parallel, D = 0: then they are disjoint or equal. D is constant for two surfaces of one kind; for a v-e
+and an e-v surface it is 0 at two opposite orientations. If the lines are equal at an orientation, the surfaces share a
+line of theta = constant, and only there they can be tangent.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ class SharedLine:
     multiplicity : int
         2 if two surfaces are tangent along the whole line, which parallel ones can be; else 1.
     t_range : (float, float) or None
-        What the edges, or the patches, have in common, as t on the first surface; whether there is any is exact.
+        Common part of the edges, or of the patches, as t on the first surface; None, decided exactly, if it is empty.
     tangency : (float, float) or None
-        x and y of the only pose on the line at which two surfaces are tangent: where their curve crosses it. None for
-        parallel surfaces, and for three.
+        x and y of the only pose on the line at which two surfaces are tangent: their curve crosses the line there. None
+        for parallel surfaces, and for three.
     """
 
     angle: AlgebraicAngle
@@ -52,23 +52,23 @@ class SharedLine:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Intersection:
-    """Where two contact surfaces meet; their edges count as lines, but in `ranges`, `t_range` and `overlap`.
+    """Intersection of two contact surfaces; edges count as lines, except in `ranges`, `t_range` and `overlap`.
 
     Attributes
     ----------
     surfaces : pair of Surface or RationalSurface
-        As given: of a `RationalSurface` the patch alone counts in `ranges`, `t_range` and `overlap`.
+        The arguments; only the patch of a `RationalSurface` counts in `ranges`, `t_range` and `overlap`.
     relation : {"curve", "parallel", "identical"}
-        Parallel: at every orientation the lines are parallel, so that the surfaces share lines, or nothing.
-        Identical: they are one surface.
+        Parallel: the lines are parallel at every orientation, so the surfaces share lines or nothing. Identical: they
+        are one surface.
     curve : IntersectionCurve or None
     ranges : tuple of AngleInterval
-        Where the curve, or the overlap, is on both surfaces, t in [0, 1], from theta = 0 on. Closed: one may be a
-        single orientation.
+        Closed intervals on which the curve, or the overlap, is on both surfaces, t in [0, 1], from theta = 0 on. An
+        interval may be a single orientation.
     lines : tuple of SharedLine
-        From theta = 0 on.
+        Shared lines from theta = 0 on.
     overlap : pair of Fraction, or None
-        Of identical surfaces: what their edges have in common, as t on the first.
+        Common part of the edges of identical surfaces, as t on the first.
 
     Examples
     --------
@@ -76,10 +76,10 @@ class Intersection:
     >>> from cfree.contact import EdgeVertex, VertexEdge, contact_surface
     >>> robot, obstacle = Polygon([(0, 0), (2, 0), (0, 1)]), Polygon([(3, 1), (6, 1), (6, 4), (3, 4)])
     >>> ve, ev = (contact_surface(robot, obstacle, c) for c in (VertexEdge(1, 0), EdgeVertex(2, 0)))
-    >>> found = intersection(ve, ev)
-    >>> found.relation, found.curve.degree, [part.theta for part in found.ranges]
+    >>> meeting = intersection(ve, ev)
+    >>> meeting.relation, meeting.curve.degree, [part.theta for part in meeting.ranges]
     ('curve', 4, [(0.0, 0.4636476090008061)])
-    >>> [line.angle.theta for line in found.lines]                                      # theta = 90 and 270 degrees
+    >>> [line.angle.theta for line in meeting.lines]                                    # theta = 90 and 270 degrees
     []
     """
 
@@ -97,13 +97,13 @@ class Intersection:
 
     @property
     def is_empty(self) -> bool:
-        """Have the surfaces nothing in common, even with their edges as lines?"""
+        """True if the surfaces have nothing in common, even with edges extended to lines."""
         return self.relation == "parallel" and not self.lines
 
 
 @checked
 def intersection(first: Surface | RationalSurface, second: Surface | RationalSurface) -> Intersection:
-    """Where two contact surfaces, of one robot and any obstacles, meet before any trimming.
+    """Intersect two contact surfaces, of one robot and any obstacles, before any trimming.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def intersection(first: Surface | RationalSurface, second: Surface | RationalSur
 
     Notes
     -----
-    Exact; the time depends on the length of the numbers alone. See the theory's page on intersections.
+    The result is exact. Its time depends only on the length of the numbers. See the theory's page on intersections.
 
     Examples
     --------
@@ -149,14 +149,14 @@ def intersection(first: Surface | RationalSurface, second: Surface | RationalSur
 def shared_line(
     angle: AlgebraicAngle, multiplicity: int, lines: Sequence[MovingLine], curve: IntersectionCurve | None = None
 ) -> SharedLine:
-    """What lines that are one at an orientation have in common there."""
+    """Common part of lines that are equal at an orientation."""
     overlap = overlap_at(lines, angle) if is_on_patches(lines, angle) else None
     t_range = (rounded(overlap[0]), rounded(overlap[1])) if overlap else None
     return SharedLine(angle, multiplicity, t_range, curve.rounded(angle) if curve else None)
 
 
 def overlap_at(lines: Sequence[MovingLine], angle: AlgebraicAngle) -> tuple[Exact, Exact] | None:
-    """What edges have in common, as t on the first, at an orientation at which their lines are one."""
+    """Common part of edges, as t on the first, at an orientation at which their lines are equal."""
     first, *others = lines
     low, high = Fraction(0), Fraction(1)
     for other in others:

@@ -1,6 +1,6 @@
-"""Contact surfaces as lines that move with tau: P + t U, all of it in forms (`cfree.exact.forms`).
+"""Contact surfaces as lines P + t U that move with tau, all in forms (`cfree.exact.forms`).
 
-For the surfaces of one question P and U are forms of degree 2 over the same unit times W = 1 + tau^2, so that t and
+P and U of all surfaces in one computation are forms of degree 2 over the same unit times W = 1 + tau^2, so that t and
 signs need no denominators:
 
     P = p W - M a,    U = q W - M g,    M a = (C a_x - S a_y, S a_x + C a_y).
@@ -23,16 +23,16 @@ AnySurface = Surface | RationalSurface
 
 @dataclass(frozen=True, slots=True)
 class MovingLine:
-    """The line of a contact surface, and where on the circle it counts.
+    """Line of a contact surface, and the orientations at which it counts.
 
     Attributes
     ----------
     P, U : pair of Form
-        Of degree 2, over `unit` times W.
+        Forms of degree 2, over `unit` times W.
     Phi : tuple of Form
-        Not negative in the range of the contact patch, all of them, and only there; none for a whole surface.
+        Forms that are all not negative exactly in the range of the contact patch; none for a whole surface.
     is_empty : bool
-        Whether it is the patch of a contact that has none.
+        True for the patch of a contact that has none.
     """
 
     unit: int
@@ -43,7 +43,7 @@ class MovingLine:
 
 
 def moving_lines(surfaces: Sequence[AnySurface]) -> tuple[MovingLine, ...]:
-    """Each surface's line, in one unit.
+    """Return the lines of surfaces, in one unit.
 
     Raises
     ------
@@ -53,17 +53,17 @@ def moving_lines(surfaces: Sequence[AnySurface]) -> tuple[MovingLine, ...]:
     plain = [whole(surface) for surface in surfaces]
     unit = common_denominator(c for s in plain for v in (s.p, s.q, s.a, s.g) for c in v)
     lines = []
-    for given, s in zip(surfaces, plain, strict=True):
+    for surface, s in zip(surfaces, plain, strict=True):
         if not any((*s.q, *s.g)):
             raise ValueError(f"the surface of {s.contact} has no edge: q and g are 0; see contact_surface()")
-        Phi = given.Phi if isinstance(given, RationalSurface) else None
-        is_empty = isinstance(given, RationalSurface) and Phi is None
+        Phi = surface.Phi if isinstance(surface, RationalSurface) else None
+        is_empty = isinstance(surface, RationalSurface) and Phi is None
         lines.append(MovingLine(unit, _moving(s.p, s.a, unit), _moving(s.q, s.g, unit), _sector(Phi), is_empty))
     return tuple(lines)
 
 
 def whole(surface: AnySurface) -> Surface:
-    """The surface, of a patch too."""
+    """Return the whole surface, also for a patch."""
     return surface.surface if isinstance(surface, RationalSurface) else surface
 
 
@@ -76,7 +76,7 @@ def dot(u: Vector, v: Vector) -> Form:
 
 
 def between(P: Vector, Q: Vector) -> Vector:
-    """From P to Q."""
+    """Difference Q - P, from P to Q."""
     return plus(Q[0], P[0], -1), plus(Q[1], P[1], -1)
 
 
@@ -89,7 +89,7 @@ def _moving(p: ExactPoint, a: ExactPoint, unit: int) -> Vector:
 
 
 def _sector(Phi: RationalRange | None) -> tuple[Form, ...]:
-    """sin(theta - phi_min) and sin(phi_max - theta), as Phi is less than a half turn wide."""
+    """Forms of sin(theta - phi_min) and sin(phi_max - theta): Phi is less than a half turn wide."""
     return () if Phi is None else (_after(Phi.start, 1), _after(Phi.end, -1))
 
 

@@ -1,4 +1,4 @@
-"""Where curves, poses and whole surfaces are on surfaces as they are: t in [0, 1], and in Phi on patches."""
+"""Ranges on which curves, poses and whole surfaces are on surfaces: t in [0, 1], and in Phi for patches."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from cfree.exact.forms import Form, W, closed_intervals, plus, product, reduced,
 
 
 def ranges_on(curve: IntersectionCurve, lines: Sequence[MovingLine]) -> tuple[AngleInterval, ...]:
-    """Where a curve that is on the lines is on their surfaces, or patches.
+    """Ranges on which a curve on the lines is on their surfaces, or patches.
 
     Notes
     -----
-    With t = N / D in lowest terms, t is in [0, 1] if D is not 0 and neither N D nor (D - N) D is negative.
+    If t = N / D in lowest terms, t is in [0, 1] if D is not 0 and neither N D nor (D - N) D is negative.
     """
     edges: list[Form] = []
     for line in lines:
@@ -29,22 +29,22 @@ def ranges_on(curve: IntersectionCurve, lines: Sequence[MovingLine]) -> tuple[An
 
 
 def ranges_of(lines: Sequence[MovingLine]) -> tuple[AngleInterval, ...]:
-    """Where all of them are patches."""
+    """Ranges common to all patches."""
     return _ranges(lines, [], lambda signs: True)
 
 
 def is_on_patches(lines: Sequence[MovingLine], angle: AlgebraicAngle) -> bool:
-    """Is an orientation in the range of every patch?"""
+    """True if an orientation is in the range of every patch."""
     return all(not line.is_empty and all(value_at(phi, angle) >= 0 for phi in line.Phi) for line in lines)
 
 
 def is_inside_patches(lines: Sequence[MovingLine], angle: AlgebraicAngle) -> bool:
-    """The same, and at no end."""
+    """True if an orientation is inside the range of every patch, not at an end."""
     return all(value_at(phi, angle) > 0 for line in lines for phi in line.Phi)
 
 
 def along(curve: IntersectionCurve, line: MovingLine) -> tuple[Form, Form]:
-    """t = N / D of a curve's points on a surface that it lies on, in lowest terms."""
+    """Return t = N / D, in lowest terms, of a curve's points on a surface that contains the curve."""
     (x, y, w), (Px, Py), unit = (curve.x, curve.y, curve.w), line.P, (line.unit,)
     offset = between((product(Px, w), product(Py, w)), (product(x, W, unit), product(y, W, unit)))
     N, D = dot(line.U, offset), product(dot(line.U, line.U), w)

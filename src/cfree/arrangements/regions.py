@@ -1,4 +1,4 @@
-"""A slice of an arrangement as regions of the plane."""
+"""Slices of an arrangement as regions of the plane."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ else:
 
 @checked
 def planar_cells(whole: Arrangement, theta: Angle) -> list[tuple[Polygon, int]]:
-    """The bounded regions of a slice, each with the cell that it is a part of.
+    """Bounded regions of a slice, each with the cell that contains it.
 
     Parameters
     ----------
     whole : Arrangement
     theta : float in radians, "30deg" or {"tau": "p/q"}
-        As `Arrangement.slice`.
+        Orientation as in `Arrangement.slice`.
 
     Returns
     -------
     list of (shapely Polygon, int)
-        Coordinates are rounded to about 1e-10 of the whole; which cell it is, is decided exactly at a point of each.
+        Coordinates are rounded to about 1e-10 of the whole. The cell is decided exactly, at one point of each region.
 
     Examples
     --------
@@ -47,10 +47,10 @@ def planar_cells(whole: Arrangement, theta: Angle) -> list[tuple[Polygon, int]]:
     lines = shapely.multilinestrings(shapely.linestrings(cut.segments))
     x0, y0, x1, y1 = lines.bounds
     joined = shapely.node(shapely.set_precision(lines, 1e-10 * max(x1 - x0, y1 - y0)))
-    found = []
+    regions = []
     for region in shapely.get_parts(shapely.polygonize(shapely.get_parts(joined))):
-        at = region.representative_point()
-        cell = whole.cell(Pose(at.x, at.y, theta))
+        point = region.representative_point()
+        cell = whole.cell(Pose(point.x, point.y, theta))
         if cell != ON_SURFACE:
-            found.append((region, cell))
-    return found
+            regions.append((region, cell))
+    return regions

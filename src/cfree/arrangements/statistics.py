@@ -1,4 +1,4 @@
-"""Statistics of an arrangement: its cells, counts by sort, and a bound of the number of vertices."""
+"""Statistics of an arrangement: its cells, counts by kind, and a bound on the number of vertices."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ class DepthCell:
     ----------
     index : int
     pairs : tuple of (int, int)
-        The polygons of the robot and obstacles whose interiors meet in it; see `Arrangement.sets`.
+        Pairs of a robot polygon and an obstacle whose interiors meet in it; see `Arrangement.sets`.
     euler : int
-        Euler characteristic: 1 for a ball, 0 if it goes round in theta once and has no holes.
+        Euler characteristic: 1 for a ball, 0 if it surrounds the circle of theta once and has no holes.
     surfaces : int
-        How many closed surfaces bound it.
+        Number of closed surfaces that bound it.
     volume : float
-        In length^2 radians; infinite for the first cell.
+        Volume in length^2 radians; infinite for the first cell.
     """
 
     index: int
@@ -44,7 +44,7 @@ class DepthCell:
 
 @dataclass(frozen=True, slots=True)
 class ArrangementStatistics:
-    """Counts of vertices, edges, faces and cells, by sort.
+    """Counts of vertices, edges, faces and cells by kind.
 
     Attributes
     ----------
@@ -53,7 +53,8 @@ class ArrangementStatistics:
     vertices_by_degree, vertices_by_pairs, faces_by_depth, cells_by_depth : dict of int to int
     bounds : dict of str to int
         Greatest possible numbers of vertices, constants included. ``"surfaces"``: k patches have 4 for each three, 2
-        for each of their helices and 1 for each of their edge-edge segments with each patch, and 4 corners each.
+        for each of their helices with each patch, 1 for each of their edge-edge segments with each patch, and 4 corners
+        each.
     """
 
     vertices: int
@@ -72,7 +73,7 @@ class ArrangementStatistics:
 
 
 def counted(values: NDArray[Any], names: Sequence[str] = ()) -> Any:
-    """Counts of each value, by name if there are names; without names only of values that occur.
+    """Count each value, by name if there are names; without names, only values that occur are listed.
 
     Examples
     --------
@@ -84,11 +85,11 @@ def counted(values: NDArray[Any], names: Sequence[str] = ()) -> Any:
 
 
 def vertex_bounds(features: SceneFeatures) -> dict[str, int]:
-    """See `ArrangementStatistics.bounds`."""
+    """Bounds on the number of vertices; see `ArrangementStatistics.bounds`."""
     k = features.patches
     return {"surfaces": 4 * comb(k, 3) + 6 * k * k + 4 * k}
 
 
 def pseudo_vertex_bound(surfaces: int) -> int:
-    """Greatest possible number of poses on three of so many surfaces that meet in points."""
+    """Greatest possible number of poses on three of this many surfaces, if these meet in points."""
     return 4 * comb(surfaces, 3)

@@ -1,8 +1,7 @@
-"""The census of triple contacts among all contact surfaces of Definition 1, pseudo contacts included.
+"""Census of triple contacts among all contact surfaces of Definition 1, pseudo contacts included.
 
-A contact surface is the set of all poses with a fixed vertex on a fixed edge, whatever else overlaps. `arrangement`
-takes the boundaries of pairs of polygons, which are parts of some of these surfaces; here each three whole surfaces
-are looked at by `triple`.
+A contact surface is the set of all poses with a fixed vertex on a fixed edge, even if other parts overlap. The
+boundaries in `arrangement` are parts of some of these surfaces; here `triple` intersects every three whole surfaces.
 """
 
 from __future__ import annotations
@@ -29,18 +28,17 @@ RELATIONS = ("points", "curve", "parallel", "identical")
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Census:
-    """All poses that are on three contact surfaces of a scene; see `census`.
+    """All poses on three contact surfaces of a scene; see `census`.
 
     Attributes
     ----------
     surfaces : tuple of Surface
-        Every vertex of the robot on every edge of an obstacle, and every edge on every vertex: reflex ones as well.
+        Every vertex of the robot on every edge of an obstacle, and every edge on every vertex, reflex ones included.
     relations : dict of str to int
-        Number of triples that meet in "points", and those that are "curve", "parallel" and "identical": see
-        `Triple.relation`.
+        Number of triples with each relation, "points", "curve", "parallel" or "identical": see `Triple.relation`.
     inside, rim : tuple of TripleContact
-        Different poses on three surfaces that meet in points, by orientation: those that are inside all three surfaces
-        of some triple, and the others, where an edge ends.
+        Different poses on three surfaces that meet in points, by orientation: the poses inside all three surfaces of
+        some triple, and the other poses, at the end of an edge.
     bound : int
         Greatest possible number of poses: 4 for each three surfaces.
     """
@@ -58,12 +56,12 @@ class Census:
 
 @checked
 def census(scene: Scene, *, max_triples: int = MOST_TRIPLES) -> Census:
-    """Every pose on three contact surfaces of Definition 1, pseudo contacts included, exactly.
+    """Find every pose on three contact surfaces of Definition 1, pseudo contacts included, exactly.
 
     Parameters
     ----------
     scene : Scene
-        Its robot and obstacles count; bounds and workspace do not, which are no obstacles of the paper.
+        Its robot and obstacles count. Bounds and workspace do not: the paper has no such obstacles.
     max_triples : int
         More triples of surfaces are refused.
 
@@ -74,7 +72,7 @@ def census(scene: Scene, *, max_triples: int = MOST_TRIPLES) -> Census:
     Raises
     ------
     UnsupportedError
-        If there are more triples, or shapes are round.
+        If there are more triples, or round shapes.
 
     Notes
     -----
@@ -106,21 +104,21 @@ def census(scene: Scene, *, max_triples: int = MOST_TRIPLES) -> Census:
         made = f"{counted(len(surfaces), 'contact surface')} make {counted(count, 'triple')}"
         raise UnsupportedError(f"{made}, more than max_triples={max_triples:,}; give more")
     relations = dict.fromkeys(RELATIONS, 0)
-    found: dict[tuple[Exact, ...], TripleContact] = {}
+    by_place: dict[tuple[Exact, ...], TripleContact] = {}
     for three in combinations(surfaces, 3):
         meeting = triple_of(three, outside=False)
         relations[meeting.relation] += 1
         for contact in meeting.poses:
             key = _place(contact)
-            if key not in found or contact.location is Location.INSIDE:
-                found[key] = contact
-    poses = sorted(found.values(), key=lambda contact: contact.angle)
+            if key not in by_place or contact.location is Location.INSIDE:
+                by_place[key] = contact
+    poses = sorted(by_place.values(), key=lambda contact: contact.angle)
     inside = tuple(pose for pose in poses if pose.location is Location.INSIDE)
     rim = tuple(pose for pose in poses if pose.location is not Location.INSIDE)
     return Census(surfaces, relations, inside, rim, pseudo_vertex_bound(len(surfaces)))
 
 
 def _place(contact: TripleContact) -> tuple[Exact, ...]:
-    """Key that is equal for equal poses: at one angle x and y are numbers of one field."""
+    """Key of a pose, equal for equal poses: x and y at one angle are numbers of one field."""
     x, y, w = (value_at(form, contact.angle) for form in (contact.curve.x, contact.curve.y, contact.curve.w))
     return contact.angle, ratio(x, w), ratio(y, w)

@@ -1,11 +1,12 @@
-"""The poses in which a robot makes three contacts: where three contact surfaces meet.
+"""Poses with three contacts of a robot: intersections of three contact surfaces.
 
 The lines P_k + t U_k of three surfaces have a point in common only if
 
     det (U_k,x  U_k,y  P_k x U_k) = 0,
 
-and then they do, unless all three are parallel. It is a polynomial of degree 2 in tau for surfaces of one kind, and of
-degree 4 for both kinds. If it is 0 everywhere, the surfaces have a curve in common, as those at one vertex have.
+and then they have one, unless all three are parallel. The determinant is a polynomial of degree 2 in tau for surfaces
+of one kind, and of degree 4 for both kinds. If it is 0 everywhere, the surfaces have a curve in common, like surfaces
+at one vertex.
 """
 
 from __future__ import annotations
@@ -36,20 +37,20 @@ Pair = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class TripleContact:
-    """A pose on three contact surfaces, their edges taken as lines.
+    """A pose on three contact surfaces, with edges extended to lines.
 
     Attributes
     ----------
     angle : AlgebraicAngle
-        Its orientation, a zero of `Triple.polynomial`; it has the factor that is irreducible.
+        Its orientation, a zero of `Triple.polynomial`; its own polynomial is an irreducible factor.
     multiplicity : int
-        Of that zero: above 1 the curves of two pairs of surfaces touch there.
+        Multiplicity of that zero; if above 1, the curves of two pairs of surfaces touch there.
     curve : IntersectionCurve
-        One on which it is: x and y are quotients of polynomials in tau.
+        A curve through the pose: x and y are quotients of polynomials in tau.
     t : (float, float, float)
-        On the three edges.
+        Parameters on the three edges.
     location : Location
-        Inside all three surfaces, or patches; at the rim of one, and outside of none; or outside of one.
+        Inside all three surfaces, or patches; at the rim of one and outside none; or outside one.
     """
 
     angle: AlgebraicAngle
@@ -65,7 +66,7 @@ class TripleContact:
 
     @property
     def pose(self) -> Pose | None:
-        """The exact pose, if tau is rational; else see `near`."""
+        """Exact pose if tau is rational, else None; see `near`."""
         local = self.angle.coordinate
         return self.curve.pose({"tau": tau_in_chart(self.angle.chart, local)}) if isinstance(local, Fraction) else None
 
@@ -77,26 +78,26 @@ class TripleContact:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Triple:
-    """Where three contact surfaces meet; their edges count as lines, but in `contacts`, `ranges` and `t_range`.
+    """Intersection of three contact surfaces; edges count as lines, except in `contacts`, `ranges` and `t_range`.
 
     Attributes
     ----------
     surfaces : three of Surface or RationalSurface
-        As given: of a `RationalSurface` the patch alone counts.
+        The arguments; only the patch of a `RationalSurface` counts.
     relation : {"points", "curve", "parallel", "identical"}
         Points: only at zeros of the polynomial. Curve: a whole curve is on all three. Parallel: at every orientation
         all three lines are parallel. Identical: they are one surface.
     polynomial : tuple of int
-        Coefficients of 1, tau, tau^2, ..., at most 5, of the polynomial whose zeros are the orientations of `poses`; a
-        last one that is 0 makes the half turn a zero. It may have zeros at which three parallel lines are apart. (0,)
+        Coefficients of 1, tau, tau^2, ..., at most 5, of the polynomial whose zeros are the orientations of `poses`. If
+        the last one is 0, the half turn is a zero. Three parallel lines may be disjoint at a zero. The value is (0,)
         unless the relation is "points".
     poses : tuple of TripleContact
-        From theta = 0 on.
+        Poses from theta = 0 on.
     lines : tuple of SharedLine
-        Orientations at which all three lines are one.
+        Orientations at which all three lines are equal.
     curve : IntersectionCurve or None
     ranges : tuple of AngleInterval
-        Where the curve, or what identical surfaces have in common, is on all three.
+        Intervals on which the curve, or the common part of identical surfaces, is on all three.
 
     Examples
     --------
@@ -104,8 +105,8 @@ class Triple:
     >>> from cfree.contact import EdgeVertex, VertexEdge, contact_surface
     >>> robot, room = Polygon([(0, 0), (2, 0), (0, 2)]), Polygon([(-3, 0), (3, 0), (3, 3), (0, 1), (-3, 3)])
     >>> contacts = VertexEdge(0, 0), VertexEdge(1, 0), EdgeVertex(1, 3)
-    >>> found = triple(*(contact_surface(robot, room, contact) for contact in contacts))
-    >>> found.polynomial, [(pose.angle.theta, pose.xy, pose.location.value) for pose in found.poses]
+    >>> meeting = triple(*(contact_surface(robot, room, contact) for contact in contacts))
+    >>> meeting.polynomial, [(pose.angle.theta, pose.xy, pose.location.value) for pose in meeting.poses]
     ((0, -1, 2, 1, 0), [(0.0, (-1.0, 0.0), 'inside'), (3.141592653589793, (3.0, 0.0), 'outside')])
     """
 
@@ -122,7 +123,7 @@ class Triple:
 
     @property
     def contacts(self) -> tuple[TripleContact, ...]:
-        """Poses that are on all three surfaces, or patches, ends included."""
+        """Poses on all three surfaces, or patches, ends included."""
         return tuple(pose for pose in self.poses if pose.location is not Location.OUTSIDE)
 
 
@@ -130,7 +131,7 @@ class Triple:
 def triple(
     first: Surface | RationalSurface, second: Surface | RationalSurface, third: Surface | RationalSurface
 ) -> Triple:
-    """The poses that are on three contact surfaces of one robot and any obstacles.
+    """Intersect three contact surfaces of one robot and any obstacles.
 
     Parameters
     ----------
@@ -139,13 +140,13 @@ def triple(
 
     Notes
     -----
-    Exact; the time depends on the length of the numbers alone. See the theory's page on intersections.
+    The result is exact. Its time depends only on the length of the numbers. See the theory's page on intersections.
     """
     return triple_of((first, second, third), True)
 
 
 def triple_of(surfaces: tuple[AnySurface, AnySurface, AnySurface], outside: bool) -> Triple:
-    """The same; poses outside one of the surfaces are left out unless they are wanted."""
+    """Intersect three contact surfaces; poses outside one of them are included only if `outside` is set."""
     lines = moving_lines(surfaces)
     origin = whole(surfaces[0]).p
     D = {(i, j): cross(lines[i].U, lines[j].U) for i, j in combinations(range(3), 2)}
@@ -155,8 +156,8 @@ def triple_of(surfaces: tuple[AnySurface, AnySurface, AnySurface], outside: bool
     shared = tuple(shared_line(angle, 1, lines) for angle, _ in zeros(coincident)) if any(coincident) else ()
     if any(polynomial):
         angles = {line.angle for line in shared}
-        found = (_contact(a, times, lines, origin, D, outside) for a, times in zeros(polynomial) if a not in angles)
-        return Triple(surfaces, "points", polynomial, tuple(pose for pose in found if pose), shared)
+        poses = (_contact(a, times, lines, origin, D, outside) for a, times in zeros(polynomial) if a not in angles)
+        return Triple(surfaces, "points", polynomial, tuple(pose for pose in poses if pose), shared)
     pair = next((pair for pair in D if any(D[pair])), None)
     if pair is not None:
         curve = _curve(pair, lines, origin, D)
@@ -167,7 +168,7 @@ def triple_of(surfaces: tuple[AnySurface, AnySurface, AnySurface], outside: bool
 
 
 def _determinant(lines: tuple[MovingLine, ...], D: dict[Pair, Form]) -> Form:
-    """Without its factors W: of degree 4 at most."""
+    """Determinant of three lines without its factors W: a form of degree at most 4."""
     d = [cross(line.P, line.U) for line in lines]
     total = plus(product(D[0, 1], d[2]), plus(product(D[1, 2], d[0]), product(D[0, 2], d[1]), -1))
     if not any(total):
@@ -185,7 +186,7 @@ def _contact(
     D: dict[Pair, Form],
     outside: bool,
 ) -> TripleContact | None:
-    """The pose at a zero of the determinant; None if three parallel lines are apart there, or if it is not wanted."""
+    """Pose at a zero of the determinant; None if three parallel lines are disjoint there, or if it is not wanted."""
     pair = next((pair for pair in D if value_at(D[pair], angle) != 0), None)
     if pair is None:
         return None

@@ -1,6 +1,6 @@
-"""Arrangements as JSON: what there is and how it meets, by numbers; `Arrangement` says what the words mean.
+"""Arrangements as JSON: vertices, edges, faces and cells, by number; `Arrangement` defines the words.
 
-| key | of each | what |
+| key | one for each | content |
 |---|---|---|
 | vertices | vertex | pose [x, y, theta], kind, degree, pairs |
 | edges | edge | kind, vertices (none if it is closed), faces around it |
@@ -28,7 +28,7 @@ from cfree.formats.text.atomic import checked_suffix, replacing
 
 @checked
 def arrangement_json(whole: Arrangement) -> dict[str, Any]:
-    """An arrangement as JSON; the keys are those of `cfree.arrangements.written`.
+    """Convert an arrangement to JSON, with the keys of `cfree.arrangements.written`.
 
     Examples
     --------
@@ -41,7 +41,7 @@ def arrangement_json(whole: Arrangement) -> dict[str, Any]:
     """
     sheets = whole.sheets
     contact = zip(
-        *(of[whole.face_patch].tolist() for of in (sheets.contact_kind, sheets.contact_robot, sheets.contact_obstacle)),
+        *(x[whole.face_patch].tolist() for x in (sheets.contact_kind, sheets.contact_robot, sheets.contact_obstacle)),
         strict=True,
     )
     start, around = whole.edge_start.tolist(), whole.edge_face.tolist()
@@ -86,7 +86,7 @@ def arrangement_json(whole: Arrangement) -> dict[str, Any]:
 
 @checked
 def save_arrangement(whole: Arrangement, path: str | PathLike[str]) -> None:
-    """Write an arrangement as JSON, whole or not at all; see `arrangement_json`.
+    """Write an arrangement as JSON, completely or not at all; see `arrangement_json`.
 
     Raises
     ------

@@ -1,9 +1,9 @@
-"""Contact types of a robot A and an obstacle O, the orientations at which each occurs, and which hold in a pose.
+"""Contact types of a robot A and an obstacle O, and the orientations at which each occurs.
 
 Paper, sections 1.2, 3.1.1, 3.2.1 and 3.3. The robot's feature comes first: `VertexEdge(i, j)` is a_i on E_j.
 
-All orientations are found from directions alone. With u rotated onto the reverse of w where R(phi) u = -w up to
-length, the direction (cos phi, sin phi) is -(u.w, u x w) up to length: exact, no arccosine, no case table.
+All orientations follow from directions alone. If R(phi) u = -w up to length, the direction (cos phi, sin phi) is
+-(u.w, u x w) up to length: exact, no arccosine, no case table.
 
     v-e  from E_i against E_j     to E_{i-1} against E_j      width pi - rho_i
     e-v  from E_i against E_{j-1} to E_i against E_j          width pi - omega_j
@@ -75,12 +75,12 @@ Contact = VertexEdge | EdgeVertex | VertexVertex | EdgeEdge
 
 @dataclass(frozen=True, slots=True)
 class AngleRange:
-    """Closed range of orientations at which a contact type is a contact, not only a pseudo contact.
+    """Closed range of orientations at which a contact type is a true contact, not only a pseudo contact.
 
     Attributes
     ----------
     phi_min : float, radians
-        In [0, 2 pi).
+        Start, in [0, 2 pi).
     phi_range : float, radians
         Width, 0 for an e-e contact.
     start, end : pair of int
@@ -99,7 +99,7 @@ class AngleRange:
 
     @property
     def domain(self) -> tuple[tuple[float, float], ...]:
-        """Phi of eq. (6): one interval of [0, 2 pi), or two if the range passes 0; the first is then half open.
+        """Phi of eq. (6): one interval of [0, 2 pi), or two if the range passes 0, the first of them half open.
 
         Examples
         --------
@@ -112,7 +112,7 @@ class AngleRange:
 
     @checked
     def locate(self, direction: Vector) -> Location:
-        """Is the angle of (cos phi, sin phi), exact up to length, inside the range, at an end or outside?"""
+        """Location of the direction (cos phi, sin phi), exact up to length: inside the range, at an end or outside."""
         if self.phi_range == 0:
             is_end = compare_directions(self.start, direction) is Order.SAME
             return Location.BOUNDARY if is_end else Location.OUTSIDE
@@ -121,7 +121,7 @@ class AngleRange:
 
 @checked
 def contacts(robot: Polygon, obstacle: Polygon) -> tuple[VertexEdge | EdgeVertex, ...]:
-    """All v-e and e-v pairs that have a contact patch: those at convex vertices.
+    """All v-e and e-v pairs that have a contact patch, which are the pairs at convex vertices.
 
     Examples
     --------
@@ -155,7 +155,7 @@ def contact_curves(robot: Polygon, obstacle: Polygon) -> tuple[VertexVertex | Ed
 
 @checked
 def angle_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> AngleRange:
-    """Orientations at which a contact type is a contact.
+    """Range of orientations at which a contact type is a contact.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def angle_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> AngleRan
     Raises
     ------
     ValueError
-        If it never is one: a v-e or e-v contact at a reflex vertex, or a v-v contact with
+        If there is none: a v-e or e-v contact at a reflex vertex, or a v-v contact with
         2 pi - rho_i - omega_j <= 0.
 
     Notes
@@ -189,12 +189,12 @@ def end_directions(robot: Polygon, obstacle: Polygon, contact: Contact) -> tuple
     Raises
     ------
     ValueError
-        As `angle_range` does.
+        If the contact type is never a contact, as in `angle_range`.
 
     Notes
     -----
-    Sums of products of the input, as eq. (7) solved for (x_0, y_0) is but for one square root: no function of an
-    angle occurs (Remark 4).
+    They are sums of products of the input. So is the solution (x_0, y_0) of eq. (7), except for one square root: no
+    function of an angle occurs (Remark 4).
 
     Examples
     --------
@@ -227,7 +227,7 @@ def edge_edge_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tup
     to_a, to_b = not robot.convex[robot.next[i]], not obstacle.convex[obstacle.next[j]]
     u, v = robot.edge_numerators[i], obstacle.edge_numerators[j]
     d, e = robot.denominator, obstacle.denominator
-    order = compare_lengths((u[0] * e, u[1] * e), (v[0] * d, v[1] * d))  # of L and 1
+    order = compare_lengths((u[0] * e, u[1] * e), (v[0] * d, v[1] * d))  # L compared with 1
     if (
         (from_a and to_b)
         or (from_b and to_a)
@@ -246,7 +246,7 @@ def direction_against(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> I
 
 
 def _occurs(robot: Polygon, obstacle: Polygon, contact: Contact) -> bool:
-    """Is there an orientation at which the contact type is a contact?"""
+    """True if the contact type is a contact at some orientation."""
     rho_is_convex, omega_is_convex = bool(robot.convex[contact.i]), bool(obstacle.convex[contact.j])
     match contact:
         case VertexEdge():

@@ -1,4 +1,4 @@
-"""Which contact types hold in one exact pose, and is it a contact or only a pseudo contact? Paper, section 1.2.
+"""Contact types that hold in one exact pose; contacts and pseudo contacts. Paper, section 1.2.
 
 Pseudo contact: the boundaries meet. Contact: they meet, and the interiors do not. A pose is forbidden if the
 interiors meet: the forbidden space is open, touching is free. Everything is decided on integers; O(n m) time.
@@ -23,7 +23,7 @@ Edge = tuple[IntPoint, IntPoint]
 
 @checked
 def contact_features(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> tuple[Contact, ...]:
-    """All contact types that hold in a pose, be it a contact or a pseudo contact.
+    """All contact types that hold in a pose, contact or pseudo contact.
 
     Notes
     -----
@@ -37,24 +37,24 @@ def contact_features(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> tuple
     """
     pose = to_pose(pose, "pose")
     placed = _Placed.of(robot, obstacle, pose)
-    found: set[Contact] = set()
+    types: set[Contact] = set()
     for i, j, met in placed.meetings():
         (a, a_next), (b, b_next) = placed.robot[i], placed.obstacle[j]
         if a == b:
-            found.add(VertexVertex(i, j))
+            types.add(VertexVertex(i, j))
         if met is Meeting.OVERLAP:
-            found.add(EdgeEdge(i, j))
+            types.add(EdgeEdge(i, j))
         if is_inside_segment(a, b, b_next):
-            found.add(VertexEdge(i, j))
+            types.add(VertexEdge(i, j))
         if is_inside_segment(b, a, a_next):
-            found.add(EdgeVertex(i, j))
+            types.add(EdgeVertex(i, j))
     kinds = (VertexEdge, EdgeVertex, VertexVertex, EdgeEdge)
-    return tuple(sorted(found, key=lambda contact: (kinds.index(type(contact)), contact.i, contact.j)))
+    return tuple(sorted(types, key=lambda contact: (kinds.index(type(contact)), contact.i, contact.j)))
 
 
 @checked
 def is_pseudo_contact(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> bool:
-    """Do the boundaries meet?
+    """True if the boundaries meet.
 
     Examples
     --------
@@ -68,20 +68,20 @@ def is_pseudo_contact(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> bool
 
 @checked
 def is_contact(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> bool:
-    """Do the boundaries meet, but not the interiors?"""
+    """True if the boundaries meet, but the interiors do not."""
     pose = to_pose(pose, "pose")
     return is_pseudo_contact(robot, obstacle, pose) and not is_forbidden(robot, obstacle, pose)
 
 
 @checked
 def is_forbidden(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> bool:
-    """Do the interiors meet?
+    """True if the interiors meet.
 
     Notes
     -----
-    They do if edges cross, or else if a part of one boundary, cut at the other's vertices, runs inside the other
-    polygon, or along its boundary in the same direction, both interiors being on the left. Otherwise no part of
-    one interior can be distinguished from the other by a boundary, and none is common.
+    They meet if edges cross. Otherwise cut one boundary at the other's vertices: they meet if a part of it runs inside
+    the other polygon, or along its boundary in the same direction, since both interiors are on the left. In all other
+    cases no boundary separates parts of one interior by the other, and nothing is common.
 
     Examples
     --------
@@ -110,7 +110,7 @@ def is_forbidden(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Placed:
-    """Edges of the robot in its pose and of the obstacle, times one common number that makes middles whole."""
+    """Edges of the robot in its pose and of the obstacle, times a common number that makes middles integers."""
 
     robot: list[Edge]
     obstacle: list[Edge]
@@ -129,7 +129,7 @@ class _Placed:
         )
 
     def meetings(self) -> Iterator[tuple[int, int, Meeting]]:
-        """Indices of edges that are not apart."""
+        """Indices of edges that meet, with their `Meeting`."""
         for i, (p, q) in enumerate(self.robot):
             x0, x1 = sorted((p[0], q[0]))
             y0, y1 = sorted((p[1], q[1]))

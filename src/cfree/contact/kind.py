@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class Kind(IntEnum):
-    """What a pair is; it names a surface, a curve or a critical angle."""
+    """Kind of a pair of features; it names a surface, a curve or a critical angle."""
 
     NONE = 0
     VERTEX_EDGE = 1
@@ -16,7 +16,7 @@ class Kind(IntEnum):
 
     @property
     def short(self) -> str:
-        """The paper's letters.
+        """Abbreviation of the kind in the paper.
 
         Examples
         --------

@@ -1,6 +1,6 @@
-"""The whole contact surfaces of one pair, as the paper parametrizes them; patches restrict t and phi.
+"""Whole contact surfaces of one pair in the paper's parameters; patches restrict t and phi.
 
-Paper, sections 2 and 3. Both kinds of ruled surface are one formula,
+Paper, sections 2 and 3. One formula covers both kinds of ruled surface,
 
     S(t, phi) = (p + t q - R(phi) (a + t g), phi)
 
@@ -8,7 +8,7 @@ Paper, sections 2 and 3. Both kinds of ruled surface are one formula,
     e-v, eq. (8):  p = b_j, q = 0,   a = a_i, g = E_i     a saddle: their radii differ
 
 and every curve phi -> S(t, phi) is the helix of Lemma 1, a rotation about p + t q of the robot's point a + t g.
-Results are arrays (..., 3) of x, y and phi in double precision; `pose` gives the exact twin of a point.
+Results are arrays (..., 3) of x, y and phi in double precision; `pose` returns an exact pose.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Surface:
 
     @property
     def ruled(self) -> Floats:
-        """p, q, a, g as doubles, (8,): a row as of `Boundary.ruled`."""
+        """p, q, a, g as doubles, (8,), like a row of `Boundary.ruled`."""
         return np.array([float(c) for point in (self.p, self.q, self.a, self.g) for c in point])
 
     def __call__(self, t: ArrayLike, phi: ArrayLike, *, beyond: bool = False) -> Floats:
@@ -80,9 +80,9 @@ class Surface:
         ----------
         t : (...) float, in [0, 1]
         phi : (...) float
-            All angles: those outside Phi, see `angle_range`, are on the surface, and not on the patch.
+            Any angles; points outside Phi, see `angle_range`, are on the surface, not on the patch.
         beyond : bool
-            Allow any t: the edge's line then stands for the edge, as on e-e segments.
+            Allow any t: the edge is then extended to its line, as on e-e segments.
 
         Raises
         ------
@@ -93,7 +93,7 @@ class Surface:
 
     @checked
     def grid(self, t: ArrayLike, phi: ArrayLike) -> Floats:
-        """Positions at all pairs of t in [0, 1] and phi: (len(phi), len(t), 2). Faster than a call: a row is a line.
+        """Positions at all pairs of t in [0, 1] and phi: (len(phi), len(t), 2). It is faster than a call.
 
         Examples
         --------
@@ -109,7 +109,7 @@ class Surface:
 
     @checked
     def helix(self, t: Number, *, beyond: bool = False) -> Helix:
-        """The curve phi -> S(t, phi), along which a point of the robot is fixed; t as in a call."""
+        """Return the curve phi -> S(t, phi), along which a point of the robot is fixed; t as in a call."""
         s = to_fraction(t)
         if not (beyond or 0 <= s <= 1):
             raise _not_on_edge(t)
@@ -118,7 +118,7 @@ class Surface:
 
     @checked
     def pose(self, t: Number, theta: Angle, *, beyond: bool = False) -> Pose:
-        """The exact pose at t and theta, as in a call."""
+        """Return the exact pose at t and theta, as in a call."""
         return self.helix(t, beyond=beyond).pose(theta)
 
 
@@ -144,7 +144,7 @@ def _not_on_edge(t: Number) -> ValueError:
 
 @dataclass(frozen=True, slots=True)
 class Helix:
-    """All poses in which a point of the robot is at a point of the plane: Lemma 1, eq. (4).
+    """Helix of all poses in which a point of the robot is at a point of the plane: Lemma 1, eq. (4).
 
     Attributes
     ----------
@@ -174,12 +174,12 @@ class Helix:
 
     @property
     def radius(self) -> float:
-        """How far the fixed point is from the robot's reference point."""
+        """Distance of the fixed point from the robot's reference point."""
         return math.hypot(*map(float, self.fixed))
 
     @checked
     def curvature(self, *, angle_scale: float = 1.0) -> float:
-        """r / (r^2 + w^2), r the radius and w the `angle_scale`, length per radian: everywhere the same, in 1 / length.
+        """Constant curvature r / (r^2 + w^2), in 1 / length; r is the radius, w the `angle_scale`, length per radian.
 
         Examples
         --------
@@ -191,15 +191,15 @@ class Helix:
 
     @checked
     def torsion(self, *, angle_scale: float = 1.0) -> float:
-        """w / (r^2 + w^2): to the right, as of every screw that climbs as it turns to the left, in 1 / length.
+        """Constant torsion w / (r^2 + w^2), in 1 / length, of a right-handed screw: it climbs as it turns to the left.
 
-        On the axis, r = 0, the helix is a straight line and has no torsion; this is then the limit.
+        On the axis, r = 0, the helix is a straight line without torsion; the value is then the limit.
         """
         return angle_scale / self._square(angle_scale)
 
     @checked
     def length(self, phi_from: float, phi_to: float, *, angle_scale: float = 1.0) -> float:
-        """Length between two angles, (phi_to - phi_from) sqrt(r^2 + w^2): negative if the first is larger."""
+        """Length between two angles, (phi_to - phi_from) sqrt(r^2 + w^2); negative if the first is larger."""
         return (phi_to - phi_from) * math.sqrt(self._square(angle_scale))
 
     def _square(self, angle_scale: float) -> float:
@@ -209,7 +209,7 @@ class Helix:
 
     @checked
     def pose(self, theta: Angle) -> Pose:
-        """The exact pose at theta."""
+        """Return the exact pose at theta."""
         turn = Pose(0, 0, theta)
         ((x, y),) = turn.apply_exact([self.fixed])
         return Pose(self.centre[0] - x, self.centre[1] - y) @ turn
@@ -241,7 +241,7 @@ class EdgeEdgeSegment:
 
 @checked
 def contact_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> Surface:
-    """Contact surface of a v-e contact, eq. (5), or of an e-v contact, eq. (8)."""
+    """Return the contact surface of a v-e contact, eq. (5), or of an e-v contact, eq. (8)."""
     i, j, zero = contact.i, contact.j, (Fraction(0), Fraction(0))
     p, a = obstacle.exact_vertices[j], robot.exact_vertices[i]
     if isinstance(contact, VertexEdge):
@@ -251,7 +251,7 @@ def contact_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | Edg
 
 @checked
 def contact_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> Helix:
-    """Helix of a v-v contact, section 3.3.1: a_i stays at b_j.
+    """Return the helix of a v-v contact, section 3.3.1: a_i stays at b_j.
 
     Examples
     --------
@@ -264,7 +264,7 @@ def contact_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> H
 
 @checked
 def contact_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> EdgeEdgeSegment:
-    """Segment of an e-e contact: `t_range` is where it is one, see `edge_edge_range`.
+    """Return the segment of an e-e contact, over its `t_range`; see `edge_edge_range`.
 
     Raises
     ------
@@ -288,18 +288,18 @@ def contact_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> Edg
 
 @checked
 def edge_edge_surface(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tuple[EdgeEdgeSegment, EdgeEdgeSegment]:
-    """Contact surface of an e-e pair, Definition 1: its two segments, contact or only pseudo contact.
+    """Return the contact surface of an e-e pair, Definition 1: its two segments, contact or only pseudo contact.
 
     Returns
     -------
     pair of EdgeEdgeSegment
-        Edges run against each other in the first, at phi_min, and alongside in the second, at phi_min + pi, where all
-        poses are forbidden. Inside `t_range` the edges have more than a point in common, at its ends a point.
+        The edges have opposite directions in the first, at phi_min, and the same direction in the second, at
+        phi_min + pi, where all poses are forbidden. Inside `t_range` they share more than a point, at its ends a point.
 
     Notes
     -----
-    With L the length of E_i over that of E_j the robot's edge covers [t - L, t] of the obstacle's line at phi_min and
-    [t, t + L] at phi_min + pi, the obstacle's edge [0, 1]: so t is in [0, 1 + L], or in [-L, 1]. Reflex vertices do not
+    Let L be the length of E_i over that of E_j. On the obstacle's line, its edge covers [0, 1]; the robot's edge covers
+    [t - L, t] at phi_min, and [t, t + L] at phi_min + pi. So t is in [0, 1 + L], or in [-L, 1]. Reflex vertices do not
     matter for pseudo contacts.
 
     Examples
@@ -321,19 +321,19 @@ def edge_edge_surface(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> t
 
 @checked
 def rotation_about(centre: Sequence[Number], fixed: Sequence[Number]) -> Helix:
-    """All rotations that keep a point of the robot, given in its own coordinates, at a centre: Lemma 1."""
+    """Return the helix of rotations that keep a point of the robot, in its own coordinates, at a centre: Lemma 1."""
     (px, py), (ax, ay) = centre, fixed
     return Helix((to_fraction(px), to_fraction(py)), (to_fraction(ax), to_fraction(ay)))
 
 
 @checked
 def helix_through(pose: PoseLike, fixed: Sequence[Number]) -> Helix:
-    """The helix through a pose that keeps a point of the robot, given in its own coordinates, where it is: Remark 2.
+    """Return the helix through a pose that keeps a point of the robot, in its own coordinates, fixed: Remark 2.
 
     Notes
     -----
-    Different points give different helices, and there are no others through the pose: it lies on as many as the plane
-    has points. Their tangents are (-J R a, 1): every direction but the horizontal ones, each once.
+    Different points give different helices, and every helix through the pose has such a point. Their tangents are
+    (-J R a, 1): every direction except the horizontal ones, each once.
 
     Examples
     --------
@@ -353,18 +353,18 @@ def helix_through(pose: PoseLike, fixed: Sequence[Number]) -> Helix:
 def rotation_of_combination(
     centre: Sequence[Number], points: Iterable[Sequence[Number]], weights: Iterable[Number]
 ) -> Helix:
-    """All poses in which a linear combination of points of the robot is at a centre: Remark 2.
+    """Return the helix of poses in which a linear combination of robot points is at a centre: Remark 2.
 
     Raises
     ------
     ValueError
-        If the weights add up to zero: the combination is then a vector that turns but never moves, the condition
-        leaves the position free, and no helix results.
+        If the weights add up to zero: the combination is then a vector that turns but never moves. The condition
+        leaves the position free, and the poses form no helix.
 
     Notes
     -----
-    With a = sum lambda_k a_k and sigma = sum lambda_k, the combination of the moved points is sigma r + R(theta) a;
-    it is at P on the helix of the point a / sigma about P / sigma.
+    Let a = sum lambda_k a_k and sigma = sum lambda_k. The combination of the moved points is sigma r + R(theta) a; it
+    is at P on the helix of the point a / sigma about P / sigma.
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""What the rings of round shapes are made of: whole circles and ellipses, or paths of arcs, Bézier curves and splines.
+"""Rings of round shapes: whole circles and ellipses, or paths of arcs, Bézier curves and splines.
 
-`cfree.Curved` is a shape of such rings; `cfree.Scene` takes it wherever it takes a polygon.
+`cfree.Curved` is a shape bounded by such rings; `cfree.Scene` takes it wherever it takes a polygon.
 """
 
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""Shapes with round edges: what they are, and polygons around them and inside, as near as one likes.
+"""Shapes with round edges, and polygons around them and inside, to any precision.
 
 docs/theory/curved-shapes.md has the proofs.
 """
@@ -25,9 +25,9 @@ from cfree.polygons.polygon import Polygon
 from cfree.value import Shown
 from cfree.words import counted
 
-ROUGH = 64  # parts of its size: the error at which a shape is seen to be one
-LEAST_SIDES, MOST_SIDES = 8, 4096  # of polygons for discs
-KEPT = 4096  # polygons in memory
+ROUGH = 64  # the constructor checks a shape with an error of its size / ROUGH
+LEAST_SIDES, MOST_SIDES = 8, 4096  # sides of polygons for discs
+KEPT = 4096  # cached polygons
 REFUSED = (
     "there are round shapes, and this takes polygons; give scene.outer(error) or scene.inner(error), "
     "on the command line what cfree convert --outer or --inner writes"
@@ -37,7 +37,7 @@ REFUSED = (
 @checked
 @dataclass(frozen=True, init=False, repr=False)
 class Curved(Shown):
-    """A shape with round edges, or one that is a polygon grown by a disc.
+    """A shape with round edges, or a polygon grown by a disc.
 
     Parameters
     ----------
@@ -46,18 +46,17 @@ class Curved(Shown):
         closes it.
     holes : sequence of the same
     grown : number
-        All that is so near to the shape belongs to it, too; then its rings have only lines.
+        All points within this distance also belong to the shape; its rings must then consist of lines.
 
     Raises
     ------
     InvalidPolygonError
-        If it is no shape: place, value and remedy.
+        If the rings bound no shape; the message has place, value and remedy.
 
     Notes
     -----
-    All numbers are exact, and so are the curves: what is inside is what a ring goes around. Where a ring crosses itself
-    is seen by polygons with an error of a 64th of its size and less, so that one that all but touches itself may be
-    taken for one.
+    All numbers and curves are exact; the inside is the region that a ring goes around. Polygons with an error of at
+    most a 64th of the size detect rings that cross themselves, so a ring that nearly touches itself may be refused.
 
     Examples
     --------
@@ -89,7 +88,7 @@ class Curved(Shown):
     @staticmethod
     @checked
     def circle(center: Point, radius: Number) -> Curved:
-        """A disc.
+        """Return a disc.
 
         Examples
         --------
@@ -101,7 +100,7 @@ class Curved(Shown):
     @staticmethod
     @checked
     def ellipse(center: Point, radii: Sequence[Number], angle: Angle = 0) -> Curved:
-        """A shape within an ellipse, its first radius turned by an angle, as `cfree.Pose` takes it, from the x-axis."""
+        """Return the inside of an ellipse; `angle`, as in `cfree.Pose`, leads from the x-axis to its first radius."""
         return Curved(Ellipse(center, radii, angle))
 
     def __repr__(self) -> str:
@@ -121,29 +120,29 @@ class Curved(Shown):
 
     @property
     def curves(self) -> tuple[tuple[Piece, ...], ...]:
-        """The outer ring and the holes, as lines, spans of ellipses and cubic Bézier curves, exactly."""
+        """Outer ring and holes, as exact lines, spans of ellipses and cubic Bézier curves."""
         return tuple(map(_pieces, (self.path, *self.holes)))
 
     @property
     def box(self) -> tuple[Fraction, Fraction, Fraction, Fraction]:
-        """Least x and y, greatest x and y: exact where these are rational, else at most a 2**20th of the size off."""
+        """Least x and y, greatest x and y: exact if rational, else at most a 2**20th of the size off."""
         x0, y0, x1, y1 = _box_of(self.path)
         return x0 - self.grown, y0 - self.grown, x1 + self.grown, y1 + self.grown
 
     @property
     def size(self) -> float:
-        """The longer side of the box."""
+        """Longer side of the box."""
         x0, y0, x1, y1 = self.box
         return float(max(x1 - x0, y1 - y0))
 
     @property
     def least_error(self) -> float:
-        """Of polygons for it: doubles tell no less."""
+        """Least error of polygons for the shape; doubles are too coarse for less."""
         return float(self.grown) * 2**-18 if self.grown else 4 * FINEST * self.size
 
     @checked
     def outer(self, error: float) -> tuple[Polygon, ...]:
-        """Return a polygon proved to contain it; of a grown shape one for each convex piece.
+        """Return a polygon proved to contain the shape; for a grown shape, one for each convex piece.
 
         Parameters
         ----------
@@ -155,7 +154,7 @@ class Curved(Shown):
         ValueError
             If the error is less than `least_error`.
         UndecidedError
-            If no polygon around it can be proved to be so. A hole too thin to have a polygon inside is filled.
+            If no polygon can be proved to contain it. A hole too thin to have a polygon inside is filled.
 
         Examples
         --------
@@ -167,10 +166,10 @@ class Curved(Shown):
 
     @checked
     def inner(self, error: float) -> tuple[Polygon, ...]:
-        """Return a polygon proved to be inside of it, no point of its boundary farther from the shape's boundary.
+        """Return a polygon proved to be inside, no boundary point farther than `error` from the shape's boundary.
 
-        The tuple is empty if there is none: the shape is too thin for doubles, or has cusps. Parameters are those of
-        `outer`.
+        The tuple is empty if none can be proved: the shape is too thin for doubles, or has cusps. Parameters are those
+        of `outer`.
 
         Examples
         --------
@@ -187,17 +186,17 @@ class Curved(Shown):
             return _grown(self._base(), self.grown, error, inside)
         frame = self._frame
         curves = tuple(tuple(frame.local(curve)) for curve in self.curves)
-        found = _near(curves, error / frame.length, inside)
-        if isinstance(found, Polygon):
-            outer, *holes = ([frame.world(p) for p in ring] for ring in found.exact_rings)
+        result = _near(curves, error / frame.length, inside)
+        if isinstance(result, Polygon):
+            outer, *holes = ([frame.world(p) for p in ring] for ring in result.exact_rings)
             return (Polygon(outer, holes),)
         if inside:
             return ()
-        raise found.with_traceback(None)
+        raise result.with_traceback(None)
 
     @property
     def _frame(self) -> Frame:
-        """Around a point of short numbers, as large as it is."""
+        """Frame of the shape's size, with a point of short coordinates as origin."""
         first, (x0, y0, x1, y1) = self.curves[0][0], self.box
         (x, y), *_ = hull_points(first)
         if isinstance(first, Span) and x0 <= first.center[0] <= x1 and y0 <= first.center[1] <= y1:
@@ -223,13 +222,13 @@ def _box_of(ring: GivenRing) -> Box:
     return box_of(_pieces(ring))
 
 
-# Curves without a polygon inside, the largest error at which it was looked for, and the fault, which has the least.
+# Curves without a polygon inside -> the largest error tried for it, and the fault, which has the smallest.
 _nothing_inside: dict[tuple[tuple[Piece, ...], ...], tuple[float, UndecidedError]] = {}
 
 
 @lru_cache(KEPT)
 def _near(curves: tuple[tuple[Piece, ...], ...], error: float, inside: bool) -> Polygon | Exception:
-    """The polygon around them, or inside; or why there is none."""
+    """Return the polygon around curves, or inside; or the reason why there is none."""
     if inside and curves in _nothing_inside:
         most, fault = _nothing_inside[curves]
         if fault.error <= error <= most:
@@ -239,17 +238,17 @@ def _near(curves: tuple[tuple[Piece, ...], ...], error: float, inside: bool) -> 
         return polygon_of(Outline(outer, tuple(holes), curves), error, inside)
     except InvalidPolygonError as crossing:
         return crossing
-    except UndecidedError as found:
+    except UndecidedError as fault:
         if inside:
             if len(_nothing_inside) == KEPT:
                 _nothing_inside.clear()
-            _nothing_inside[curves] = error, found
-        return found
+            _nothing_inside[curves] = error, fault
+        return fault
 
 
 @lru_cache(KEPT)
 def _grown(polygon: Polygon, radius: Fraction, error: float, inside: bool) -> tuple[Polygon, ...]:
-    """Sums of its convex pieces and a polygon for the disc."""
+    """Minkowski sums of the polygon's convex pieces and a polygon for the disc."""
     share = error / float(radius)
     turn = math.acos(max(0.0, 1 - share / 2) if inside else 1 / (1 + share / 2))
     sides = min(max(LEAST_SIDES, 4 * math.ceil(math.pi / (4 * turn))), MOST_SIDES)
@@ -259,7 +258,7 @@ def _grown(polygon: Polygon, radius: Fraction, error: float, inside: bool) -> tu
 
 @lru_cache(KEPT)
 def _disc(sides: int, inside: bool) -> tuple[ExactPoint, ...]:
-    """A polygon proved to be around the disc of radius 1, or inside."""
+    """Return a polygon proved to be around the disc of radius 1, or inside."""
     one = Fraction(1)
     ring = (inside_disc if inside else around_disc)(one, sides)
     if not is_proved(Polygon(ring), 0, exact_ring(Circle((0, 0), one)), within=inside):

@@ -1,7 +1,7 @@
-"""What outlines in drawings are made of: lines, arcs of circles and ellipses, cubic Bézier curves.
+"""Segments of outlines in drawings: lines, arcs of circles and ellipses, cubic Bézier curves.
 
-Points of lines are exact, those of curves doubles. A ring is a list of segments, each beginning where the one before
-ends; affine maps carry them (`Affine`).
+Points of lines are exact, points of curves are doubles. A ring is a list of segments; each begins at the end of the one
+before. `Affine` maps transform rings.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ Affine = tuple[Fraction, Fraction, Fraction, Fraction, Fraction, Fraction]
 """(a, b, c, d, e, f) takes (x, y) to (a x + c y + e, b x + d y + f), as SVG writes it."""
 Vector = tuple[float, float]
 Tips = tuple[ExactPoint, ExactPoint] | None
-"""Where a curve begins and ends, if that is known better than in doubles."""
+"""Exact first and last point of a curve, if known."""
 
 IDENTITY: Affine = (Fraction(1), Fraction(0), Fraction(0), Fraction(1), Fraction(0), Fraction(0))
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """From a point to another."""
+    """A straight segment from `start` to `end`."""
 
     start: ExactPoint
     end: ExactPoint
@@ -36,7 +36,7 @@ class Line:
 class Arc:
     """Points center + u cos t + v sin t, for t from `first` to `last`, in radians; u and v are conjugate radii.
 
-    If the point at t = 0 is given as `base`, points near it are as exact as it is, however far the center is.
+    If `base`, the point at t = 0, is given, points near it are as exact as `base`, at any distance of the center.
     """
 
     center: Vector
@@ -48,7 +48,7 @@ class Arc:
     base: Vector | None = None
 
     def at(self, t: float, half: float = 0.0) -> Vector:
-        """Return the point at t, or the one where the tangents at t - half and t + half meet."""
+        """Return the point at t; with `half`, the intersection of the tangents at t - half and t + half."""
         scale = math.cos(half)
         origin, s = self.base or self.center, math.sin(t) / scale
         c = -2 * math.sin((t + half) / 2) * math.sin((t - half) / 2) / scale if self.base else math.cos(t) / scale
@@ -73,22 +73,22 @@ Ring = list[Segment]
 
 
 def translation(x: Fraction, y: Fraction) -> Affine:
-    """To another place."""
+    """Translation by (x, y)."""
     return Fraction(1), Fraction(0), Fraction(0), Fraction(1), x, y
 
 
 def straight(ring: Sequence[Segment]) -> bool:
-    """Only lines?"""
+    """True if a ring consists of lines only."""
     return all(isinstance(segment, Line) for segment in ring)
 
 
 def turn(p: Sequence[Any], q: Sequence[Any], r: Sequence[Any]) -> Any:
-    """Above 0 if the way from p over q to r turns left; as exact as the points are."""
+    """Cross product of q - p and r - q, above 0 for a left turn; as exact as the points are."""
     return (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
 
 
 def decimal(value: float) -> Fraction:
-    """The shortest decimal that 14 digits of a double tell: what was added up in doubles is what was meant.
+    """Return the decimal of a double's first 14 digits, which undoes the rounding of sums.
 
     Examples
     --------
@@ -101,28 +101,28 @@ def decimal(value: float) -> Fraction:
 
 
 def point_of(x: float, y: float) -> ExactPoint:
-    """A point of a drawing."""
+    """Point of a drawing, as decimals of 14 digits."""
     return decimal(x), decimal(y)
 
 
 def arc_of_circle(center: Vector, radius: float, first: float = 0.0, last: float = math.tau) -> Arc:
-    """Part of a circle, counter-clockwise if `last` is larger; all of it, if not said otherwise."""
+    """Arc of a circle, by default all of it; counter-clockwise if `last` is larger."""
     return Arc(center, (radius, 0.0), (0.0, radius), first, last)
 
 
 def polyline(points: Sequence[ExactPoint]) -> Ring:
-    """The closed ring of some points."""
+    """Closed ring through points."""
     return [Line(a, b) for a, b in zip(points, [*points[1:], *points[:1]], strict=True) if a != b]
 
 
 def quadratic(a: Vector, b: Vector, c: Vector) -> Cubic:
-    """A Bézier curve of degree 2."""
+    """Bézier curve of degree 2, as a cubic."""
     lower, upper = ((e[0] + 2 * (b[0] - e[0]) / 3, e[1] + 2 * (b[1] - e[1]) / 3) for e in (a, c))
     return Cubic((a, lower, upper, c))
 
 
 def bulged(a: Vector, b: Vector, bulge: float) -> Arc:
-    """The arc of a DXF polyline: `bulge` is the tangent of a quarter of its angle, to the left if above 0."""
+    """Arc of a DXF polyline: `bulge` is the tangent of a quarter of its angle, to the left if above 0."""
     half = 2 * math.atan(bulge)
     dx, dy = b[0] - a[0], b[1] - a[1]
     middle, rise = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), 1 / math.tan(half) / 2
@@ -133,7 +133,7 @@ def bulged(a: Vector, b: Vector, bulge: float) -> Arc:
 
 
 def ends(segment: Segment) -> tuple[Vector, Vector]:
-    """Where a segment begins and ends, in doubles."""
+    """First and last point of a segment, in doubles."""
     match segment:
         case Line(start, end):
             return (float(start[0]), float(start[1])), (float(end[0]), float(end[1]))
@@ -144,7 +144,7 @@ def ends(segment: Segment) -> tuple[Vector, Vector]:
 
 
 def middle(segment: Segment) -> Vector:
-    """The point between the ends, half way of its parameter."""
+    """Point of a segment halfway in its parameter."""
     match segment:
         case Line():
             (x0, y0), (x1, y1) = ends(segment)
@@ -156,7 +156,7 @@ def middle(segment: Segment) -> Vector:
 
 
 def reversed_ring(ring: Sequence[Segment]) -> Ring:
-    """The same ring in the other direction."""
+    """Reverse the direction of a ring."""
     return [_reversed(segment) for segment in reversed(ring)]
 
 
@@ -171,7 +171,7 @@ def _reversed(segment: Segment) -> Segment:
 
 
 def carried(ring: Sequence[Segment], by: Affine) -> Ring:
-    """A ring in another frame: lines exactly, curves in doubles."""
+    """Transform a ring: lines exactly, curves in doubles."""
     a, b, c, d, e, f = map(float, by)
 
     def direction(p: Vector) -> Vector:
@@ -194,13 +194,13 @@ def carried(ring: Sequence[Segment], by: Affine) -> Ring:
 
 
 def applied(by: Affine, p: ExactPoint) -> ExactPoint:
-    """A point in another frame."""
+    """Transform a point."""
     a, b, c, d, e, f = by
     return a * p[0] + c * p[1] + e, b * p[0] + d * p[1] + f
 
 
 def compose(outer: Affine, inner: Affine) -> Affine:
-    """First `inner`, then `outer`."""
+    """Compose two maps: first `inner`, then `outer`."""
     a, b, c, d, _, _ = outer
     (x, y), (p, q, r, s) = applied(outer, (inner[4], inner[5])), inner[:4]
     return a * p + c * q, b * p + d * q, a * r + c * s, b * r + d * s, x, y

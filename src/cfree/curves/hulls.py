@@ -1,18 +1,18 @@
-"""Polygons around rings of lines and curves, or inside of them, with a given error, each proved to be so.
+"""Polygons proved to be around rings of lines and curves, or inside, with a given error.
 
-A piece of a curve lies in the hull of its control points; that of an arc in the triangle of its ends and of the point
-where their tangents meet. If the shape is to the left of a ring, the chain of hull vertices to the right of each
-piece is a polygon around it: of a piece that turns left it runs along tangents, of one that turns right it is the
-chord. Pieces are halved until their hulls are flat. Vertices on this chain that are no ends of segments then move
-outwards, far more than doubles err, and become short decimals. Ends of straight segments stay where they are, if the
-polygon then contains the shape.
+A piece of a curve lies in the hull of its control points; an arc lies in the triangle of its ends and the intersection
+of its end tangents. If the shape is to the left of a ring, the chain of hull vertices to the right of each piece is a
+polygon around it. The chain follows the tangents of a piece that turns left, and the chord of one that turns right.
+Pieces are halved until their hulls are flat. Vertices of this chain that are not ends of segments then move outwards,
+by far more than the error of doubles, and become short decimals. Ends of straight segments stay fixed, if the polygon
+then contains the shape.
 
                 T                the arc from P to Q turns left around the shape below it;
              .     .             around: P, T, Q     inside: P, Q
           P ---------- Q
 
-All this is done in doubles, and only proposes. The core decides exactly whether a polygon is around the curve, or
-inside (`pieces.is_proved`). If it is not, the error is made smaller.
+All this is done in doubles and yields only a candidate. The core decides exactly whether a polygon is around the curve,
+or inside (`pieces.is_proved`). If it is not, a smaller error is tried.
 """
 
 from __future__ import annotations
@@ -42,18 +42,18 @@ from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
 
-DEEPEST = 24  # times that a piece of a curve is halved
-FINEST = 1e-9  # of the drawing's size: the least error that doubles can promise
-NOISE = 1e-14  # of the drawing's size: more than doubles err
+DEEPEST = 24  # halvings of a piece of a curve
+FINEST = 1e-9  # least error that doubles can guarantee, per size of the drawing
+NOISE = 1e-14  # bound of the rounding of doubles, per size of the drawing
 Spend = Callable[[int], object]
-TRIES = 4  # with an eighth of the error each, where rings cross
+TRIES = 4  # each with an eighth of the error, if rings cross
 SMALLER = 8
-MOST = 1 << 12  # vertices of a ring with which a smaller error is tried
+MOST = 1 << 12  # rings with more vertices are not tried with a smaller error
 
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """Rings of one shape, the outer one and its holes; and the exact curves that they stand for, if these are known."""
+    """Rings of one shape, the outer one and its holes, with their exact curves if known."""
 
     outer: Ring
     holes: tuple[Ring, ...] = ()
@@ -61,36 +61,36 @@ class Outline:
 
     @property
     def rings(self) -> tuple[Ring, ...]:
-        """All of them, the outer one first."""
+        """All rings, the outer one first."""
         return self.outer, *self.holes
 
     @property
     def curved(self) -> bool:
-        """True if not all of it is straight."""
+        """True if some ring is not straight."""
         return not all(map(straight, self.rings))
 
 
 def polygon_of(outline: Outline, tolerance: float, inside: bool = False, spend: Spend = abs) -> Polygon:
-    """Return a polygon that is proved to be around a shape, or inside of it.
+    """Return a polygon that is proved to be around a shape, or inside it.
 
     Parameters
     ----------
     outline : Outline
-        In any direction.
+        Rings in any direction.
     tolerance : float
         No point of the polygon's boundary is farther from the shape's.
     inside : bool
-        For workspaces: what is outside stays outside.
+        For workspaces: points outside the shape stay outside.
     spend : callable
-        Called with the number of steps that are taken; it may refuse.
+        Called with the number of steps before they are taken; it may refuse.
 
     Raises
     ------
     InvalidPolygonError
-        If the rings cross, however small the error.
+        If the rings cross at every error tried.
     UndecidedError
-        If no polygon can be proved to be around the outer ring, or inside it: doubles are too coarse for it. A hole too
-        thin to have a polygon inside is filled, where the polygon is to be around.
+        If no polygon can be proved to be around the outer ring, or inside it: doubles are too coarse for it. For a
+        polygon around the shape, a hole too thin to have a polygon inside is filled.
 
     Examples
     --------
@@ -117,7 +117,7 @@ def polygon_of(outline: Outline, tolerance: float, inside: bool = False, spend: 
 
 
 def _proved(ring: Ring, curve: Curve, error: float, within: bool, spend: Spend, *, needed: bool) -> list[ExactPoint]:
-    """Vertices of a ring proved to be within a curve, or around it; none if there is none, and none is needed."""
+    """Vertices of a ring proved to be within a curve, or around it; an empty list if there is none and none needed."""
     if straight(ring):
         spend(len(ring))
         return [segment.start for segment in ring if isinstance(segment, Line)]
@@ -152,14 +152,14 @@ def _proved(ring: Ring, curve: Curve, error: float, within: bool, spend: Spend, 
 
 
 def box_of(rings: Sequence[Ring]) -> tuple[float, float, float, float]:
-    """A box around the control points of rings."""
+    """Box around the control points of rings."""
     points = [p for ring in rings for segment in ring for p in _control(segment)] or [(0.0, 0.0)]
     xs, ys = zip(*points, strict=True)
     return min(xs), min(ys), max(xs), max(ys)
 
 
 def in_range(rings: Sequence[Ring]) -> bool:
-    """Is every coordinate finite, and one that a scene may have?"""
+    """True if every coordinate is finite and within the range of scenes."""
     try:
         return all(abs(x) < 1e150 for ring in rings for segment in ring for p in _control(segment) for x in p)
     except (OverflowError, ValueError):  # beyond doubles; the cosine of infinity
@@ -167,7 +167,7 @@ def in_range(rings: Sequence[Ring]) -> bool:
 
 
 def rough(ring: Ring) -> list[Vector]:
-    """Some points of a ring in their order, enough to tell its direction."""
+    """Some points of a ring in order, enough to determine its direction."""
     return [p for segment in ring for piece in _halved(segment, 3) for p in piece[:1]]
 
 
@@ -181,14 +181,14 @@ def _counterclockwise(ring: Ring) -> Ring:
 
 
 def _least_error(ring: Ring) -> float:
-    """Doubles err by their rounding of the largest number from which points are computed."""
+    """Least error for a ring: it grows with the largest number from which points are computed."""
     x0, y0, x1, y1 = box_of([ring])
     far = [abs(x) for arc in ring if isinstance(arc, Arc) and not arc.base for x in (*arc.center, *arc.u, *arc.v)]
     return FINEST * max(x1 - x0, y1 - y0, *map(abs, (x0, y0, x1, y1)), *far)
 
 
 def _chain(ring: Ring, error: float, within: bool, keep: bool, spend: Spend) -> list[ExactPoint]:
-    """Vertices of the chain to the right of a counter-clockwise ring, or to the left of it."""
+    """Vertices of the chain to the right of a counter-clockwise ring; `within`, to the left."""
     points = _around(reversed_ring(ring) if within else ring, error, keep, spend)
     return points[::-1] if within else points
 
@@ -196,13 +196,13 @@ def _chain(ring: Ring, error: float, within: bool, keep: bool, spend: Spend) -> 
 @dataclass(slots=True)
 class _Vertex:
     place: Vector
-    exact: ExactPoint | None  # of an end that stays
-    joint: bool = False  # of two pieces of one curve, where it is smooth
+    exact: ExactPoint | None  # set for an end that stays fixed
+    joint: bool = False  # a smooth joint of two pieces of one curve
     corner: bool = False  # a vertex of a hull
 
 
 def _around(ring: Ring, error: float, keep: bool, spend: Spend) -> list[ExactPoint]:
-    """Vertices of the chain; those between a curve and its neighbour stay where they are, or move as well."""
+    """Vertices of the chain; with `keep`, joints of a curve and its neighbour stay fixed, else they also move."""
     noise = NOISE / FINEST * _least_error(ring)
     chain: list[_Vertex] = []
     for k, segment in enumerate(ring):
@@ -212,16 +212,16 @@ def _around(ring: Ring, error: float, keep: bool, spend: Spend) -> list[ExactPoi
             chain.append(_Vertex(ends(segment)[0], segment.start if stays else None))
             continue
         start = ends(segment)[0]
-        kept = None
+        fixed = None
         if isinstance(before, Line):
-            kept = before.end
+            fixed = before.end
         elif len(ring) > 1 and not _smooth(before, segment):
-            kept = segment.tips[0] if segment.tips else point_of(*start)
+            fixed = segment.tips[0] if segment.tips else point_of(*start)
         joint = isinstance(segment, Arc) and segment.closed
         for piece in _pieces(segment, 0.9 * error, spend):
-            chain.append(_Vertex(piece[0], kept if keep else None, joint))
+            chain.append(_Vertex(piece[0], fixed if keep else None, joint))
             chain += [_Vertex(p, None, corner=True) for p in _right_of(piece, noise)]
-            kept, joint = None, True
+            fixed, joint = None, True
     chain = [
         vertex
         for k, vertex in enumerate(chain)
@@ -236,7 +236,7 @@ def _around(ring: Ring, error: float, keep: bool, spend: Spend) -> list[ExactPoi
 
 
 def _moved(before: Vector, p: Vector, after: Vector, step: float, grid: Decimal) -> ExactPoint:
-    """A vertex moved to the right of both its edges by `step` at least, and up to 1.5 times of it."""
+    """Move a vertex to the right of both its edges, by `step` to 1.5 times `step`."""
     d, e = _unit(before, p), _unit(p, after)
     x, y = d[0] + e[0], d[1] + e[1]
     square = max(x * x + y * y, 1e-3)  # 2 + 2 cos of the turn
@@ -249,7 +249,7 @@ def _on_grid(value: float, grid: Decimal) -> Fraction:
 
 
 def _pieces(segment: Segment, error: float, spend: Spend) -> Iterator[tuple[Vector, ...]]:
-    """Control points of pieces with flat hulls, in their order."""
+    """Control points of pieces with flat hulls, in order."""
     if isinstance(segment, Arc):
         reach = max(math.hypot(*segment.u), math.hypot(*segment.v)) * math.sqrt(2)
         sweep = abs(segment.last - segment.first)
@@ -271,7 +271,7 @@ def _pieces(segment: Segment, error: float, spend: Spend) -> Iterator[tuple[Vect
 
 
 def _divided(arc: Arc, count: int) -> Iterator[tuple[Vector, ...]]:
-    """Ends of equal pieces, and where the tangents there meet."""
+    """Split an arc into equal pieces: start, intersection of the end tangents, end."""
     step = (arc.last - arc.first) / count
     for k in range(count):
         t = arc.first + k * step
@@ -300,7 +300,7 @@ def _halved(segment: Segment, depth: int) -> list[tuple[Vector, ...]]:
 
 
 def _split(piece: tuple[Vector, ...]) -> tuple[tuple[Vector, ...], tuple[Vector, ...]]:
-    """De Casteljau at the middle."""
+    """Split a Bézier curve in the middle, by de Casteljau's algorithm."""
     left, right, row = [piece[0]], [piece[-1]], list(piece)
     while len(row) > 1:
         row = [((p[0] + q[0]) / 2, (p[1] + q[1]) / 2) for p, q in pairwise(row)]
@@ -310,7 +310,7 @@ def _split(piece: tuple[Vector, ...]) -> tuple[tuple[Vector, ...], tuple[Vector,
 
 
 def _flat(piece: tuple[Vector, ...], error: float) -> bool:
-    """Does its control polygon go on along the chord, near to it, and turn by less than a right angle?"""
+    """True if the control polygon is near the chord, monotone along it, and turns by less than a right angle."""
     x, y = piece[-1][0] - piece[0][0], piece[-1][1] - piece[0][1]
     length = math.hypot(x, y)
     if not length:
@@ -323,9 +323,9 @@ def _flat(piece: tuple[Vector, ...], error: float) -> bool:
 
 
 def _right_of(piece: tuple[Vector, ...], noise: float) -> list[Vector]:
-    """Hull vertices to the right of the chord, in their order; its middle where doubles do not tell.
+    """Hull vertices to the right of the chord, in order; the chord's middle if doubles cannot decide.
 
-    The piece goes on along its chord.
+    The piece is monotone along its chord.
     """
     (x0, y0), (x1, y1) = first, last = piece[0], piece[-1]
     length = math.hypot(x1 - x0, y1 - y0)
@@ -340,7 +340,7 @@ def _right_of(piece: tuple[Vector, ...], noise: float) -> list[Vector]:
 
 
 def _smooth(before: Segment, after: Segment) -> bool:
-    """Is there no sharp corner between two curves?"""
+    """True if there is no sharp corner between two curves."""
     a, b = _halved(before, 2)[-1], _halved(after, 2)[0]
     d, e = _unit(a[0], a[-1]), _unit(b[0], b[-1])
     return d[0] * e[0] + d[1] * e[1] > 0.5

@@ -1,6 +1,6 @@
-"""Exact pieces of closed curves: their boxes, affine frames, the same in doubles, and the proof that a polygon fits.
+"""Exact pieces of closed curves: boxes, affine frames, rounding to doubles, and proofs that polygons contain them.
 
-A frame in which a thin ring is as high as it is long lets doubles tell its two sides apart.
+In a frame that makes a thin ring as high as it is long, doubles can distinguish its two sides.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from cfree.polygons.polygon import Polygon
 Curve = Sequence[Piece]
 Box = tuple[Fraction, Fraction, Fraction, Fraction]
 
-THIN = Fraction(1, 64)  # height by length, from which on a ring has a frame of its own
-TIGHT = 2**20  # parts of a curve's size by which its box may be larger
+THIN = Fraction(1, 64)  # height / length below which a ring gets its own frame
+TIGHT = 2**20  # a box may exceed its curve by size / TIGHT
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,12 +33,12 @@ class Frame:
     across: ExactPoint
 
     def world(self, p: ExactPoint) -> ExactPoint:
-        """Return the point that a pair of numbers stands for."""
+        """Convert a point from the frame's coordinates."""
         (x, y), (a, b), (c, d) = self.origin, self.along, self.across
         return x + p[0] * a + p[1] * c, y + p[0] * b + p[1] * d
 
     def local(self, curve: Curve) -> list[Piece]:
-        """Return a curve in the frame's numbers."""
+        """Convert a curve to the frame's coordinates."""
         (a, b), (c, d) = self.along, self.across
         det = a * d - b * c
 
@@ -99,12 +99,12 @@ def thin_frame(curve: Curve) -> Frame | None:
 
 
 def power_of_two(value: Fraction) -> Fraction:
-    """Return a power of two between half of a number and twice of it."""
+    """Return a power of two between half of a number and its double."""
     return Fraction(2) ** (value.numerator.bit_length() - value.denominator.bit_length())
 
 
 def hull_points(piece: Piece) -> Iterator[ExactPoint]:
-    """Points in whose hull a piece is."""
+    """Points whose convex hull contains a piece."""
     match piece:
         case Line(start, end):
             yield from (start, end)
@@ -118,7 +118,7 @@ def hull_points(piece: Piece) -> Iterator[ExactPoint]:
 
 
 def quarters_of(span: Span) -> Iterator[tuple[ExactPoint, ExactPoint, ExactPoint, Fraction]]:
-    """Center, conjugate radii, and tangent of half the angle, of parts of at most a right angle."""
+    """Split a span into parts of at most a right angle: center, conjugate radii, tangent of half the angle."""
     u, v = span.u, span.v
     for k in range(span.quarters + 1):
         rest = Fraction(1) if k < span.quarters else span.rest
@@ -128,7 +128,7 @@ def quarters_of(span: Span) -> Iterator[tuple[ExactPoint, ExactPoint, ExactPoint
 
 
 def box_of(curve: Curve) -> Box:
-    """A box around a curve, larger by a 2**20th of its size at most."""
+    """Box around a curve, too large by at most a 2**20th of its size."""
     boxes = [_box(piece) for piece in curve]
     x0, y0, x1, y1 = zip(*boxes, strict=True)
     return min(x0), min(y0), max(x1), max(y1)
@@ -140,7 +140,7 @@ def _box(piece: Piece) -> Box:
 
 
 def _extreme(piece: Piece, axis: int, sign: int) -> Fraction:
-    """The greatest coordinate on an axis, or with the sign -1 the least."""
+    """Greatest coordinate on an axis; for sign -1 the least."""
     match piece:
         case Line(start, end):
             return sign * max(sign * start[axis], sign * end[axis])
@@ -148,7 +148,7 @@ def _extreme(piece: Piece, axis: int, sign: int) -> Fraction:
             return sign * _greatest([sign * p[axis] for p in points])
     values: list[Fraction] = []
     for _, u, v, rest in quarters_of(piece):
-        # a cos t + b sin t is greatest where its derivative, b at the begin, changes its sign
+        # a cos t + b sin t is greatest where its derivative, b at the beginning, changes its sign
         a, b, square = sign * u[axis], sign * v[axis], 1 + rest * rest
         cosine, sine = (1 - rest * rest) / square, 2 * rest / square
         values += [a, a * cosine + b * sine]
@@ -158,7 +158,7 @@ def _extreme(piece: Piece, axis: int, sign: int) -> Fraction:
 
 
 def _root_above(square: Fraction) -> Fraction:
-    """A square root, exact if it is rational, else from above."""
+    """Square root, exact if it is rational, else rounded up."""
     n, d = square.numerator, square.denominator
     root = Fraction(math.isqrt(n), math.isqrt(d))
     if root * root == square:
@@ -168,7 +168,7 @@ def _root_above(square: Fraction) -> Fraction:
 
 
 def _greatest(values: list[Fraction]) -> Fraction:
-    """A bound from above on a Bézier polynomial from 0 to 1, larger by a 2**20th of what its values span at most."""
+    """Upper bound of a Bézier polynomial on [0, 1], too large by at most a 2**20th of the span of its coefficients."""
     error = (max(values) - min(values)) / TIGHT
     least, bound, waiting = max(values[0], values[-1]), max(values[0], values[-1]), [values]
     while waiting:
@@ -189,11 +189,11 @@ def _greatest(values: list[Fraction]) -> Fraction:
     return max(least, bound)
 
 
-# --- the same in doubles, and from doubles ---
+# --- conversion to doubles and back ---
 
 
 def drawn_of(curve: Curve) -> drawn.Ring:
-    """The curve in doubles, with exact ends."""
+    """Round a curve to doubles, with exact ends."""
 
     def rounded(p: ExactPoint) -> drawn.Vector:
         return float(p[0]), float(p[1])
@@ -213,10 +213,10 @@ def drawn_of(curve: Curve) -> drawn.Ring:
 
 
 def exact_of(ring: Sequence[drawn.Segment]) -> list[Piece]:
-    """The exact curve for one in doubles: through the ends of its lines, each piece from where the one before ends.
+    """Make a curve in doubles exact: through the ends of its lines, each piece from the end of the one before.
 
-    Curves in doubles do not quite end where their neighbours begin. Here the ends are decimals of 14 digits, and arcs
-    become those of ellipses through them, so that nothing moves by more than doubles round.
+    Curves in doubles do not exactly end where their neighbours begin. Here the ends become decimals of 14 digits, and
+    arcs become arcs of ellipses through these ends. All moves are within the rounding of doubles.
     """
     joints = [_joint(ring[k - 1], segment) for k, segment in enumerate(ring)]
     pieces: list[Piece] = []
@@ -244,7 +244,7 @@ def _exactly(p: drawn.Vector) -> ExactPoint:
 
 
 def _spans(arc: drawn.Arc, start: ExactPoint, end: ExactPoint) -> Iterator[Span]:
-    """Arcs of less than a right angle each."""
+    """Split an arc into spans of less than a right angle each."""
     count = math.floor(abs(arc.last - arc.first) / (math.pi / 2)) + 1
     step = (arc.last - arc.first) / count
     places = [start, *(_exactly(arc.at(arc.first + k * step)) for k in range(1, count)), end]

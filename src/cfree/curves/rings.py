@@ -1,7 +1,7 @@
-"""Rings of curves as they are given: circles, ellipses, and paths of points, arcs, Bézier curves and splines.
+"""Input rings of curves: circles, ellipses, and paths of points, arcs, Bézier curves and splines.
 
-All numbers are exact. `exact_ring` makes of each ring lines, spans of ellipses and cubic Bézier curves: of an arc
-the center and two conjugate radii are rational, if what it is given by is.
+All numbers are exact. `exact_ring` converts each ring to lines, spans of ellipses and cubic Bézier curves. The center
+and two conjugate radii of an arc are rational.
 """
 
 from __future__ import annotations
@@ -19,26 +19,27 @@ from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose
 
 Point = Sequence[Number]
-DEGREE = 3  # of splines
+DEGREE = 3  # degree of splines
 
 
 @checked
 @dataclass(frozen=True, init=False)
 class Arc:
-    """Of a circle, or of an ellipse, from the point before it.
+    """An arc of a circle or an ellipse, from the point before it.
 
     Parameters
     ----------
     to : (x, y)
-        Where it ends; the point before it is a whole turn.
+        Its end; if it is the point before, the arc is a whole turn.
     through : (x, y), optional
-        A point between the two: the circle through all three.
+        A point between the two: the arc is on the circle through all three.
     center : (x, y), optional
-        Instead: about this point, from which both ends are equally far. Exactly: decimals that are rounded are not.
+        Instead of `through`: the center, exactly equally far from both ends; rounded decimals rarely are.
     clockwise : bool
-        About a center: in which direction.
+        Direction about `center`.
     conjugate : (x, y), optional
-        About a center: an arc of the ellipse with these conjugate radii, from the center to the point before, and this.
+        With `center`: the arc is on an ellipse, whose conjugate radii are this vector and the one from the center to
+        the point before.
     """
 
     to: ExactPoint
@@ -73,7 +74,7 @@ class Bezier:
     Parameters
     ----------
     points : two or three points (x, y)
-        The other control points, the last of which is its end: degree 2 or 3.
+        The other control points, the end last: degree 2 or 3.
     """
 
     points: tuple[ExactPoint, ...]
@@ -132,7 +133,7 @@ class Ellipse:
     center : (x, y)
     radii : (a, b)
     angle : angle
-        By which it is turned, as `cfree.Pose` takes it: the first radius from the x-axis.
+        Angle from the x-axis to the first radius, as in `cfree.Pose`.
     """
 
     center: ExactPoint
@@ -153,16 +154,16 @@ GivenRing = Circle | Ellipse | tuple[Segment, ...]
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """Of an ellipse: center + u cos t + v sin t, for t from 0 to `quarters` right angles and 2 arctan(`rest`) more."""
+    """Arc of an ellipse: center + u cos t + v sin t, for t from 0 to `quarters` right angles plus 2 arctan(`rest`)."""
 
     center: ExactPoint
     u: ExactPoint
     v: ExactPoint
     quarters: int
-    rest: Fraction  # from 0 to 1, which is left out
+    rest: Fraction  # in [0, 1)
 
     def at(self, quarters: int, s: Fraction) -> ExactPoint:
-        """The point after so many right angles and 2 arctan(s)."""
+        """Return the point after this many right angles plus 2 arctan(s)."""
         square = 1 + s * s
         c, d = (1 - s * s) / square, 2 * s / square
         for _ in range(quarters % 4):
@@ -199,14 +200,14 @@ def _length(value: Number, name: str) -> Fraction:
 
 
 def given_ring(ring: Any) -> GivenRing:
-    """Points as exact ones; all else as it is."""
+    """Convert points to exact ones; other items stay as they are."""
     if isinstance(ring, Circle | Ellipse):
         return ring
     return tuple(item if isinstance(item, Arc | Bezier | Spline) else exact_point(item) for item in ring)
 
 
 def exact_ring(ring: GivenRing) -> list[Piece]:
-    """The closed curve.
+    """Convert an input ring to an exact closed curve.
 
     Raises
     ------
@@ -287,7 +288,7 @@ def _span(start: ExactPoint, arc: Arc) -> Span:
 
 
 def _circle_through(p: ExactPoint, q: ExactPoint, r: ExactPoint) -> tuple[ExactPoint, Fraction]:
-    """The center, and on which side the turn is: above 0 counter-clockwise."""
+    """Center of the circle through three points, and the sense of the turn: above 0 counter-clockwise."""
     ax, ay, bx, by = q[0] - p[0], q[1] - p[1], r[0] - p[0], r[1] - p[1]
     cross = ax * by - ay * bx
     if not cross:
@@ -297,20 +298,20 @@ def _circle_through(p: ExactPoint, q: ExactPoint, r: ExactPoint) -> tuple[ExactP
 
 
 def _cubics(points: tuple[ExactPoint, ...]) -> list[Piece]:
-    """A clamped uniform cubic B-spline as Bézier curves, by its blossom."""
+    """Convert a clamped uniform cubic B-spline to Bézier curves, by its blossom."""
     count = len(points) - DEGREE
     knots = [min(max(k - DEGREE, 0), count) for k in range(len(points) + DEGREE + 1)]
 
-    def blossom(span: int, *at: int) -> ExactPoint:
+    def blossom(span: int, *parameters: int) -> ExactPoint:
         row = list(points[span : span + DEGREE + 1])
-        for level, t in enumerate(at, 1):
+        for level, t in enumerate(parameters, 1):
             for j in range(DEGREE, level - 1, -1):
                 low, high = knots[span + j], knots[span + j + DEGREE + 1 - level]
                 row[j] = _between(row[j - 1], row[j], Fraction(t - low, high - low))
         return row[DEGREE]
 
-    found: list[Piece] = []
+    pieces: list[Piece] = []
     for k in range(count):
         p, q, r, s = (blossom(k, *(k + (i >= 3 - j) for i in range(DEGREE))) for j in range(DEGREE + 1))
-        found.append(Cubic((p, q, r, s)))
-    return found
+        pieces.append(Cubic((p, q, r, s)))
+    return pieces

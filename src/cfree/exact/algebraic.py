@@ -1,8 +1,8 @@
-"""Real algebraic numbers, exactly: roots of integer polynomials, and what can be computed from one of them.
+"""Exact real algebraic numbers: roots of integer polynomials, and polynomial expressions in one root.
 
-A root is known by its irreducible polynomial and its number among that polynomial's roots, so that equal numbers are
-equal keys, whatever names and intervals they came with. Python-flint factors, divides and reduces; signs are those of
-Python's integers.
+A root is identified by its irreducible polynomial and its index among that polynomial's roots. Equal numbers thus have
+equal keys, for any isolating interval. Python-flint factors, divides and reduces; signs are decided with Python's
+integers.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from flint import fmpq, fmpq_poly, fmpz_poly
 Coefficients = tuple[int, ...]  # constant term first
 Exact = Any  # int, Fraction or Number
 SHORT = 2.0**-40
-LEAST = Fraction(-2)  # roots are counted from here; charts are [-1, 1]
+LEAST = Fraction(-2)  # roots are counted from this number; charts are [-1, 1]
 
 
 @total_ordering
@@ -47,7 +47,7 @@ class Root:
 
     @cached_property
     def value(self) -> Exact:
-        """To compute with."""
+        """The number, for arithmetic."""
         return self.lo if len(self.poly) == 2 else Number(self, fmpq_poly([0, 1]))
 
     @cached_property
@@ -67,7 +67,7 @@ class Root:
         return self.hi < other.lo
 
     def narrow(self) -> None:
-        if self.lo < self.hi:  # else rational, and known
+        if self.lo < self.hi:  # else the root is rational
             middle = (self.lo + self.hi) / 2
             if sign(self.poly, middle) == sign(self.poly, self.lo):
                 self.lo = middle
@@ -76,7 +76,7 @@ class Root:
 
 
 def part(x: Root, y: Root) -> None:
-    """Narrow the intervals of different numbers until they are apart."""
+    """Narrow the intervals of two different numbers until they are disjoint."""
     while x.lo <= y.hi and y.lo <= x.hi:
         x.narrow()
         y.narrow()
@@ -84,7 +84,7 @@ def part(x: Root, y: Root) -> None:
 
 @total_ordering
 class Number:
-    """A polynomial in an irrational root, reduced, as a number: arithmetic with rationals and its like, and order.
+    """A number given as a reduced polynomial in an irrational root, with arithmetic and order.
 
     Examples
     --------
@@ -150,7 +150,7 @@ class Number:
         return value < 0
 
     def rounded(self, error: Fraction) -> Fraction:
-        """A rational number that differs by at most an error."""
+        """Return a rational number that differs by at most `error`."""
         value, by, unit = self._enclosed()
         while by > error * unit:
             self.root.narrow()
@@ -158,7 +158,7 @@ class Number:
         return Fraction(value, unit)
 
     def _enclosed(self) -> tuple[int, int, int]:
-        """Its value at the lower end of the root's interval, and by how much it may differ; in what unit."""
+        """Value at the lower end of the root's interval, its greatest error, and the denominator of both."""
         coefficients, denominator = [int(c) for c in self.poly.numer().coeffs()], int(self.poly.denom())
         root = self.root
         value, power = homogeneous(coefficients, root.lo)
@@ -193,14 +193,14 @@ def ratio(x: Exact, y: Exact) -> Exact:
 
 
 def near(x: Exact, bits: int) -> Fraction:
-    """The number if it is rational, else one at most 2^-bits away."""
+    """Return the number if it is rational, else a rational at most 2^-bits away."""
     return x.rounded(Fraction(1, 1 << bits)) if isinstance(x, Number) else Fraction(x)
 
 
 def rounded(x: Exact) -> float:
-    """As a double, within 0.51 units of its last place."""
+    """Round to a double, within 0.51 units of its last place."""
     bits = 64
-    while x != 0 and (abs(found := near(x, bits)).numerator << bits - 60) < found.denominator:
+    while x != 0 and (abs(value := near(x, bits)).numerator << bits - 60) < value.denominator:
         bits *= 2
     return float(near(x, bits))
 
@@ -213,7 +213,7 @@ def at(poly: fmpz_poly, x: Exact) -> Exact:
 
 
 def homogeneous(poly: Sequence[int], x: Fraction) -> tuple[int, int]:
-    """Numerator and denominator, which is positive, of a polynomial's value."""
+    """Numerator and positive denominator of a polynomial's value."""
     n, d = x.numerator, x.denominator
     value, power = 0, 1
     for k, coefficient in enumerate(reversed(poly)):
@@ -232,8 +232,8 @@ def sign(poly: Sequence[int], x: Fraction) -> int:
 @lru_cache(maxsize=1 << 14)
 def factors(poly: Coefficients) -> tuple[tuple[Coefficients, int], ...]:
     """Irreducible factors that are not constant, and their multiplicities."""
-    _, found = fmpz_poly(list(poly)).factor()
-    return tuple((tuple(map(int, f.coeffs())), int(k)) for f, k in found)
+    _, powers = fmpz_poly(list(poly)).factor()
+    return tuple((tuple(map(int, f.coeffs())), int(k)) for f, k in powers)
 
 
 @lru_cache(maxsize=1 << 14)
@@ -252,15 +252,15 @@ def variations(poly: Coefficients, x: Fraction) -> int:
 
 def roots(poly: fmpz_poly, lo: Fraction, hi: Fraction) -> list[tuple[Root, int]]:
     """Roots in a closed interval within (-2, 2), each once, in order, with their multiplicities."""
-    found: list[tuple[Root, int]] = []
+    result: list[tuple[Root, int]] = []
     for factor, multiplicity in factors(tuple(map(int, poly.coeffs()))):
         if len(factor) == 2:
             x = Fraction(-factor[0], factor[1])
             if lo <= x <= hi:
-                found.append((Root.of(x), multiplicity))
-        else:  # no rational roots: the ends of intervals are none
-            found += [(root, multiplicity) for root in _isolated(factor, lo, hi)]
-    return sorted(found, key=lambda item: item[0])
+                result.append((Root.of(x), multiplicity))
+        else:  # no rational roots: no end of an interval is a root
+            result += [(root, multiplicity) for root in _isolated(factor, lo, hi)]
+    return sorted(result, key=lambda item: item[0])
 
 
 def _isolated(poly: Coefficients, lo: Fraction, hi: Fraction) -> Iterable[Root]:
@@ -276,7 +276,7 @@ def _isolated(poly: Coefficients, lo: Fraction, hi: Fraction) -> Iterable[Root]:
 
 
 def between(lo: Fraction, hi: Fraction) -> Fraction:
-    """A dyadic number of few digits in the middle third of an open interval."""
+    """Return a dyadic number of few digits in the middle third of an open interval."""
     first, last = float(lo), float(hi)
     if last - first > SHORT * max(1.0, abs(first), abs(last)):  # rounding moves the ends by much less
         power = 1 << max(0, 2 - floor(log2(last - first)))

@@ -1,4 +1,4 @@
-"""Closed intervals of orientations whose ends are exact: roots of polynomials in tau = tan(theta / 2)."""
+"""Closed intervals of orientations with exact ends: roots of polynomials in tau = tan(theta / 2)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class AlgebraicAngle:
     chart : int
         The orientation is 2 atan(tau) + chart pi, with tau in [-1, 1].
     polynomial : tuple of int
-        Its coefficients, the constant first. Of degree 1 if tau is rational.
+        Its coefficients, the constant first. The degree is 1 if tau is rational.
     """
 
     def __init__(self, chart: int, root: Root) -> None:
@@ -55,12 +55,12 @@ class AlgebraicAngle:
 
     @property
     def coordinate(self) -> Exact:
-        """tau in its chart, to compute with."""
+        """tau in its chart, for arithmetic."""
         return self._root.value
 
     @property
     def theta(self) -> float:
-        """In radians, in [0, 2 pi), within 1e-15."""
+        """Angle in radians, in [0, 2 pi), within 1e-15."""
         low, high = self._within(FINE)
         return float(normalize_angles(theta_in(self.chart, float((low + high) / 2))))
 
@@ -108,7 +108,7 @@ class AngleInterval:
 
     @property
     def theta(self) -> tuple[float, float]:
-        """In radians: the start in [0, 2 pi), and the stop, not before it; (0, 2 pi) for all. Each within 1e-15."""
+        """Ends in radians, within 1e-15: start in [0, 2 pi), and stop >= start; (0, 2 pi) for all orientations."""
         if self.start is None or self.stop is None:
             return 0.0, math.tau
         start, stop = self.start.theta, self.stop.theta
@@ -116,12 +116,12 @@ class AngleInterval:
 
     @property
     def is_single(self) -> bool:
-        """Whether it is one orientation: an exact fit."""
+        """True if it is one orientation: an exact fit."""
         return self.start is not None and self.start == self.stop
 
     @checked
     def contains(self, theta: Angle | AlgebraicAngle) -> bool:
-        """Is an orientation in it? Exact; numbers stand for what `Pose` takes them for."""
+        """True if an orientation is in it, decided exactly; numbers are read as `Pose` reads them."""
         if self.start is None or self.stop is None:
             return True
         angle = theta if isinstance(theta, AlgebraicAngle) else AlgebraicAngle.of(Pose(0, 0, theta))

@@ -1,7 +1,7 @@
-"""Closed sets of orientations, exactly: where A + B cos theta + C sin theta <= 0, unions and intersections of such.
+"""Exact closed sets of orientations: solutions of A + B cos theta + C sin theta <= 0, their unions and intersections.
 
-Ends of arcs are sorted by doubles, and where these are too close by square roots; after that a set is a row of flags,
-for every end and for every gap between two of them.
+Ends of arcs are sorted by doubles, and by square roots if these are too close. Then a set is a row of flags, one for
+every end and one for every gap between two ends.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from cfree.exact.angle_interval import AlgebraicAngle
 from cfree.exact.orientation import Order
 from cfree.exact.surd import Surd
 
-CLOSE = 1e-13  # far more than the error of an end's double: closer ones are compared exactly
+CLOSE = 1e-13  # far above the error of an end's double: closer ends are compared exactly
 Form = tuple[int, int, int]
 Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
 class End:
-    """Where A + B cos + C sin falls to zero and an arc starts, or grows through zero and it stops."""
+    """End of an arc: A + B cos + C sin falls to zero at its start, and rises above zero at its stop."""
 
     form: Form
     stops: bool
@@ -43,7 +43,7 @@ class End:
         return (1 - chart, self.tau(1 - chart)) if beyond else (chart, tau)
 
     def tau(self, chart: int) -> Surd:
-        """In a chart: a root of (A - B) tau^2 + 2 C tau + A + B, with the signs of B and C turned in chart 1."""
+        """Coordinate in a chart: a root of (A - B) tau^2 + 2 C tau + A + B; chart 1 reverses the signs of B and C."""
         A, B, C = _in_chart(self.form, chart)
         if A == B:
             return Surd(Fraction(-A, C))
@@ -88,7 +88,7 @@ def where_not_positive(form: Form) -> Arcs:
 
 
 def union_of_intersections(families: Sequence[Sequence[Arcs]]) -> Arcs:
-    """Orientations that are in all sets of a family, for one family or more.
+    """Orientations that are in all sets of at least one family.
 
     Examples
     --------
@@ -97,10 +97,10 @@ def union_of_intersections(families: Sequence[Sequence[Arcs]]) -> Arcs:
     >>> round(math.degrees(start.theta)) % 360, round(math.degrees(stop.theta)) % 360
     (180, 270)
     """
-    kept = [[arcs for arcs in family if arcs is not True] for family in families if not any(s is False for s in family)]
-    if any(not family for family in kept):
+    open_ones = [[s for s in family if s is not True] for family in families if not any(s is False for s in family)]
+    if any(not family for family in open_ones):
         return True
-    lists = [[arcs for arcs in family if not isinstance(arcs, bool)] for family in kept]
+    lists = [[arcs for arcs in family if not isinstance(arcs, bool)] for family in open_ones]
     ends = [end for family in lists for arcs in family for arc in arcs for end in arc]
     if not ends:
         return False
@@ -128,7 +128,7 @@ def union_of_intersections(families: Sequence[Sequence[Arcs]]) -> Arcs:
 
 
 def _ranked(ends: list[End]) -> tuple[list[int], list[End]]:
-    """Places of ends, counter-clockwise from some gap on, equal for equal ones; and an end of each place."""
+    """Ranks of ends, counter-clockwise from some gap on, equal for equal ends; and one end of each rank."""
     theta = np.array([end.theta for end in ends])
     order = np.argsort(theta)
     gaps = np.diff(theta[order], append=theta[order[0]] + math.tau)
@@ -148,7 +148,7 @@ def _ranked(ends: list[End]) -> tuple[list[int], list[End]]:
 
 
 def _compare(p: End, q: End) -> int:
-    """Order of two that are close together."""
+    """Order of two ends that are close together."""
     if p.form == q.form and p.stops == q.stops:
         return 0
     chart = p.place[0]

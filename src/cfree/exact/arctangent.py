@@ -1,4 +1,4 @@
-"""Pi and arctangents of rationals, as close as is asked for."""
+"""Pi and arctangents of rationals, to any precision."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cache
 from math import isqrt
 
-GUARD = 32  # bits more than asked for
+GUARD = 32  # extra bits
 HALVINGS = 10
 
 

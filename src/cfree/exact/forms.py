@@ -1,8 +1,8 @@
-"""Forms in tau = tan(theta / 2): trigonometric polynomials without their denominators, zeros and signs on the circle.
+"""Forms in tau = tan(theta / 2): numerators of trigonometric polynomials, their zeros and signs on the circle.
 
-A form of degree n has n + 1 integer coefficients, the constant first. Last ones may be 0: the half turn, tau infinite,
-is then a zero. With C = (1, 0, -1), S = (0, 2, 0) and W = (1, 0, 1), cos = C / W, sin = S / W; a trigonometric
-polynomial of degree k is a form of degree 2 k over W^k, with its sign.
+A form of degree n has n + 1 integer coefficients, the constant first. If the last ones are 0, the half turn, tau
+infinite, is a zero. Let C = (1, 0, -1), S = (0, 2, 0) and W = (1, 0, 1); then cos = C / W and sin = S / W. A
+trigonometric polynomial of degree k is a form of degree 2 k over W^k, with the same sign.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ ONE, ZERO_ANGLE = Root.of(Fraction(1)), AlgebraicAngle(0, Root.of(Fraction(0)))
 
 
 def plus(f: Form, g: Form, times: int = 1) -> Form:
-    """f + times g, of one degree."""
+    """f + times g, for forms of one degree."""
     return tuple(x + times * y for x, y in zip(f, g, strict=True))
 
 
 def product(*forms: Form) -> Form:
-    """Of forms, degrees added.
+    """Product of forms; degrees are added.
 
     Examples
     --------
@@ -41,56 +41,56 @@ def product(*forms: Form) -> Form:
 
 
 def common_factor(forms: Iterable[Form]) -> Form:
-    """Of greatest degree, and with the greatest integer; infinity counts. A zero form is divided by all.
+    """Common factor of greatest degree and content, zeros at infinity included. Every form divides a zero form.
 
     Examples
     --------
     >>> common_factor([(2, 2, 0), (0, 4, 4, 0)])  # 1 + tau, and infinity
     (2, 2, 0)
     """
-    given = [form for form in forms if any(form)]
-    divisor = reduce(lambda f, g: f.gcd(g), (fmpz_poly(list(form)) for form in given), fmpz_poly([0]))
-    at_infinity = min(_zeros_at_infinity(form) for form in given) if given else 0
+    nonzero = [form for form in forms if any(form)]
+    divisor = reduce(lambda f, g: f.gcd(g), (fmpz_poly(list(form)) for form in nonzero), fmpz_poly([0]))
+    at_infinity = min(_zeros_at_infinity(form) for form in nonzero) if nonzero else 0
     return (*map(int, divisor.coeffs()), *[0] * at_infinity)
 
 
 def quotient(form: Form, divisor: Form) -> Form:
-    """Without remainder; degrees are subtracted.
+    """Quotient of a division without remainder; degrees are subtracted.
 
     Examples
     --------
     >>> quotient((0, 2, 2, 0), (1, 1)), quotient((0, 2, 2, 0), (2, 0))
     ((0, 2, 0), (0, 1, 1))
     """
-    found = [int(c) for c in (fmpz_poly(list(form)) / fmpz_poly(list(divisor))).coeffs()]
-    return (*found, *[0] * (len(form) - len(divisor) + 1 - len(found)))
+    row = [int(c) for c in (fmpz_poly(list(form)) / fmpz_poly(list(divisor))).coeffs()]
+    return (*row, *[0] * (len(form) - len(divisor) + 1 - len(row)))
 
 
 def reduced(forms: Sequence[Form]) -> tuple[Form, ...]:
-    """Forms of one degree in lowest terms, not all of them 0."""
+    """Divide forms of one degree, not all 0, by their common factor."""
     divisor = common_factor(forms)
     return tuple(quotient(form, divisor) for form in forms)
 
 
 def primitive(form: Form) -> Form:
-    """Without a common divisor of its coefficients, its last one positive; not 0."""
+    """Divide a form that is not 0 by the content of its coefficients; its last nonzero one becomes positive."""
     divisor = gcd(*form)
     last = next(c for c in reversed(form) if c)
     return tuple(c // (divisor if last > 0 else -divisor) for c in form)
 
 
 def in_chart(form: Form, chart: int) -> Form:
-    """As a polynomial of the coordinate in a chart: tau = -1 / tau' in chart 1."""
+    """Polynomial in the coordinate of a chart: tau = -1 / tau' in chart 1."""
     return form if chart == 0 else tuple((-1) ** (k % 2) * c for k, c in enumerate(form))[::-1]
 
 
 def value_at(form: Form, angle: AlgebraicAngle) -> Exact:
-    """Value of its polynomial in the angle's chart: forms of one degree have the ratios that they should."""
+    """Value of the form's polynomial in the angle's chart; ratios of forms of one degree are right."""
     return at(fmpz_poly(list(in_chart(form, angle.chart))), angle.coordinate)
 
 
 def zeros(form: Form) -> tuple[tuple[AlgebraicAngle, int], ...]:
-    """Where a form that is not 0 vanishes, from theta = 0 on, and how often.
+    """Zeros of a form that is not 0, with their multiplicities, from theta = 0 on.
 
     Examples
     --------
@@ -98,21 +98,21 @@ def zeros(form: Form) -> tuple[tuple[AlgebraicAngle, int], ...]:
     >>> [(round(math.degrees(angle.theta)), times) for angle, times in zeros(product(C, C, (0, 1), (1, 0, -3)))]
     [(0, 1), (60, 1), (90, 2), (270, 2), (300, 1)]
     """
-    found = {
+    multiplicities = {
         AlgebraicAngle(chart, root): times
         for chart in (0, 1)
         for root, times in roots(fmpz_poly(list(in_chart(form, chart))), Fraction(-1), Fraction(1))
     }
-    return tuple(sorted(found.items(), key=lambda item: (item[0] < ZERO_ANGLE, item[0])))
+    return tuple(sorted(multiplicities.items(), key=lambda item: (item[0] < ZERO_ANGLE, item[0])))
 
 
 def signs_around(forms: Sequence[Form]) -> list[Place]:
-    """Angles, with the signs of forms there and from there to the next angle, once round; every zero is one of them.
+    """Angles once round, all zeros among them, with the signs of forms there and on the way to the next angle.
 
     Notes
     -----
-    The ends of charts are among them. Forms of odd degree change sign with the chart, all of them together: products of
-    two of them do not.
+    The ends of charts are among them. All forms of odd degree change sign with the chart; products of two of them do
+    not.
 
     Examples
     --------
@@ -138,23 +138,23 @@ def signs_around(forms: Sequence[Form]) -> list[Place]:
 
 
 def closed_intervals(places: Sequence[Place], inside: Sequence[tuple[bool, bool]]) -> tuple[AngleInterval, ...]:
-    """A closed set of orientations, from theta = 0 on: is each angle in it, and are those from there to the next?"""
+    """Closed set of orientations, from theta = 0 on, from two flags per angle: it, and the gap after it, is inside."""
     flags = [flag for pair in inside for flag in pair]
     if all(flags):
         return (AngleInterval(None, None),)
     count = len(flags)
     starts = [k for k in range(count) if flags[k] and not flags[k - 1]]
     stops = [next(k for k in range(start, start + count) if not flags[(k + 1) % count]) for start in starts]
-    found = [AngleInterval(places[i // 2][0], places[j % count // 2][0]) for i, j in zip(starts, stops, strict=True)]
-    return tuple(sorted(found, key=lambda part: (part.start < ZERO_ANGLE, part.start)))  # type: ignore[operator]
+    parts = [AngleInterval(places[i // 2][0], places[j % count // 2][0]) for i, j in zip(starts, stops, strict=True)]
+    return tuple(sorted(parts, key=lambda part: (part.start < ZERO_ANGLE, part.start)))  # type: ignore[operator]
 
 
 def _times(f: Form, g: Form) -> Form:
-    found = [0] * (len(f) + len(g) - 1)
+    row = [0] * (len(f) + len(g) - 1)
     for i, x in enumerate(f):
         for j, y in enumerate(g):
-            found[i + j] += x * y
-    return tuple(found)
+            row[i + j] += x * y
+    return tuple(row)
 
 
 def _zeros_at_infinity(form: Form) -> int:

@@ -1,6 +1,6 @@
-"""Orientations as tangents of half their angle: the only Python that knows how angles are written as rationals.
+"""Orientations as tangents of half their angle: the only Python file that converts angles to rationals.
 
-tau = tan(theta / 2), paper, section 1.1 and eq. 2. tau has no value at the half turn: there it is `None`.
+tau = tan(theta / 2), paper, section 1.1 and eq. 2. The half turn has no tau: it is written `None`.
 
 A *chart* writes every angle by a number in [-1, 1]: theta = 2 atan(tau) + chart * pi. Chart 0 holds
 [-pi/2, pi/2], chart 1 holds [pi/2, 3 pi/2]; they tile the circle with rational end points.
@@ -84,25 +84,25 @@ def theta_of_tau(tau: ArrayLike) -> Floats:
 
 
 def half_tangent(tau: Number | None) -> Fraction | None:
-    """Exact half-angle tangent of what stands for one; None, inf, -inf, "inf", "-inf" and "1/0" are the half turn.
+    """Read an exact half-angle tangent; None, inf, -inf, "inf", "-inf" and "1/0" are the half turn.
 
     Raises
     ------
     InvalidPoseError
-        If it is no number.
+        If `tau` is none of these and no number.
 
     Examples
     --------
     >>> half_tangent("0.5"), half_tangent("inf")
     (Fraction(1, 2), None)
     """
-    if type(tau) is Fraction:  # the usual one, and slow to compare with texts
+    if type(tau) is Fraction:  # the usual type, and slow to compare with texts
         return tau
     return None if tau in (None, "inf", "-inf", "1/0", math.inf, -math.inf) else to_rational("tau", tau)
 
 
 def chart_of_direction(x: int, y: int) -> tuple[int, tuple[int, int]]:
-    """Chart of a direction (cos, sin) up to length, and the direction seen in it: at most a right angle from (1, 0).
+    """Chart of a direction (cos, sin) up to length, and the direction in it: at most a right angle from (1, 0).
 
     Examples
     --------
@@ -113,7 +113,7 @@ def chart_of_direction(x: int, y: int) -> tuple[int, tuple[int, int]]:
 
 
 def seen_in_chart(chart: int, a: ExactPoint) -> ExactPoint:
-    """A point of the robot after the rotation from which a chart counts its angles.
+    """Rotate a point of the robot by the zero angle of a chart.
 
     Examples
     --------
@@ -137,7 +137,7 @@ def tau_in_chart(chart: int, local: Fraction) -> Fraction | None:
 
 
 def chart_intervals(start: Fraction | None, stop: Fraction | None) -> tuple[tuple[int, Fraction, Fraction], ...]:
-    """Parts (chart, from, to) of the angles from 2 atan(start) counter-clockwise to 2 atan(stop), which differ.
+    """Parts (chart, from, to) of the angles from 2 atan(start) counter-clockwise to 2 atan(stop); the two differ.
 
     Examples
     --------
@@ -174,14 +174,14 @@ def chart_of(theta: ArrayLike) -> tuple[NDArray[np.int64], Floats]:
 
 
 def place_of(theta: Angle) -> tuple[float, int, float]:
-    """Angle in [0, 2 pi), chart and coordinate as doubles, of any one angle; quick for a float.
+    """Angle in [0, 2 pi), chart and coordinate of one angle, as doubles; fast for a float.
 
     Examples
     --------
     >>> place_of("90deg"), place_of(3.0)
     ((1.5707963267948966, 0, 1.0), (3.0, 1, -0.0709148443026524))
     """
-    # the quick way is for plain cases only: other turns and right angles need the true pi
+    # the fast case excludes other turns and right angles: these need the true pi
     if isinstance(theta, float) and 0 <= theta < math.tau and abs(math.remainder(theta, math.pi / 2)) > 1e-9:
         chart = math.pi / 2 < theta < 3 * math.pi / 2
         local = theta - math.pi if chart else math.remainder(theta, math.tau)
@@ -203,25 +203,25 @@ def theta_of(chart: ArrayLike, tau: ArrayLike) -> Floats:
 
 
 def theta_in(chart: ArrayLike, tau: ArrayLike) -> Floats:
-    """The same in [-pi/2, 3 pi/2], so that it grows with tau in each chart."""
+    """Angle in [-pi/2, 3 pi/2] of coordinates in charts; it grows with tau in each chart."""
     theta: Floats = 2 * np.arctan(np.asarray(tau, dtype=np.float64)) + np.asarray(chart) * np.pi
     return theta
 
 
 def tau_in(chart: ArrayLike, theta: ArrayLike) -> Floats:
-    """Coordinate of angles in charts that are known to hold them."""
+    """Coordinate of angles in charts that hold them."""
     tau: Floats = np.tan((np.asarray(theta, dtype=np.float64) - np.asarray(chart) * np.pi) / 2)
     return tau
 
 
 def normalize_angles(theta: ArrayLike) -> Floats:
-    """Angles in radians brought to [0, 2 pi)."""
+    """Normalise angles in radians to [0, 2 pi)."""
     angles = np.mod(np.asarray(theta, dtype=np.float64), math.tau)
     return np.where(angles < math.tau, angles, 0.0)
 
 
 def to_chart(tau: Fraction | None) -> tuple[int, Fraction]:
-    """Chart and exact coordinate in it of a half-angle tangent; an angle on the border belongs to chart 0."""
+    """Chart of a half-angle tangent and its exact coordinate there; an angle on the border belongs to chart 0."""
     if tau is None:
         return 1, Fraction(0)
     return (0, tau) if abs(tau) <= 1 else (1, -1 / tau)
@@ -237,7 +237,7 @@ def _split_tau(tau: ArrayLike) -> tuple[NDArray[np.int64], Floats]:
 
 
 def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
-    """tau, theta in [0, 2 pi) and the bound on their distance."""
+    """Read an angle as tau, theta in [0, 2 pi) and the bound on their distance."""
     if isinstance(theta, Mapping):
         tau = _read_tau(theta)
         return tau, _angle_of(tau), 0.0
@@ -276,7 +276,7 @@ def read_radians(theta: Number) -> tuple[Fraction | None, float, float]:
 
 
 def number_and_unit(theta: Number) -> tuple[Number, Literal["deg", "rad", ""]]:
-    """Split an angle into its number, and its unit if it is a text that ends with one.
+    """Split an angle into its number and its unit; only a text can end with a unit.
 
     Examples
     --------
@@ -285,17 +285,17 @@ def number_and_unit(theta: Number) -> tuple[Number, Literal["deg", "rad", ""]]:
     """
     text = theta.strip() if isinstance(theta, str) else ""
     units: dict[str, Literal["deg", "rad"]] = {"deg": "deg", "°": "deg", "rad": "rad"}
-    found = next((unit for unit in units if text.endswith(unit)), None)
-    return (theta, "") if found is None else (text.removesuffix(found), units[found])
+    suffix = next((unit for unit in units if text.endswith(unit)), None)
+    return (theta, "") if suffix is None else (text.removesuffix(suffix), units[suffix])
 
 
 def require_unit(text: str) -> None:
-    """See that an angle typed as text has a unit, unless it is at most a whole turn in radians.
+    """Refuse an angle typed as text without a unit, unless it is at most a whole turn in radians.
 
     Raises
     ------
     InvalidPoseError
-        If it has none: most likely it was meant in degrees.
+        If the unit is missing: most likely degrees were meant.
 
     Examples
     --------
@@ -317,7 +317,7 @@ def _read_tau(theta: Mapping[str, Number | None]) -> Fraction | None:
 
 
 def _rationalize(quarter_turns: int, rest: Fraction) -> tuple[Fraction | None, float, float]:
-    """tau, theta, error of the angle quarter_turns * pi/2 + rest, |rest| <= pi/4.
+    """Return tau, theta and error of the angle quarter_turns * pi/2 + rest, |rest| <= pi/4.
 
     Notes
     -----
@@ -356,7 +356,7 @@ def _angle_of(tau: Fraction | None) -> float:
 
 
 def to_rational(name: str, value: Number) -> Fraction:
-    """Exact value of a number; anything else is an error that names it."""
+    """Exact value of a number; the error for anything else names the argument."""
     try:
         return to_fraction(value)
     except ValueError as error:

@@ -1,7 +1,7 @@
-"""Numbers as the exact rationals they are.
+"""Read numbers as exact rationals.
 
-A float is the double it is, a `Decimal` or a string is the decimal it is written as (``"0.1"`` is 1/10),
-``"1/3"``, integers and fractions are themselves. Everything that follows is decided on these values.
+A float stands for the exact value of its double, a `Decimal` or a string for the decimal as written (``"0.1"`` is
+1/10). ``"1/3"``, integers and fractions stand for themselves. All decisions use these values.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Number = int | float | Fraction | Decimal | str
 ExactPoint = tuple[Fraction, Fraction]
 IntPoint = tuple[int, int]
 
-# longer numbers are refused: no coordinate needs them, and Python writes integers of at most 4300 digits
+# longer numbers are refused: no coordinate needs them, and Python prints integers of at most 4300 digits
 MAX_DIGITS = 4000
 _QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")
 
@@ -60,7 +60,7 @@ def to_ratio(value: Number) -> tuple[int, int]:
     >>> to_ratio(0.75)
     (3, 4)
     """
-    if type(value) is Fraction:  # the usual ones first
+    if type(value) is Fraction:  # the usual types first
         return value.as_integer_ratio()
     if type(value) is Decimal:
         return _decimal_ratio(value)
@@ -93,7 +93,7 @@ def common_denominator(fractions: Iterable[Fraction]) -> int:
 
 
 def simplest_between(low: Fraction, high: Fraction) -> Fraction:
-    """Fraction of the least denominator in a closed interval, and of those the nearest to 0.
+    """Fraction of least denominator in a closed interval, the nearest to 0 of those.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def simplest_between(low: Fraction, high: Fraction) -> Fraction:
 
     Notes
     -----
-    The common beginning of the two continued fractions, then the least number that separates them.
+    It has the common beginning of the two continued fractions, then the least number that separates them.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def simplest_between(low: Fraction, high: Fraction) -> Fraction:
 
 
 def angle(x: int, y: int) -> float:
-    """Angle of an integer vector, in (-pi, pi], whatever its size.
+    """Angle of an integer vector of any size, in (-pi, pi].
 
     Examples
     --------
@@ -133,7 +133,7 @@ def angle(x: int, y: int) -> float:
 
 
 def finite(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Values as doubles, none of them NaN or infinite."""
+    """Convert values to doubles; NaN and infinity are errors."""
     array = np.asarray(values, dtype=np.float64)
     if not np.isfinite(array).all():
         raise ValueError(f"{name}: {array[~np.isfinite(array)][0]} is not finite; give finite numbers")

@@ -1,4 +1,4 @@
-"""The one Python file in which a sign is decided: exact integers or fractions in, a named answer out.
+"""Sign decisions, all in this one Python file: exact integers or fractions in, a named answer out.
 
 A point or a direction is a pair of exact numbers. There is no tolerance here, and no float.
 """
@@ -16,7 +16,7 @@ Vector = tuple[Exact, Exact]
 
 
 class Orientation(Enum):
-    """Where something lies, seen along a direction."""
+    """Side of a direction on which something lies."""
 
     LEFT = "left"
     COLLINEAR = "collinear"
@@ -24,7 +24,7 @@ class Orientation(Enum):
 
 
 class Order(Enum):
-    """The first of two things compared with the second."""
+    """Order of the first of two things relative to the second."""
 
     BEFORE = "before"
     SAME = "same"
@@ -32,7 +32,7 @@ class Order(Enum):
 
 
 class Location(Enum):
-    """Where something lies in a region."""
+    """Location relative to a region."""
 
     INSIDE = "inside"
     BOUNDARY = "boundary"
@@ -40,7 +40,7 @@ class Location(Enum):
 
 
 class Meeting(Enum):
-    """What two segments have in common: nothing, one point inside both, one end point, a length."""
+    """Intersection of two segments: none, one point inside both, one end point, or a length."""
 
     APART = "apart"
     CROSS = "cross"
@@ -77,7 +77,7 @@ def orient(p: Vector, q: Vector, r: Vector) -> Orientation:
 
 
 def is_opposed(u: Vector, v: Vector) -> bool:
-    """Do two directions make more than a right angle?
+    """True if two directions make more than a right angle.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def compare_with_surd(x: Exact, p: Exact, q: Exact, n: int) -> Order:
 
 
 def is_upper(u: Vector) -> bool:
-    """Is the angle of a direction in [0, pi)?
+    """True if the angle of a direction is in [0, pi).
 
     Examples
     --------
@@ -142,7 +142,7 @@ def is_upper(u: Vector) -> bool:
 
 
 def locate_in_sector(d: Vector, start: Vector, end: Vector) -> Location:
-    """Where a direction lies in the sector swept counter-clockwise from `start` to `end`.
+    """Location of a direction in the sector swept counter-clockwise from `start` to `end`.
 
     Two equal directions bound the whole turn, slit along them.
 
@@ -167,7 +167,7 @@ def locate_in_sector(d: Vector, start: Vector, end: Vector) -> Location:
 
 
 def meet(p: Vector, q: Vector, r: Vector, s: Vector) -> Meeting:
-    """What the segments pq and rs, of positive length, have in common.
+    """Intersection of the segments pq and rs, of positive length.
 
     Examples
     --------
@@ -190,7 +190,7 @@ def meet(p: Vector, q: Vector, r: Vector, s: Vector) -> Meeting:
 
 
 def is_inside_segment(point: Vector, p: Vector, q: Vector) -> bool:
-    """Does a point lie on the segment pq, and not at an end?
+    """True if a point lies on the segment pq, and not at an end.
 
     Examples
     --------
@@ -214,7 +214,7 @@ def crossing_point(p: Vector, q: Vector, r: Vector, s: Vector) -> ExactPoint:
 
 
 def locate(point: Vector, edges: Iterable[tuple[Vector, Vector]]) -> Location:
-    """Where a point lies in the region bounded by closed rings.
+    """Location of a point in the region bounded by closed rings.
 
     Parameters
     ----------

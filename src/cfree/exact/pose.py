@@ -36,17 +36,16 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, init=False)
 class Pose:
-    """Position of the reference point and rotation of the robot, exact.
+    """Exact pose: position of the reference point and rotation of the robot.
 
     Parameters
     ----------
     x, y : int, float, Fraction, Decimal or str
         Position, in the scene's unit of length.
     theta : the same in radians, or "90deg", or "1.5rad", or {"tau": "p/q"}
-        Any value, normalised to [0, 2 pi). Radians within one ulp of a multiple of pi/2 mean that multiple,
-        and multiples of 90 degrees are exact. The half turn is {"tau": "inf"} or {"tau": None}. Other angles
-        have no rational cosine: they are replaced by the simplest tau within rounding of the tangent of
-        their half.
+        Any value, normalised to [0, 2 pi). Radians within one ulp of a multiple of pi/2 mean that multiple, and
+        multiples of 90 degrees are exact. The half turn is {"tau": "inf"} or {"tau": None}. Other angles in radians or
+        degrees are replaced by the simplest tau within rounding of the tangent of their half.
 
     Attributes
     ----------
@@ -56,7 +55,7 @@ class Pose:
     theta : float, radians
         The angle as given, normalised to [0, 2 pi).
     theta_error : float, radians
-        Bound on the distance of the angle given from 2 atan(tau); 0 where `tau` is what was given.
+        Bound on the distance of the input angle from 2 atan(tau); 0 if `tau` was the input.
 
     Notes
     -----
@@ -125,7 +124,7 @@ class Pose:
 
     @checked
     def apply(self, points: ArrayLike) -> Floats:
-        """Points of the robot, (..., 2) floats, where this pose puts them.
+        """Move points of the robot, (..., 2) floats, to this pose.
 
         Examples
         --------
@@ -140,17 +139,17 @@ class Pose:
 
     @checked
     def apply_exact(self, points: Iterable[Vector]) -> tuple[ExactPoint, ...]:
-        """Exact points of the robot where this pose puts them: eq. (3) in the rational model."""
+        """Move exact points of the robot to this pose: eq. (3) in the rational model."""
         c, s, w = self.rotation
-        found = []
-        for a, b in points:  # in integers, which is faster
+        moved = []
+        for a, b in points:  # integers are faster
             (m, i), (n, j) = a.as_integer_ratio(), b.as_integer_ratio()
             m, n, unit = m * j, n * i, w * i * j
-            found.append((self.x + Fraction(c * m - s * n, unit), self.y + Fraction(s * m + c * n, unit)))
-        return tuple(found)
+            moved.append((self.x + Fraction(c * m - s * n, unit), self.y + Fraction(s * m + c * n, unit)))
+        return tuple(moved)
 
     def __matmul__(self, other: Pose) -> Pose:
-        """Pose that does first `other`, then this one; exact, the errors of the angles add up.
+        """Compose poses: first `other`, then this one. Exact; the errors of the angles add up.
 
         Examples
         --------
@@ -178,7 +177,7 @@ class Pose:
 PoseLike = Pose | Sequence[Any]  # or (x, y, theta), as `Pose` takes them
 
 
-OnePose = Pose | tuple[Number, Number, Angle]  # the same, for what takes many as well
+OnePose = Pose | tuple[Number, Number, Angle]  # the same, for functions that also take many poses
 
 
 PLAIN = frozenset({tuple, list, np.ndarray, Pose})  # kinds of poses that the core is asked about first
@@ -198,7 +197,7 @@ def for_core(poses: Any) -> Any:
 
 
 def one_pose(value: object, name: str) -> Pose | None:
-    """The pose, if one is given and not many.
+    """Return the pose if the value is one pose; None if it is many.
 
     Examples
     --------
@@ -214,12 +213,12 @@ def one_pose(value: object, name: str) -> Pose | None:
 
 
 def to_pose(value: PoseLike, name: str = "pose") -> Pose:
-    """A pose, or x, y and theta as `Pose` takes them.
+    """Convert to a pose: a `Pose`, or x, y and theta as `Pose` takes them.
 
     Raises
     ------
     InvalidPoseError, TypeError
-        If it is neither, with the name.
+        If the value is neither; the message has `name`.
 
     Examples
     --------
@@ -252,7 +251,7 @@ class Poses(Value):
     ----------
     xy : (n, 2) float64
     theta : (n,) float64, radians
-        Any values, normalised to [0, 2 pi); within one ulp of a multiple of pi/2 they mean it.
+        Any values, normalised to [0, 2 pi). Values within one ulp of a multiple of pi/2 mean that multiple.
 
     Examples
     --------
@@ -281,7 +280,7 @@ class Poses(Value):
     @classmethod
     @checked
     def from_poses(cls, poses: Iterable[Pose]) -> Poses:
-        """Poses rounded to doubles."""
+        """Round poses to doubles."""
         rows = [(float(q.x), float(q.y), q.theta) for q in poses]
         table = np.array(rows, dtype=np.float64).reshape(-1, 3)
         return cls(table[:, :2], table[:, 2])
@@ -297,12 +296,12 @@ class Poses(Value):
 
     @checked
     def apply(self, points: ArrayLike) -> Floats:
-        """Points (k, 2) of the robot under every pose: (n, k, 2)."""
+        """Move points (k, 2) of the robot to every pose: (n, k, 2)."""
         a = np.asarray(points, dtype=np.float64)
         return self.xy[:, None, :] + _rotate(self.theta[:, None], a)
 
     def __matmul__(self, other: Poses) -> Poses:
-        """Row by row: first the pose of `other`, then this one."""
+        """Compose row by row: first the pose of `other`, then this one."""
         return Poses(self.xy + _rotate(self.theta, other.xy), self.theta + other.theta)
 
     def inverse(self) -> Poses:
@@ -317,7 +316,7 @@ def _pose(x: Fraction, y: Fraction, tau: Fraction | None, theta_error: float) ->
 
 
 def _split(theta: Floats) -> tuple[NDArray[np.int64], Floats]:
-    """Nearest number of quarter turns and the rest, 0 within one ulp."""
+    """Split into the nearest number of quarter turns and the rest, 0 within one ulp."""
     quarter_turns = np.rint(theta / (np.pi / 2))
     rest = theta - quarter_turns * (np.pi / 2)
     rest = np.where(np.abs(rest) <= np.spacing(np.abs(theta)), 0.0, rest)
@@ -325,7 +324,7 @@ def _split(theta: Floats) -> tuple[NDArray[np.int64], Floats]:
 
 
 def _rotate(theta: Floats, points: Floats) -> Floats:
-    """Points (..., 2) turned by theta (...), exactly so at multiples of pi/2."""
+    """Rotate points (..., 2) by theta (...), exactly at multiples of pi/2."""
     quarter_turns, rest = _split(theta)
     c0, s0 = np.cos(rest), np.sin(rest)
     turned = quarter_turns % 4

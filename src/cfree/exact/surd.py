@@ -1,4 +1,4 @@
-"""Numbers p + q sqrt(n), and angles given by exact directions: the ends of contact patches are of this kind.
+"""Numbers p + q sqrt(n), and angles of exact directions, such as the ends of contact patches.
 
 An angle whose (cos, sin) is (c, s) up to length, c and s integers, has the half-angle tangent
 
@@ -27,13 +27,13 @@ class Surd:
     Parameters
     ----------
     p, q : int, float, Fraction, Decimal or str
-        Kept as fractions.
+        Stored as fractions.
     n : int
-        At least 0. If it is a square, the root goes into `p`; other square factors stay where they are.
+        At least 0. If it is a square, the root goes into `p`; other square factors stay in `n`.
 
     Notes
     -----
-    Equality compares the numbers, not how they are written.
+    Equality compares the numbers, not their representations.
 
     Examples
     --------
@@ -71,7 +71,7 @@ class Surd:
         return hash(self._key)
 
     def __float__(self) -> float:
-        """The nearest double."""
+        """Round to the nearest double."""
         bits = 64
         while True:
             low, high = map(float, self.neighbours(bits))
@@ -87,7 +87,7 @@ class Surd:
 
     @checked
     def neighbours(self, bits: int) -> tuple[Fraction, Fraction]:
-        """The multiples of 2^-bits next below and above; the number itself, twice, if it is rational.
+        """Return the multiples of 2^-bits next below and above; the number itself, twice, if it is rational.
 
         Examples
         --------
@@ -115,8 +115,8 @@ class ExactAngle:
     Parameters
     ----------
     c, s : int
-        (cos, sin) times any positive number; not both 0. Kept without common divisors, so that equal angles are
-        equal.
+        (cos, sin) times any positive number; not both 0. They are stored without common divisors, so that equal angles
+        are equal.
 
     Examples
     --------
@@ -159,18 +159,18 @@ class ExactAngle:
 
     @property
     def theta(self) -> float:
-        """In radians, in (-pi, pi]."""
+        """Angle in radians, in (-pi, pi]."""
         return angle(self.c, self.s)
 
     @checked
     def neighbours(self, bits: int) -> tuple[Fraction | None, Fraction | None]:
-        """Rational half-angle tangents next to this angle, clockwise and counter-clockwise.
+        """Return rational half-angle tangents next to this angle, clockwise and counter-clockwise.
 
         Parameters
         ----------
         bits : int
-            tau is a multiple of 2^-bits where it is in [-1, 1], else 1 / tau is: each is at most 2^(1 - bits) radians
-            away.
+            tau is a multiple of 2^-bits if it is in [-1, 1], else 1 / tau is. Each angle is at most 2^(1 - bits)
+            radians away.
 
         Returns
         -------

@@ -1,10 +1,10 @@
-"""The geometry of contact surfaces: the paper's section 4, for both kinds of surface.
+"""Geometry of contact surfaces: the paper's section 4, for both kinds of surface.
 
-`local` has forms, curvatures and directions at a point; `rulings` what the lines on a surface say of it; `area` areas,
-`total_curvature` integrals of K, `curvature_sum` what these add up to on closed surfaces, `normals` how often their
-normals cover the sphere; `development` unrolls v-e surfaces, with `elliptic` integrals; `geodesics` go straight on a
-surface; `congruence` finds equal helices, surfaces and patches; `kinematic` measures the poses that meet; `ruled` reads
-the eight numbers of a surface.
+`local` has forms, curvatures and directions at a point; `rulings` has the properties that follow from the rulings.
+`area` has areas and `total_curvature` integrals of K. `curvature_sum` adds up curvature on closed surfaces, and
+`normals` counts how often their normals cover the sphere. `development` unrolls v-e surfaces, with `elliptic`
+integrals. `geodesics` has straight curves on a surface; `congruence` finds equal helices, surfaces and patches.
+`kinematic` measures the forbidden poses of convex polygons; `ruled` reads the eight numbers of a surface.
 """
 
 from typing import TYPE_CHECKING

@@ -1,8 +1,8 @@
 """Areas of contact patches and of trapezoids, in the metric dx^2 + dy^2 + angle_scale^2 dtheta^2.
 
-The area element is v dt dphi (section 4). Along the ruling it is integrated exactly; with ds = L dt,
+The area element is v dt dphi (section 4). The integral along a ruling is exact; with ds = L dt,
 
-    e-v:  integral of sqrt(w^2 + s^2) ds = [s sqrt(w^2 + s^2) + w^2 arsinh(s / w)] / 2, whatever phi
+    e-v:  integral of sqrt(w^2 + s^2) ds = [s sqrt(w^2 + s^2) + w^2 arsinh(s / w)] / 2 for any phi
     v-e:  sqrt(w^2 + s(phi)^2) L (t_1 - t_0)
 """
 
@@ -28,14 +28,14 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
     ruled : (..., 8) float
         `Surface.ruled` or `Boundary.ruled`; all arguments are broadcast against each other.
     phi_min, phi_range : (...) float, radians
-        As of `angle_range` or `Boundary`; other ranges give the area of that part of the surface.
+        Range as in `angle_range` or `Boundary`; other ranges give the area of that part of the surface.
     angle_scale : float, length per radian
         1 in the paper.
 
     Returns
     -------
     (...) float64
-        In length^2.
+        Areas in length^2.
 
     Raises
     ------
@@ -44,10 +44,10 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
 
     Notes
     -----
-    An e-v patch has phi_range times the integral above, which phi_min does not change. A v-e patch is as large as its
-    development: L times an elliptic integral of the second kind. Both are differences, which lose digits
-    where the edge is short and far from the foot of the perpendicular, or the range narrow: measured, about as many as
-    s / L, or 1 / phi_range, has.
+    An e-v patch has phi_range times the integral at the top of this file, for every phi_min. A v-e patch has the area
+    of its development: L times an elliptic integral of the second kind. Both are differences. They lose digits if the
+    edge is short and far from the foot of the perpendicular, or if the range is narrow: measured, about as many digits
+    as s / L, or 1 / phi_range, has.
 
     Examples
     --------
@@ -85,9 +85,9 @@ def trapezoid_areas(boundary: Boundary, *, angle_scale: float = 1.0) -> Floats:
 
     Notes
     -----
-    Exact in t. In theta by Gauss-Legendre quadrature on intervals that are halved until halving changes less than
-    1e-12 of the value, or of the mean of all: a measured error, no proved one. Time and memory are about linear in the
-    number of trapezoids.
+    The integral over t is exact. The one over theta is by Gauss-Legendre quadrature, on intervals that are halved until
+    halving changes less than 1e-12 of the value, or of the mean of all: a measured error, not a proved one. Time and
+    memory are about linear in the number of trapezoids.
     """
     w = check_scale(angle_scale)
     boundary.require_complete()

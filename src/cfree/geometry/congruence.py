@@ -1,9 +1,9 @@
-"""Which helices, contact surfaces and contact patches of a pair are congruent: Remark 3, decided exactly.
+"""Congruent helices, contact surfaces and contact patches of a pair: Remark 3, decided exactly.
 
 Two sets in C = R^2 x S^1 are *congruent* if an isometry of C carries one onto the other. Isometries of C move the plane
 and the circle: (x, theta) -> (M x + m, sigma theta + c), M orthogonal, sigma = 1 or -1. One that carries a helix
-P - R(phi) a with a != 0 onto such a helix has det M = sigma, since M R(phi) = R(det M phi) M. So, whatever the length
-of a radian, helices keep their radius |a|, rulings their length, angle ranges their width. What is left to compare are
+P - R(phi) a with a != 0 onto such a helix has det M = sigma, since M R(phi) = R(det M phi) M. So, for any length of a
+radian, helices keep their radius |a|, rulings their length, angle ranges their width. It remains to compare
 
     v-v helix     |a_i|^2
     v-e surface   |E_j|^2 and |a_i|^2
@@ -13,8 +13,8 @@ of a radian, helices keep their radius |a|, rulings their length, angle ranges t
     e-v patch     as the surface, and the width pi - omega_j
 
 beta is the angle between a_i and the bisector of the robot's corner there. In the middle of the range the bisector is
-normal to E_j, and what an isometry may change is the side on which a_i is, and the end of E_j. Cosines are kept as
-their squares with their signs, so that every entry is rational in the input.
+normal to E_j; an isometry may change only the side on which a_i is, and the end of E_j. Cosines are stored as their
+squares with their signs, so that every entry is rational in the input.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ C = TypeVar("C", VertexEdge | EdgeVertex, VertexVertex)
 
 @checked
 def surface_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexEdge | EdgeVertex, ...], ...]:
-    """Classes of congruent contact surfaces, t in [0, 1] and all orientations; reflex vertices too.
+    """Classes of congruent contact surfaces, t in [0, 1] and all orientations, reflex vertices included.
 
     Returns
     -------
     tuple of tuples of contacts
-        Within a class, and classes by their first contact, in the order of `contacts`.
+        Contacts of a class are in the order of `contacts`, and so are the classes, by their first contact.
 
     Notes
     -----
@@ -134,7 +134,7 @@ def _patch_key(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVert
 
 
 def _width_key(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex | VertexVertex) -> Key:
-    """Names the width of the contact's angle range, below 2 pi: its cosine, and whether it is above pi."""
+    """Key of the width, below 2 pi, of the contact's angle range: its cosine, and True if it is above pi."""
     r = angle_range(robot, obstacle, contact)
     (ux, uy), (vx, vy) = r.start, r.end
     squares = Fraction((ux * ux + uy * uy) * (vx * vx + vy * vy))
@@ -142,7 +142,7 @@ def _width_key(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVert
 
 
 def _signed_square(value: Fraction, squares: Fraction) -> Fraction:
-    """value / sqrt(squares), squared, with the sign of value."""
+    """Square of value / sqrt(squares), with the sign of value."""
     return value * abs(value) / squares
 
 
@@ -155,5 +155,5 @@ def _dot(u: ExactPoint, v: ExactPoint) -> Fraction:
 
 
 def _product(u: ExactPoint, v: ExactPoint) -> ExactPoint:
-    """As complex numbers."""
+    """Product as complex numbers."""
     return u[0] * v[0] - u[1] * v[1], u[0] * v[1] + u[1] * v[0]

@@ -2,9 +2,9 @@
 
 The curvature of a closed surface with edges is in three places: on faces, K; along edges, the geodesic curvatures of
 both faces there; and at vertices, 2 pi minus the angles of the faces around. Each is computed from the equations of
-surfaces and curves. Every face satisfies the theorem alone, so that the sum is V - E + F of any gluing: it checks K,
-geodesic curvatures and angles, and not the gluing. `gauss_map` checks that. docs/theory/surface-geometry.md, "Gauss
-and Bonnet".
+surfaces and curves. Every face satisfies the theorem alone, so the sum is V - E + F for any gluing: it checks K,
+geodesic curvatures and angles, but not the gluing. `gauss_map` checks the gluing. docs/theory/surface-geometry.md,
+"Gauss and Bonnet", has the proof.
 """
 
 from __future__ import annotations
@@ -32,20 +32,21 @@ class GaussBonnet(Value):
     faces : (F,) float64
         Integral of K over each trapezoid.
     sides : (H,) float64
-        Integral of the geodesic curvature along each coedge, as its loop runs: positive where it turns left, seen from
-        the free side. 0 along walls, which are straight lines.
+        Integral of the geodesic curvature along each coedge, in the direction of its loop: positive for left turns,
+        seen from the free side. It is 0 along walls, which are straight lines.
     sides_error : (H,) float64
-        How much of that changes when the intervals of quadrature are halved: a measured error.
+        Change of `sides` when the intervals of quadrature are halved: a measured error.
     angles : (H,) float64, radians
-        Between a coedge and the one before it: the face's angle there.
+        The face's angle between a coedge and the one before it.
     vertices : (V,) float64
         2 pi minus the angles around each vertex.
     euler : (C,) float64
-        Of each closed surface: all of these, over 2 pi.
+        Sum of the curvature of each closed surface, over 2 pi.
     error : (C,) float64
-        What quadrature may have missed of `euler`, as measured in the same way.
+        Error of `euler` by quadrature, measured in the same way.
     gap : float
-        The farthest that two faces put a vertex that they share from each other, in length: by rounding, if they fit.
+        Greatest distance between the places that two faces compute for a shared vertex, as a length. It is rounding if
+        the faces fit.
     """
 
     faces: Floats
@@ -64,13 +65,13 @@ class GaussBonnet(Value):
 
 @checked
 def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet:
-    """Curvature of faces, along edges and at vertices of a boundary's closed surfaces, and its sum.
+    """Curvature on faces, along edges and at vertices of a boundary's closed surfaces, and its sum.
 
     Parameters
     ----------
     boundary : Boundary
     angle_scale : float, length per radian
-        1 in the paper. It moves curvature from one place to another; the sums stay as they are.
+        1 in the paper. It moves curvature from one place to another; the sums do not change.
 
     Returns
     -------
@@ -85,8 +86,8 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
 
     Notes
     -----
-    The sum is V - E + F of whatever gluing is given, even of a wrong one: it checks curvatures and angles of faces. The
-    gluing is checked by `gauss_map`, and by `gap`.
+    The sum is V - E + F for any gluing, even a wrong one: it checks curvatures and angles of faces. `gauss_map` and
+    `gap` check the gluing.
 
     Time is linear in the number of coedges, some microseconds each.
 
@@ -95,8 +96,8 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
     >>> import cfree
     >>> scene = cfree.Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[[(5, 5), (8, 5), (6, 7)]])
     >>> result = cfree.boundary(scene)
-    >>> found = gauss_bonnet(result)
-    >>> bool(np.all(abs(found.euler - result.complex.euler) < 1e-8)), found.gap < 1e-12
+    >>> sums = gauss_bonnet(result)
+    >>> bool(np.all(abs(sums.euler - result.complex.euler) < 1e-8)), sums.gap < 1e-12
     (True, True)
     """
     w, cells = check_scale(angle_scale), boundary.complex
@@ -104,15 +105,15 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
     sides, sides_error, turns, starts = _core.side_curvatures(boundary.core_complex, w)
     angles = math.pi - turns
     vertices = math.tau - np.bincount(cells.vertex, angles, cells.vertices).astype(np.float64)
-    surface, of_vertex = cells.component[cells.face], np.zeros(cells.vertices, np.int32)
-    of_vertex[cells.vertex] = surface
+    surface, component = cells.component[cells.face], np.zeros(cells.vertices, np.int32)
+    component[cells.vertex] = surface
 
     def summed(*parts: tuple[NDArray[Any], NDArray[Any]]) -> Floats:
         """Sums over closed surfaces, with one rounding: terms are many, and large ones cancel."""
-        sums = [math.fsum(x for values, of in parts for x in values[of == k].tolist()) for k in range(cells.components)]
+        sums = [math.fsum(x for values, n in parts for x in values[n == k].tolist()) for k in range(cells.components)]
         return np.array(sums, np.float64) / math.tau
 
-    euler = summed((faces, cells.component), (sides, surface), (vertices, of_vertex))
+    euler = summed((faces, cells.component), (sides, surface), (vertices, component))
     error = summed((faces_off, cells.component), (sides_error, surface))
     return GaussBonnet(
         faces, sides, sides_error, angles, vertices, euler, error, _gap(boundary, starts.reshape(-1, 3), w)
@@ -120,10 +121,10 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
 
 
 def _gap(boundary: Boundary, starts: Floats, w: float) -> float:
-    """Between the places where faces put the vertex at which their coedges start."""
+    """Greatest distance between the places that faces compute for the vertex at which their coedges start."""
     cells = boundary.complex
     low, high = np.full((cells.vertices, 3), np.inf), np.full((cells.vertices, 3), -np.inf)
-    seam = 0.75 * math.tau * w  # there it is -pi/2 as well
+    seam = 0.75 * math.tau * w  # 3 pi/2, the same place as -pi/2
     starts[:, 2] = np.where(np.abs(starts[:, 2] - seam) < 1e-12 * w, starts[:, 2] - math.tau * w, starts[:, 2])
     known = np.isfinite(starts[:, 0])
     np.minimum.at(low, cells.vertex[known], starts[known])

@@ -1,8 +1,8 @@
-"""Contact surfaces of v-e contacts unrolled into the plane.
+"""Development of v-e contact surfaces: unroll them into the plane.
 
-Paper, section 3.1: such a surface is a cylinder. Its rulings all have the direction of E_j, and across them it is a
-sinusoid: at phi the line is R(phi) a away from E_j. Unrolled, a ruling becomes a vertical segment of its own length,
-and the distance of two rulings is the length of the sinusoid between them.
+Paper, section 3.1: such a surface is a cylinder. Its rulings all have the direction of E_j, and its cross-section is a
+sinusoid: at phi the line is R(phi) a away from E_j. In the plane, a ruling becomes a vertical segment of the same
+length, and the distance of two rulings is the length of the sinusoid between them.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
 
 @checked
 def develop(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
-    """Where points of v-e surfaces are when the surface is unrolled into the plane: an isometry.
+    """Unroll points of v-e surfaces into the plane, by an isometry.
 
     Parameters
     ----------
     ruled : (..., 8) float
         `Surface.ruled` or rows of `Boundary.ruled`, of v-e contacts; broadcast against t and phi.
     t : (...) float
-        Along the ruling; beyond [0, 1] the points are on the surface, not on the patch.
+        Parameter along the ruling; beyond [0, 1] the points are on the surface, not on the patch.
     phi : (...) float, radians
         Any values; in the contact's angle range the points are on the patch. The surface does not close after a turn.
     angle_scale : float, length per radian
@@ -33,18 +33,18 @@ def develop(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: floa
     Returns
     -------
     (..., 2) float64
-        In length: across the rulings, from the ruling of phi = 0, and along them, from the line through the origin.
+        Lengths: across the rulings, from the ruling of phi = 0, and along them, from the line through the origin.
 
     Raises
     ------
     ValueError
-        If a surface is of an e-v contact, which has K < 0: no part of it is isometric to a part of the plane. Or if a
-        number is not finite, or `angle_scale` not positive.
+        If a surface belongs to an e-v contact: it has K < 0, so no part of it is isometric to a part of the plane. Also
+        if a number is not finite, or `angle_scale` is not positive.
 
     Notes
     -----
-    With u the unit vector of E_j the point is (integral of sqrt(w^2 + (u.R(phi) a)^2) dphi, u.(p + t q - R(phi) a)).
-    Its derivatives have the products E, F and G of the surface. The integral is an elliptic one of the second kind.
+    With the unit vector u of E_j the point is (integral of sqrt(w^2 + (u.R(phi) a)^2) dphi, u.(p + t q - R(phi) a)).
+    Its derivatives have the products E, F and G of the surface. The integral is elliptic, of the second kind.
 
     Examples
     --------
@@ -66,7 +66,7 @@ def develop(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: floa
 
 
 def distance_across(rows: Ruled, phi_from: Floats, phi_to: Floats, w: float) -> Floats:
-    """Length of the cross-section of v-e surfaces between two rulings; no meaning for others.
+    """Length of the cross-section of v-e surfaces between two rulings; values of other surfaces mean nothing.
 
     Notes
     -----

@@ -1,7 +1,7 @@
-"""The incomplete elliptic integral of the second kind, for arrays.
+"""Incomplete elliptic integral of the second kind, for arrays.
 
-By Carlson's symmetric integrals R_F and R_D and his duplication: each step brings the three arguments closer by a
-factor of 4, then a power series of degree 5 in what is left of their differences does.
+It uses Carlson's symmetric integrals R_F and R_D and his duplication. Each step brings the three arguments closer by a
+factor of 4; then a power series of degree 5 in their remaining differences suffices.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def second_kind(psi: Floats, n: Floats) -> Floats:
     Returns
     -------
     (...) float64
-        With a relative error below 1e-14, measured; psi itself is taken as exact.
+        The measured relative error is below 1e-14; psi itself is taken as exact.
 
     Notes
     -----
@@ -47,7 +47,7 @@ def second_kind(psi: Floats, n: Floats) -> Floats:
 
 
 def _on_quarter(sine: Floats, cosine_squared: Floats, n: Floats) -> Floats:
-    """The integral up to the angle in [-pi/2, pi/2] with this sine."""
+    """Integral up to the angle in [-pi/2, pi/2] with this sine."""
     x, y, z = np.broadcast_arrays(cosine_squared, 1 + n * sine**2, 1.0)
     R_F, R_D = _carlson(x, y, z)
     value: Floats = sine * (R_F + n * sine**2 / 3 * R_D)

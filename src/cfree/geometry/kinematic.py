@@ -1,6 +1,6 @@
-"""How large the set of poses is in which one convex polygon meets another: Blaschke's kinematic formula.
+"""Volume of the poses in which one convex polygon meets another: Blaschke's kinematic formula.
 
-docs/theory/volumes.md has the proof. The measure is dx dy dtheta, which is the same in every frame.
+docs/theory/volumes.md has the proof. The measure dx dy dtheta is the same in every frame.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ def meeting_volume(robot: Polygon, obstacle: Polygon) -> float:
     Returns
     -------
     float
-        2 pi (A_1 + A_2) + L_1 L_2 of areas A and perimeters L, in length^2 radians; with a relative error below 1e-14.
+        2 pi (A_1 + A_2) + L_1 L_2 of areas A and perimeters L, in length^2 radians; its relative error is below 1e-14.
 
     Raises
     ------

@@ -1,9 +1,9 @@
-"""The degree of the Gauss map on the closed surfaces of a boundary: how often their normals cover the sphere.
+"""Degree of the Gauss map on the closed surfaces of a boundary: how often their normals cover the sphere.
 
 The normal towards the free side is a point of the sphere, as C = R^2 x S^1 has the frame x, y, theta everywhere. Faces
 cover areas of the sphere. Edges cover the arcs between the normals of the two faces that meet there, and vertices cover
-what these arcs enclose. The areas of a closed surface, with their signs, add up to 4 pi times a whole number, the
-*degree*, which is half the Euler number. docs/theory/surface-geometry.md, "The Gauss map", has the proof.
+the areas that these arcs enclose. The areas of a closed surface, with their signs, add up to 4 pi times a whole number,
+the *degree*, which is half the Euler number. docs/theory/surface-geometry.md, "The Gauss map", has the proof.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from cfree.value import Value
 
 Ints = NDArray[np.int64]
 
-UPPER = 1  # of the sides of a trapezoid; the walls are 0 and 2
-TIE = 1e-3  # the arc between two unit normals whose sum is shorter is led through `_middle`
-ROUNDING = 1e-12  # two unit normals whose sum is shorter are opposite
-SHORT, APART = 1e-9, 1e-6  # radians along an edge, and how far apart its faces put its end, over the length of a radian
-ONE_WAY = 1e-6  # how much shorter the mean of directions is that are one
-ROUNDS = 400  # of the search for a half of the sphere around the normals of a vertex
-PRECISION, SURE, HALVINGS = 1e-9, 6, 30  # of areas along edges; more than 6 times only where that helps
+UPPER = 1  # number of the upper side of a trapezoid; the walls are 0 and 2
+TIE = 1e-3  # if the sum of two unit normals is shorter, the arc between them passes through `_middle`
+ROUNDING = 1e-12  # two unit normals are opposite if their sum is shorter
+SHORT, APART = 1e-9, 1e-6  # radians along an edge; distance of its end between faces, per length of a radian
+ONE_WAY = 1e-6  # the mean of equal directions is shorter than 1 by at most this
+ROUNDS = 400  # steps of the search for a half of the sphere around the normals of a vertex
+PRECISION, SURE, HALVINGS = 1e-9, 6, 30  # areas along edges; more than 6 halvings only while they help
 BLOCK = 8192  # edges at a time
 
 NODES, WEIGHTS = legendre.leggauss(16)
@@ -52,13 +52,13 @@ class GaussMap(Value):
     edges : (H,) float64
         Half of the area between the normals of a coedge's face and those of its twin's face.
     vertices : (V,) float64
-        Area within the normals around each vertex. Vertices are found by going round from twin to twin.
+        Area within the normals around each vertex. Going round from twin to twin yields the vertices.
     degree : (C,) float64
         Sum of the areas of each closed surface, over 4 pi.
     error : (C,) float64
-        Change of `degree` when the intervals of quadrature are halved: a measured error. Added is how much of a radian
-        doubles lose in the greatest coordinate, for each coedge. Infinite where an edge is too short for doubles: its
-        faces then put the same vertex in different places.
+        Change of `degree` when the intervals of quadrature are halved: a measured error. For each coedge, the rounding
+        of the greatest coordinate, in radians, is added. It is infinite if an edge is too short for doubles: its faces
+        then compute different places for the same vertex.
     """
 
     faces: Floats
@@ -91,7 +91,7 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
     IncompleteError
         If the boundary is incomplete.
     UnsupportedError
-        If some edge has no length in doubles.
+        If an edge has no length in doubles.
     ValueError
         If `angle_scale` is not positive.
 
@@ -102,15 +102,15 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
     `gauss_bonnet` cannot. Sheets at a pinched edge are taken in the pairs in which they are glued. Isolated parts
     belong to no closed surface and have no area.
 
-    All is computed in doubles: where shapes are 1e12 times as large as others, or nearly touch, `error` says that a
-    degree says nothing. Time is linear in the number of coedges, some 50 microseconds each.
+    All is computed in doubles: if shapes are 1e12 times as large as others, or nearly touch, `error` is so large that
+    the degree means nothing. Time is linear in the number of coedges, some 50 microseconds each.
 
     Examples
     --------
     >>> import cfree
     >>> scene = cfree.Scene([(0, 0), (1, 0), (0, 1)], [[(4, 4), (6, 4), (5, 5)]], bounds=(0, 0, 9, 9))
     >>> result = cfree.boundary(scene)
-    >>> gauss_map(result).degree.round(9) + 0.0, result.complex.euler      # both go round in theta: tori
+    >>> gauss_map(result).degree.round(9) + 0.0, result.complex.euler      # both surround the circle of theta: tori
     (array([0., 0.]), array([0, 0]))
     """
     w, cells = check_scale(angle_scale), boundary.complex
@@ -118,14 +118,14 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
     faces, faces_off = _core.trapezoid_curvatures(boundary.core, w)
     edges, edges_off, arriving = _along_edges(sides)
     vertex, vertices = _at_vertices(sides, arriving)
-    of_vertex = np.zeros(len(vertices), np.int64)
-    of_vertex[vertex] = surface = cells.component[cells.face]
+    component = np.zeros(len(vertices), np.int64)
+    component[vertex] = surface = cells.component[cells.face]
 
     def summed(*parts: tuple[Floats, NDArray[Any]]) -> Floats:
-        sums = [math.fsum(x for values, of in parts for x in values[of == k].tolist()) for k in range(cells.components)]
+        sums = [math.fsum(x for values, n in parts for x in values[n == k].tolist()) for k in range(cells.components)]
         return np.array(sums, np.float64) / (2 * math.tau)
 
-    degree = summed((faces, cells.component), (edges, surface), (vertices, of_vertex))
+    degree = summed((faces, cells.component), (edges, surface), (vertices, component))
     lost = np.full(len(surface), np.spacing(float(np.abs(cells.near).max(initial=0.0))) / w)
     lost[_is_unsettled(sides, vertex)] = np.inf
     error = summed((faces_off, cells.component), (edges_off, surface), (lost, surface))
@@ -150,11 +150,11 @@ class _Sides:
         self.normal = self._normals(read_ruled(self.rows), self.t, self.theta)
 
     def _starts(self) -> tuple[Floats, Floats, Floats]:
-        """Theta and t where coedges start, on the surface of their face; and where that is, NaN inside a wall."""
+        """Theta and t of the starts of coedges on the surface of their face; and their place, NaN inside a wall."""
         cells = self.cells
         start = _core.side_curvatures(self.boundary.core_complex, self.w)[3].reshape(-1, 3).copy()
         place = start[:, :2].copy()
-        within = ~np.isfinite(start[:, 0])  # inside a wall: only the vertex says where
+        within = ~np.isfinite(start[:, 0])  # inside a wall: only the vertex has a place
         start[within, :2] = cells.near[cells.vertex[within]]
         near = self.boundary.ruled_near[self.boundary.trapezoids.patch[cells.face]].reshape(-1, 8)
         theta, surface = start[:, 2] / self.w, read_ruled(near)
@@ -162,7 +162,7 @@ class _Sides:
         return theta, (along * surface.ruling(theta)).sum(axis=-1) / surface.L, place
 
     def _normals(self, surface: Ruled, t: Floats, theta: Floats) -> Floats:
-        """S_t x S_theta = (w U_y, -w U_x, s), as unit vectors."""
+        """Normals S_t x S_theta = (w U_y, -w U_x, s), as unit vectors."""
         u, (s, _) = surface.ruling(theta), surface.across_and_along(t, theta)
         normal = np.stack([self.w * u[..., 1], -self.w * u[..., 0], s], axis=-1)
         return np.asarray(normal / np.hypot(self.w, s)[..., None])
@@ -172,9 +172,9 @@ class _Sides:
         theta = (1 - share) * self.theta[h, None] + share * self.theta[self.after[h], None]
         t = (1 - share) * self.t[h, None] + share * self.t[self.after[h], None]
         curves = self.is_curve[h]
-        of, n = h[curves], share.shape[1]
-        lower, upper = self.boundary.limits(np.repeat(self.cells.face[of], n), theta[curves].ravel())
-        t[curves] = np.where(np.repeat(self.cells.side[of] == UPPER, n), upper, lower).reshape(-1, n)
+        own, n = h[curves], share.shape[1]
+        lower, upper = self.boundary.limits(np.repeat(self.cells.face[own], n), theta[curves].ravel())
+        t[curves] = np.where(np.repeat(self.cells.side[own] == UPPER, n), upper, lower).reshape(-1, n)
         surface = read_ruled(np.broadcast_to(self.rows[h, None], (len(h), n, 8)))
         points = np.concatenate([_places(surface, t, theta), self.w * theta[..., None]], axis=-1)
         return self._normals(surface, t, theta), points
@@ -219,19 +219,19 @@ def _along_edges(sides: _Sides) -> tuple[Floats, Floats, Floats]:
                 least[:] = np.inf
             if not len(h):
                 break
-    for values in (areas, errors):  # half of it each
+    for values in (areas, errors):  # each twin has half of it
         values[whole] /= 2
         values[twin[whole]] = values[whole]
     return areas, errors, arriving
 
 
 def _covered(sides: _Sides, h: Ints, start: Floats, stop: Floats) -> tuple[Floats, Floats, Floats]:
-    """Area that arcs from a coedge's normals to those of its twin cover; in which direction each arrives at its end.
+    """Area covered by arcs from a coedge's normals to its twin's, and the direction in which each arrives at its end.
 
     Notes
     -----
-    Arcs that move sideways by A' and B' at their ends cover tan(d / 2) (A' + B') . n in each unit of time, where d is
-    their length and n their pole: with A x B = n sin d, that is det(A, B, A' + B') / (1 + A . B).
+    Arcs of length d and pole n that move sideways by A' and B' at their ends cover tan(d / 2) (A' + B') . n in each
+    unit of time. With A x B = n sin d, that is det(A, B, A' + B') / (1 + A . B).
     """
     share = (start[:, None] + stop[:, None] + (stop - start)[:, None] * NODES) / 2
     A, points = sides.along(h, share)
@@ -241,19 +241,19 @@ def _covered(sides: _Sides, h: Ints, start: Floats, stop: Floats) -> tuple[Float
     sums = np.linalg.norm(A + B, axis=-1)
     length = np.linalg.norm(points[:, -1] - points[:, 0], axis=-1)
     narrow = (sums.max(axis=-1) < 1) & (sums.min(axis=-1) < length / np.abs(points).max(axis=(-2, -1)))
-    if narrow.any():  # there rounding moves a tangent less than it moves the sum of the normals
+    if narrow.any():  # rounding moves a tangent there less than it moves the sum of the normals
         middle = _middle(A[narrow], B[narrow], _unit(_change(points[narrow])))
         rate[narrow] = _sideways(A[narrow], middle) + _sideways(middle, B[narrow])
     return rate @ WEIGHTS, _unit(AT_END @ points), -_unit(AT_START @ others)
 
 
 def _middle(A: Floats, B: Floats, tangent: Floats) -> Floats:
-    """The direction at right angles to an edge and to a normal, through which the arc to a nearly opposite one leads.
+    """Direction through which the arc to a nearly opposite normal leads: normal to the edge and to the first normal.
 
     Notes
     -----
-    Around the end of a narrow free space it leads into the face, and away from it around a sharp forbidden edge. Free
-    space may have no width, as slits have. A forbidden edge has an angle above 0: obstacles and robots have some area.
+    It leads into the face around the end of a narrow free space, and away from it around a sharp forbidden edge. Free
+    space may have width 0: slits do. A forbidden edge has an angle above 0, as obstacles and robots have some area.
     """
     into, sums = np.cross(A, tangent), A + B
     sharp = (_dot(sums, into) < 0) & (np.linalg.norm(sums, axis=-1) > ROUNDING)
@@ -279,15 +279,15 @@ def _unit(vectors: Floats) -> Floats:
 
 
 def _at_vertices(sides: _Sides, arriving: Floats) -> tuple[Ints, Floats]:
-    """The vertex at which each coedge starts, and the area of the normals around each vertex.
+    """Vertex at which each coedge starts, and the area of the normals around each vertex.
 
     Notes
     -----
-    The polygon is cut into triangles from a centre, none of which has the point opposite to it. They are what the
-    vertex covers if it does not cover that point. If all normals are on the centre's half of the sphere, so is what it
-    covers. Else, as at some saddles, the centre is a direction whose height has no critical point at the vertex: a
-    plane at right angles to it crosses the link of the vertex just twice. At the tip of a spike all edges leave in one
-    direction, which is the centre, since free space is inside.
+    The polygon of normals is cut into triangles from a centre; none of them contains the centre's opposite point. They
+    are the area of the vertex if that does not contain the opposite point. If all normals are on the centre's half of
+    the sphere, so is the area. Else, as at some saddles, the centre is a direction whose height has no critical point
+    at the vertex: a plane normal to it crosses the link of the vertex exactly twice. At the tip of a spike all edges
+    leave in one direction, which is the centre, since free space is inside.
     """
     following = sides.cells.twin[sides.before].astype(np.int64)
     vertex, count = _cycles(following)
@@ -295,18 +295,18 @@ def _at_vertices(sides: _Sides, arriving: Floats) -> tuple[Ints, Floats]:
     stop = start[following]
     middle = start + stop
     length = np.linalg.norm(middle, axis=-1, keepdims=True)
-    aside = _middle(start, stop, arriving[sides.before])  # of the edge between the two
+    aside = _middle(start, stop, arriving[sides.before])  # across the edge between the two
     middle = np.where(length > TIE, middle / np.maximum(length, TIE), aside)
     leaving = -arriving[sides.cells.twin]
     centre, height = _centres(np.concatenate([start, middle]), np.tile(vertex, 2), count)
     _regular(centre, height, vertex, leaving, leaving[following])
-    at = centre[vertex]
-    areas = np.bincount(vertex, _triangle(at, start, middle) + _triangle(at, middle, stop), count)
+    own = centre[vertex]
+    areas = np.bincount(vertex, _triangle(own, start, middle) + _triangle(own, middle, stop), count)
     return vertex, areas.astype(np.float64)
 
 
 def _is_unsettled(sides: _Sides, vertex: Ints) -> NDArray[np.bool_]:
-    """True for coedges that start at an end of a very short edge, if faces do not put that end in one place."""
+    """True for coedges that start at an end of a very short edge for which faces compute different places."""
     short = sides.is_curve & (np.abs(sides.theta[sides.after] - sides.theta) < SHORT)
     count = int(vertex.max(initial=-1)) + 1
     at_short = np.zeros(count, bool)
@@ -319,39 +319,40 @@ def _is_unsettled(sides: _Sides, vertex: Ints) -> NDArray[np.bool_]:
     return np.asarray((at_short & apart)[vertex])
 
 
-def _centres(points: Floats, of: Ints, count: int) -> tuple[Floats, Floats]:
-    """Centres of halves of the sphere that have the points of each, and the height of the lowest of them over the rim.
+def _centres(points: Floats, owner: Ints, count: int) -> tuple[Floats, Floats]:
+    """Centres of halves of the sphere around sets of points, and the height of each set's lowest point over the rim.
 
     Notes
     -----
-    Rosenblatt's perceptron: centres move towards the lowest points. Heights of 0 and less may not be the greatest.
+    Rosenblatt's perceptron: centres move towards the lowest points. Heights of 0 and less need not be the greatest
+    possible.
     """
     centre = np.zeros((count, 3))
-    np.add.at(centre, of, points)
+    np.add.at(centre, owner, points)
     best, height = centre, np.full(count, -np.inf)
     active = np.arange(len(points))
     for k in range(ROUNDS):
         centre = centre / np.maximum(np.linalg.norm(centre, axis=-1, keepdims=True), 1e-12)
-        heights = (points[active] * centre[of[active]]).sum(axis=-1)
+        heights = (points[active] * centre[owner[active]]).sum(axis=-1)
         lowest = np.full(count, np.inf)
-        np.minimum.at(lowest, of[active], heights)
+        np.minimum.at(lowest, owner[active], heights)
         better = (lowest > height) & np.isfinite(lowest)
         best, height = np.where(better[:, None], centre, best), np.where(better, lowest, height)
-        low = active[heights <= lowest[of[active]]]
-        np.add.at(centre, of[low], points[low] / math.sqrt(k + 1))
-        active = active[height[of[active]] < TIE]
+        low = active[heights <= lowest[owner[active]]]
+        np.add.at(centre, owner[low], points[low] / math.sqrt(k + 1))
+        active = active[height[owner[active]] < TIE]
         if not len(active):
             break
     return best, height
 
 
 def _regular(centre: Floats, height: Floats, vertex: Ints, leaving: Floats, following: Floats) -> None:
-    """Set the centres of vertices to directions in which a height is regular, if the edges around have one.
+    """Set the centres of vertices to directions in which the height is regular, if their edges have one.
 
     Notes
     -----
-    Faces have angles of at most pi: where the heights of two edges that follow each other have different signs, and
-    only there, a plane crosses the face between them, once.
+    Faces have angles of at most pi. So a plane crosses the face between two consecutive edges, once, exactly if the
+    heights of these edges have different signs.
     """
     along = np.zeros_like(centre)
     np.add.at(along, vertex, leaving / np.bincount(vertex)[vertex, None])
@@ -369,7 +370,7 @@ def _regular(centre: Floats, height: Floats, vertex: Ints, leaving: Floats, foll
 
 
 def _directions(count: int) -> Floats:
-    """Unit vectors all around, along a spiral."""
+    """Unit vectors all over the sphere, along a spiral."""
     k = np.arange(count) + 0.5
     z, angle = 1 - 2 * k / count, k * math.pi * (1 + 5**0.5)
     return np.column_stack([np.sqrt(1 - z * z) * np.cos(angle), np.sqrt(1 - z * z) * np.sin(angle), z])
@@ -379,12 +380,12 @@ DIRECTIONS = _directions(500)
 
 
 def _cycles(following: Ints) -> tuple[Ints, int]:
-    """Number of the cycle that each element of a permutation is on, and how many there are."""
+    """Number of each element's cycle in a permutation, and the number of cycles."""
     least, ahead = np.arange(len(following)), following
     for _ in range(len(following).bit_length()):
         least, ahead = np.minimum(least, least[ahead]), ahead[ahead]
-    found, number = np.unique(least, return_inverse=True)
-    return number.astype(np.int64), len(found)
+    firsts, number = np.unique(least, return_inverse=True)
+    return number.astype(np.int64), len(firsts)
 
 
 def _dot(u: Floats, v: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""Contact surfaces as rows of eight numbers p, q, a, g, read and checked: where the geometry of surfaces starts from.
+"""Read and check contact surfaces given as rows of eight numbers p, q, a, g.
 
 S(t, phi) = p + t q - R(phi) (a + t g), where q = E_j and g = 0 (v-e) or q = 0 and g = E_i (e-v): `Surface.ruled`, or
 rows of `Boundary.ruled`. All arrays are broadcast against each other.
@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 
 class Ruled(NamedTuple):
-    """The vectors of contact surfaces, (..., 2) each: one of q and g is 0."""
+    """Vectors of contact surfaces, (..., 2) each: one of q and g is 0."""
 
     p: Floats
     q: Floats
@@ -28,7 +28,7 @@ class Ruled(NamedTuple):
 
     @property
     def is_edge_vertex(self) -> NDArray[np.bool_]:
-        """Whether the contact is e-v, (...)."""
+        """True for each e-v contact, (...)."""
         return np.asarray(self.g.any(axis=-1))
 
     @property
@@ -43,9 +43,9 @@ class Ruled(NamedTuple):
         return np.stack(_turned(np.where(is_edge, -np.cos(phi), 1.0), np.where(is_edge, -np.sin(phi), 0.0), d), -1)
 
     def across_and_along(self, t: Floats, phi: Floats) -> tuple[Floats, Floats]:
-        """s and k, the parts of V = dx / dphi across the ruling and along it; on e-v surfaces phi does not matter."""
+        """Parts s and k of V = dx / dphi, across the ruling and along it; on e-v surfaces phi does not matter."""
         d, is_edge = self._direction, self.is_edge_vertex
-        # e-v: robot and obstacle are turned back together, so that no rounding of phi enters
+        # e-v: robot and obstacle are rotated back together, so that no rounding of phi enters
         ax, ay = _turned(np.where(is_edge, 1.0, np.cos(phi)), np.where(is_edge, 0.0, np.sin(phi)), self.a)
         sign = np.where(is_edge, 1.0, -1.0)
         s = sign * (d[..., 0] * ax + d[..., 1] * ay) + np.where(is_edge, t * self.L, 0.0)
@@ -58,12 +58,12 @@ class Ruled(NamedTuple):
 
 
 def read_ruled(ruled: ArrayLike) -> Ruled:
-    """The four vectors of rows of eight numbers.
+    """Split rows of eight numbers into four vectors.
 
     Raises
     ------
     ValueError
-        If a row is not of eight finite numbers, or if not just one of its q and g is 0.
+        If a row does not consist of eight finite numbers, or if not exactly one of its q and g is 0.
 
     Examples
     --------
@@ -85,7 +85,7 @@ def read_ruled(ruled: ArrayLike) -> Ruled:
 def along_rulings(
     integral: Callable[[Floats, Floats, float], Floats], ruled: ArrayLike, phi: Floats, w: float
 ) -> Floats:
-    """An integral of the core's along whole rulings, t in [0, 1], at phi."""
+    """Apply an integral of the core along whole rulings, t in [0, 1], at phi."""
     rows = np.concatenate(read_ruled(ruled), axis=-1)
     shape = np.broadcast_shapes(rows.shape[:-1], phi.shape)
     flat = np.ascontiguousarray(np.broadcast_to(rows, (*shape, 8)).reshape(-1, 8))
@@ -93,7 +93,7 @@ def along_rulings(
 
 
 def read_width(phi_range: ArrayLike) -> Floats:
-    """Widths of contact ranges, finite and not negative."""
+    """Check widths of contact ranges: finite and not negative."""
     width = finite("phi_range", phi_range)
     if np.any(width < 0):
         raise ValueError(f"phi_range: {width.min()} is negative; give the width of the range in radians")
@@ -101,7 +101,7 @@ def read_width(phi_range: ArrayLike) -> Floats:
 
 
 def check_scale(angle_scale: float) -> float:
-    """The length of a radian, finite and positive."""
+    """Check the length of a radian: finite and positive."""
     if not 0 < angle_scale < math.inf:
         raise ValueError(f"angle_scale: {angle_scale}; give a finite length per radian above 0")
     return float(angle_scale)

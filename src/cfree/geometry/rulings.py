@@ -1,9 +1,9 @@
-"""How the rulings of a contact surface lie to each other: developable, minimal, striction, distribution parameter.
+"""Properties of contact surfaces that follow from their rulings: developable, minimal, striction, distribution.
 
-Paper, section 4 with Lemma 3. On an e-v surface they turn with phi, all at the same rate, and come closest where the
-robot's point a + t g is nearest to the reference point: t_* = -a.g / |g|^2. On a v-e surface they are parallel.
-Yes and no are decided exactly, on the surface's fractions. All answers are about the surface, any t and phi, unless
-they say "patch".
+Paper, section 4 with Lemma 3. The rulings of an e-v surface turn with phi, all at the same rate. They come closest at
+the robot's point a + t g nearest to the reference point: t_* = -a.g / |g|^2. The rulings of a v-e surface are parallel.
+Predicates are decided exactly, on the surface's fractions. All functions concern the surface, any t and phi, unless
+their name has "patch".
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from cfree.geometry.ruled import Floats, check_scale, read_ruled
 
 @checked
 def is_developable(surface: Surface) -> bool:
-    """Is the Gaussian curvature 0 everywhere? On v-e surfaces, which are cylinders; never on e-v surfaces.
+    """True if the Gaussian curvature is 0 everywhere: on v-e surfaces, which are cylinders, never on e-v surfaces.
 
     Examples
     --------
@@ -35,25 +35,25 @@ def is_developable(surface: Surface) -> bool:
 
 @checked
 def is_helicoid(surface: Surface) -> bool:
-    """Is it an e-v surface whose robot edge lies on a line through the reference point? Exact.
+    """True if it is an e-v surface whose robot edge lies on a line through the reference point, decided exactly.
 
     Notes
     -----
-    Then S(t, phi) = (b_j - s R(phi) u, phi) with a unit vector u and s the position along that line: a right helicoid.
-    Every other e-v surface is none, since it is not minimal.
+    Then S(t, phi) = (b_j - s R(phi) u, phi) is a right helicoid, with a unit vector u and the position s along that
+    line. No other e-v surface is a helicoid, since it is not minimal.
     """
     return not is_developable(surface) and is_minimal(surface)
 
 
 @checked
 def is_minimal(surface: Surface) -> bool:
-    """Is the mean curvature 0 everywhere? Exact.
+    """True if the mean curvature is 0 everywhere, decided exactly.
 
     Notes
     -----
-    Lemma 3, as "if and only if": H = w E F / (2 v^3) on an e-v surface is 0 somewhere only if F = det(a_i, a_{i+1}) is,
-    and then everywhere. On a v-e surface H = -w E F / (2 v^3) with F = q x R(phi) a: 0 everywhere only if a_i is the
-    reference point, and the surface then lies in a plane.
+    Lemma 3, as "if and only if". On an e-v surface H = w E F / (2 v^3) is 0 somewhere only if F = det(a_i, a_{i+1}) is
+    0, and then everywhere. On a v-e surface H = -w E F / (2 v^3) with F = q x R(phi) a: it is 0 everywhere only if a_i
+    is the reference point, and the surface then lies in a plane.
 
     Examples
     --------
@@ -71,7 +71,7 @@ def is_minimal(surface: Surface) -> bool:
 
 @checked
 def striction_parameter(surface: Surface) -> Fraction | None:
-    """t_* of the striction curve of an e-v surface, exact; None on a v-e surface, whose rulings are parallel.
+    """Exact t_* of the striction curve of an e-v surface; None on a v-e surface, whose rulings are parallel.
 
     Notes
     -----
@@ -93,14 +93,14 @@ def striction_parameter(surface: Surface) -> Fraction | None:
 
 @checked
 def striction_curve(surface: Surface) -> Helix | None:
-    """The curve phi -> S(t_*, phi) of an e-v surface: the helix of the foot of the perpendicular, or its axis."""
+    """Striction curve phi -> S(t_*, phi) of an e-v surface: the helix of the foot of the perpendicular, or its axis."""
     t = striction_parameter(surface)
     return None if t is None else surface.helix(t, beyond=True)
 
 
 @checked
 def striction_is_on_patch(surface: Surface) -> bool:
-    """Does the striction curve run within t in [0, 1], ends included? Exact; False on v-e surfaces.
+    """True if the striction curve is within t in [0, 1], ends included, decided exactly; False on v-e surfaces.
 
     It then crosses the contact patch, if the contact has one: see `contacts`.
     """
@@ -112,7 +112,7 @@ def striction_is_on_patch(surface: Surface) -> bool:
 def striction_parameters(ruled: ArrayLike) -> Floats:
     """t_* of many surfaces in double precision, (...,); NaN for v-e surfaces.
 
-    Rounded: whether it lies in [0, 1] is for `striction_is_on_patch` to say where that is close.
+    Values are rounded: use `striction_is_on_patch` to decide close cases of t_* in [0, 1].
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def striction_parameters(ruled: ArrayLike) -> Floats:
 
 @checked
 def distribution_parameters(ruled: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
-    """det(c', r, r') / r'.r' of unit rulings r over the directrix c, in length, (...,); NaN for v-e surfaces.
+    """Distribution parameter det(c', r, r') / r'.r' of unit rulings r over the directrix c, as a length, (...,).
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def distribution_parameters(ruled: ArrayLike, *, angle_scale: float = 1.0) -> Fl
     Notes
     -----
     It is `angle_scale` for every e-v surface: two neighbouring rulings are w dphi apart and turned by dphi. So
-    K = -w^2 / (w^2 + s^2)^2 at the distance s from the striction curve. On v-e surfaces r' = 0.
+    K = -w^2 / (w^2 + s^2)^2 at the distance s from the striction curve. On v-e surfaces r' = 0, and it is NaN.
 
     Examples
     --------

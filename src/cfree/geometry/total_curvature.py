@@ -1,7 +1,7 @@
 """Integrals of the Gaussian curvature over contact patches and trapezoids.
 
-On e-v surfaces K v dt = -d(s / sqrt(w^2 + s^2)), so along a ruling the integral of K is a difference of two sines: of
-the angles by which the surface's normal is turned out of the plane at its ends. On v-e surfaces K = 0.
+On e-v surfaces K v dt = -d(s / sqrt(w^2 + s^2)). So the integral of K along a ruling is a difference of two sines, of
+the angles between the surface's normal and the plane at its ends. On v-e surfaces K = 0.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ def patch_curvatures(ruled: ArrayLike, phi_range: ArrayLike, *, angle_scale: flo
     ruled : (..., 8) float
         `Surface.ruled` or `Boundary.ruled`; broadcast against phi_range.
     phi_range : (...) float, radians
-        As of `angle_range` or `Boundary`; other widths give the integral over that part of the surface.
+        Width as in `angle_range` or `Boundary`; other widths give the integral over that part of the surface.
     angle_scale : float, length per radian
         1 in the paper.
 
     Returns
     -------
     (...) float64
-        Without unit: 0 on v-e patches, between -2 phi_range and 0 on e-v patches.
+        Integrals without unit: 0 on v-e patches, between -2 phi_range and 0 on e-v patches.
 
     Raises
     ------
@@ -40,8 +40,9 @@ def patch_curvatures(ruled: ArrayLike, phi_range: ArrayLike, *, angle_scale: flo
 
     Notes
     -----
-    phi_range times s_0 / sqrt(w^2 + s_0^2) - s_1 / sqrt(w^2 + s_1^2), where s is the position along the robot's edge
-    from the foot of the perpendicular from the reference point. The area of the Gauss map's image is minus that.
+    The value is phi_range times s_0 / sqrt(w^2 + s_0^2) - s_1 / sqrt(w^2 + s_1^2). Here s is the position along the
+    robot's edge from the foot of the perpendicular from the reference point. The area of the Gauss map's image is minus
+    that.
 
     Examples
     --------
@@ -75,7 +76,7 @@ def trapezoid_curvatures(boundary: Boundary, *, angle_scale: float = 1.0) -> Flo
 
     Notes
     -----
-    Exact in t, over theta by quadrature, as `trapezoid_areas`.
+    The integral over t is exact, the one over theta is by quadrature, as in `trapezoid_areas`.
     """
     w = check_scale(angle_scale)
     boundary.require_complete()

@@ -1,4 +1,4 @@
-"""Polygons around discs, and in them."""
+"""Polygons around discs and inside them."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from fractions import Fraction
 
 from cfree.exact.number import ExactPoint
 
-GRID, SLACK = 2**24, 2.0**-20  # of polygons that stand for a disc of radius 1; more than their rounding
+GRID, SLACK = 2**24, 2.0**-20  # for polygons of a disc of radius 1; SLACK exceeds their rounding
 
 
 def around_disc(radius: Fraction, sides: int) -> list[ExactPoint]:
-    """A polygon around a disc about the origin, of 4 k sides; four of them touch it, in x and in y.
+    """Return a polygon of 4 k sides around a disc about the origin; four sides touch it, in x and in y.
 
     Examples
     --------
@@ -21,7 +21,7 @@ def around_disc(radius: Fraction, sides: int) -> list[ExactPoint]:
     """
     far = (1 + SLACK) / math.cos(math.pi / sides)
     ring = _ring(far, [math.pi * (2 * k + 1) / sides for k in range(sides)])
-    # the sides that touch it: a little longer than they need be, so that their neighbours keep off
+    # the touching sides are a little longer than necessary, so that their neighbours do not touch
     half = Fraction(math.ceil((math.tan(math.pi / sides) + 16 * SLACK) * GRID), GRID)
     for quarter in range(4):
         c, s = ((1, 0), (0, 1), (-1, 0), (0, -1))[quarter]
@@ -31,7 +31,7 @@ def around_disc(radius: Fraction, sides: int) -> list[ExactPoint]:
 
 
 def inside_disc(radius: Fraction, sides: int) -> list[ExactPoint]:
-    """A polygon whose vertices are in a disc about the origin, and not on its rim.
+    """Return a polygon whose vertices are in a disc about the origin, and not on its rim.
 
     Examples
     --------

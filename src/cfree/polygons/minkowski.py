@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-Point = tuple[Any, Any]  # of int, Fraction, or elements of a number field
+Point = tuple[Any, Any]  # pairs of int, Fraction, or elements of a number field
 
 
 def convex_sum(first: Sequence[Point], second: Sequence[Point]) -> list[Point]:
@@ -21,19 +21,19 @@ def convex_sum(first: Sequence[Point], second: Sequence[Point]) -> list[Point]:
 
 
 def summands(first: Sequence[Point], second: Sequence[Point]) -> list[tuple[int, int]]:
-    """Which vertices of two convex rings make the vertices of their sum: edges are merged by direction, in O(m + n)."""
+    """Pairs of vertices that add up to the vertices of the sum; edges are merged by direction, in O(m + n)."""
     (p, u), (q, v) = (_from_the_lowest(ring) for ring in (first, second))
     i = j = 0
-    found = []
+    pairs = []
     while i < len(u) or j < len(v):
-        found.append((p[i % len(p)], q[j % len(q)]))
+        pairs.append((p[i % len(p)], q[j % len(q)]))
         order = -1 if i == len(u) else 1 if j == len(v) else u[i][0] * v[j][1] - u[i][1] * v[j][0]
         i, j = i + (order >= 0), j + (order <= 0)
-    return found
+    return pairs
 
 
 def _from_the_lowest(ring: Sequence[Point]) -> tuple[list[int], list[Point]]:
-    """Vertices by number, and the edges that they begin."""
+    """Numbers of the vertices from the lowest on, and the edges that begin there."""
     k = min(range(len(ring)), key=lambda k: (ring[k][1], ring[k][0]))
     order = [*range(k, len(ring)), *range(k)]
     ends = [(ring[i], ring[(i + 1) % len(ring)]) for i in order]

@@ -1,4 +1,4 @@
-"""Polygons strictly inside others, by exact tests: edges moved inwards."""
+"""Shrink polygons by moving edges inwards; exact tests confirm that results are strictly inside."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import cfree._core as _core
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon, polygon_of
 
-FINER = 12  # bits of an inset that survive the rounding of its polygons
+FINER = 12  # bits of an inset that the rounding of its polygons leaves
 
 
 def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
-    """Polygons strictly inside one, their edges moved inwards; none if nothing is left, or rounding is in the way.
+    """Return polygons strictly inside one, with edges moved inwards; none if nothing is left or rounding prevents it.
 
     Notes
     -----
-    Corners are mitred. If that leaves a simple polygon inside, it is taken, however small the inset (``inset.cpp``);
-    else what shapely makes of it. Both are rounded to a grid much finer than the inset, if that leaves them inside:
-    numbers are short then, and edges that were nearly parallel to others are less so.
+    Corners are mitred. If that leaves a simple polygon inside, it is taken, for any inset (``inset.cpp``); else
+    shapely's result is. Both are rounded to a grid much finer than the inset, if that leaves them inside: numbers are
+    short then, and nearly parallel edges are less so.
 
     Examples
     --------
@@ -31,19 +31,19 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
     """
     if mitred := _core.inset(polygon.core, by.numerator, by.denominator):
         return [polygon_of(mitred)]
-    import shapely  # here: most insets are mitred
+    import shapely  # imported late: most insets are mitred
 
     grid = Fraction(2) ** (math.frexp(by)[1] - FINER)
 
     def snapped(points: Iterable[tuple[Any, Any]]) -> list[ExactPoint]:
         return [(round(Fraction(x) / grid) * grid, round(Fraction(y) / grid) * grid) for x, y in points]
 
-    found = []
+    parts = []
     for part in shapely.get_parts(polygon.to_shapely().buffer(-float(by), join_style="mitre")):
         try:
             smaller = Polygon(snapped(part.exterior.coords), [snapped(ring.coords) for ring in part.interiors])
         except ValueError:  # not simple, or too thin for the grid
             continue
         if smaller.core.is_inside(polygon.core):
-            found.append(smaller)
-    return found
+            parts.append(smaller)
+    return parts

@@ -46,14 +46,14 @@ class Polygon(Shown):
     Parameters
     ----------
     outer : (n, 2) array or sequence of pairs of numbers
-        In either direction; a last point equal to the first is dropped. Numbers as in `cfree.exact.number`.
+        The ring in either direction; a last point equal to the first is dropped. Numbers as in `cfree.exact.number`.
     holes : sequence of the same
         Inside the outer ring, apart from it and from each other.
 
     Raises
     ------
     InvalidPolygonError
-        With the place, the value and the remedy.
+        The message has the place, the value and the remedy.
 
     Notes
     -----
@@ -88,7 +88,7 @@ class Polygon(Shown):
     def __hash__(self) -> int:
         return hash(self._key)
 
-    def __reduce__(self) -> tuple[Any, ...]:  # without what was computed
+    def __reduce__(self) -> tuple[Any, ...]:  # without cached results
         return _restored, (self.numerators, self.denominator, self.ring_offsets, self.removed)
 
     def __repr__(self) -> str:
@@ -108,7 +108,7 @@ class Polygon(Shown):
 
     @cached_property
     def denominator(self) -> int:
-        """The least that makes all coordinates whole."""
+        """Least common denominator of all coordinates."""
         return self.core.denominator
 
     @cached_property
@@ -118,7 +118,7 @@ class Polygon(Shown):
 
     @cached_property
     def removed(self) -> tuple[Removed, ...]:
-        """Repeated and collinear points of the input, exactly so."""
+        """Points of the input that are exactly repeated or collinear."""
         return tuple(
             Removed(ring, index, "repeated" if repeated else "collinear") for ring, index, repeated in self.core.removed
         )
@@ -130,18 +130,18 @@ class Polygon(Shown):
 
     @property
     def rings(self) -> list[Floats]:
-        """The vertices by ring, rounded; the interior on the left."""
+        """Vertices by ring, rounded; the interior is on the left."""
         return [self.vertices[i:j] for i, j in pairwise(self.ring_offsets)]
 
     @cached_property
     def exact_vertices(self) -> tuple[ExactPoint, ...]:
-        """Vertices as they are."""
+        """Exact vertices."""
         d = self.denominator
         return tuple((Fraction(x, d), Fraction(y, d)) for x, y in self.numerators)
 
     @property
     def exact_rings(self) -> list[tuple[ExactPoint, ...]]:
-        """The vertices by ring, as they are; the interior on the left."""
+        """Exact vertices by ring; the interior is on the left."""
         return [self.exact_vertices[i:j] for i, j in pairwise(self.ring_offsets)]
 
     @cached_property
@@ -177,7 +177,7 @@ class Polygon(Shown):
 
     @checked
     def exact_edge(self, i: int) -> ExactPoint:
-        """Edge vector E_i as it is."""
+        """Exact edge vector E_i."""
         x, y = self.edge_numerators[i]
         return Fraction(x, self.denominator), Fraction(y, self.denominator)
 
@@ -186,12 +186,12 @@ class Polygon(Shown):
     def from_polar(
         cls, outer: Iterable[tuple[Number, Angle]], holes: Iterable[Iterable[tuple[Number, Angle]]] = ()
     ) -> Polygon:
-        """Polygon of vertices r (cos alpha, sin alpha), as the paper's section 1.1 gives the robot.
+        """Return the polygon of vertices r (cos alpha, sin alpha), the paper's form of the robot in section 1.1.
 
         Parameters
         ----------
         outer : pairs (r, alpha)
-            alpha as theta in `Pose`: radians, "90deg" or {"tau": "1/3"}, and what it stands for there.
+            alpha is read as theta in `Pose`: radians, "90deg" or {"tau": "1/3"}.
         holes : lists of the same
 
         Examples
@@ -212,12 +212,12 @@ class Polygon(Shown):
 
     @cached_property
     def convex(self) -> NDArray[np.bool_]:
-        """Is the interior angle below pi? Exact, (n,); False is a reflex vertex."""
+        """True for each vertex with an interior angle below pi, exactly, (n,); False for a reflex vertex."""
         return self.core.convex
 
     @property
     def is_convex(self) -> bool:
-        """No hole and no reflex vertex."""
+        """True if there is no hole and no reflex vertex."""
         return self.core.is_convex
 
     @cached_property
@@ -226,21 +226,21 @@ class Polygon(Shown):
         edges = self.edge_numerators
         angles = []
         for (ux, uy), (vx, vy) in zip((edges[k] for k in self.previous.tolist()), edges, strict=True):
-            # from the edge that leaves to the one that came, so that small angles keep their digits
+            # from the edge that leaves to the one that arrives, so that small angles keep their digits
             rho = angle(-(ux * vx + uy * vy), ux * vy - uy * vx)
             angles.append(rho if rho > 0 else rho + 2 * math.pi)
         return _read_only(np.array(angles))
 
     @cached_property
     def exact_area(self) -> Fraction:
-        """Area, holes taken out."""
+        """Area without the holes."""
         v = self.numerators
         doubled = sum(x * v[k][1] - y * v[k][0] for (x, y), k in zip(v, self.next.tolist(), strict=True))
         return Fraction(doubled, 2 * self.denominator**2)
 
     @property
     def area(self) -> float:
-        """Area rounded to the nearest double, inf beyond the greatest."""
+        """Area rounded to the nearest double, inf beyond the greatest double."""
         try:
             return float(self.exact_area)
         except OverflowError:
@@ -248,7 +248,7 @@ class Polygon(Shown):
 
     @cached_property
     def perimeter(self) -> float:
-        """Length of all rings."""
+        """Total length of all rings."""
         return math.fsum(math.hypot(x, y) for x, y in self.edges.tolist())
 
     @property
@@ -265,7 +265,7 @@ class Polygon(Shown):
     # other libraries
 
     def to_shapely(self) -> ShapelyPolygon:
-        """The same polygon, rounded to doubles."""
+        """Convert to a shapely polygon, rounded to doubles."""
         import shapely
 
         outer, *holes = (self.vertices[first:end] for first, end in pairwise(self.ring_offsets))
@@ -273,7 +273,7 @@ class Polygon(Shown):
 
     @classmethod
     def from_shapely(cls, geometry: ShapelyGeometry) -> Polygon:
-        """Polygon of a shapely polygon, whose coordinates are the doubles they are; heights are ignored.
+        """Convert a shapely polygon, with the exact values of its doubles; heights are ignored.
 
         Examples
         --------
@@ -294,19 +294,19 @@ class Polygon(Shown):
 
 
 def polygon_of(core: _core.Polygon) -> Polygon:
-    """The polygon that the core has read."""
+    """Wrap a polygon of the core."""
     polygon = Polygon.__new__(Polygon)
     object.__setattr__(polygon, "core", core)
     return polygon
 
 
 def _from_polar(points: Iterable[tuple[Number, Angle]]) -> list[ExactPoint]:
-    found = []
+    vertices = []
     for radius, alpha in points:
         c, s, w = half_angle_rotation(read_angle(alpha)[0])
         r = to_fraction(radius) / w
-        found.append((r * c, r * s))
-    return found
+        vertices.append((r * c, r * s))
+    return vertices
 
 
 def _restored(numerators: Any, denominator: int, ring_offsets: Sequence[int], removed: tuple[Removed, ...]) -> Polygon:
@@ -316,7 +316,7 @@ def _restored(numerators: Any, denominator: int, ring_offsets: Sequence[int], re
 
 
 def _rounded(numerators: Sequence[IntPoint], denominator: int) -> Floats:
-    """Nearest doubles: Python's division of integers rounds once."""
+    """Round to the nearest doubles: Python's division of integers rounds once."""
     return np.array([(x / denominator, y / denominator) for x, y in numerators])
 
 

@@ -1,4 +1,4 @@
-"""Rings as a user gives them, read into the core: what is wrong with a point is said here, what with a ring there."""
+"""Read rings into the core. Faults of points are reported here, faults of rings by the core."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ Points = Sequence[Sequence[Number]] | NDArray[Any]
 
 @dataclass(frozen=True, slots=True)
 class Removed:
-    """A point of the input that is no vertex: `reason` is "repeated" or "collinear".
+    """A point of the input that is not a vertex: `reason` is "repeated" or "collinear".
 
-    `ring` is 0 for the outer ring and k + 1 for hole k; `index` counts the ring's points as given.
+    `ring` is 0 for the outer ring and k + 1 for hole k; `index` counts the ring's points in the input.
     """
 
     ring: int
@@ -33,7 +33,7 @@ class Removed:
 
 
 def read_rings(outer: Points, holes: Sequence[Points]) -> _core.Polygon:
-    """Check and normalise the rings of one polygon; see `cfree.Polygon` for what is accepted.
+    """Check and normalise the rings of one polygon; `cfree.Polygon` lists the accepted forms.
 
     Examples
     --------
@@ -44,14 +44,14 @@ def read_rings(outer: Points, holes: Sequence[Points]) -> _core.Polygon:
         raise InvalidPolygonError(f"holes: {type(holes).__name__} is no list of rings; give one, or nothing")
     rings = [points.tolist() if isinstance(points, np.ndarray) else points for points in (outer, *holes)]
     read = _core.Polygon.of(rings)
-    if read is None:  # what is rare, or wrong
+    if read is None:  # rare or wrong input
         read = _core.Polygon.of([_plain(r, points) for r, points in enumerate(rings)])
         assert read is not None  # pairs of fractions
     return read
 
 
 def _plain(ring: int, rows: Any) -> list[ExactPoint]:
-    """Points as pairs of fractions."""
+    """Convert points to pairs of fractions."""
     if isinstance(rows, str) or not isinstance(rows, Iterable):
         raise _fault(ring, f"{reprlib.repr(rows)} is no ring; give a sequence of points (x, y)")
     points = []
@@ -63,7 +63,7 @@ def _plain(ring: int, rows: Any) -> list[ExactPoint]:
         except ValueError as error:
             raise _fault(ring, f"point {k}: {error}") from None
         if max(value.numerator.bit_length() - value.denominator.bit_length() for value in (x, y)) >= 1023:
-            raise _fault(ring, f"point {k} lies beyond 4e307; scale the coordinates")  # as the core has it
+            raise _fault(ring, f"point {k} lies beyond 4e307; scale the coordinates")  # the core's message
         points.append((x, y))
     closed = len(points) > 1 and points[0] == points[-1]
     if len(points) - closed < 3:
@@ -72,7 +72,7 @@ def _plain(ring: int, rows: Any) -> list[ExactPoint]:
 
 
 def restored(numerators: Iterable[tuple[int, int]], denominator: int, offsets: Sequence[int]) -> _core.Polygon:
-    """Rings that have been read once."""
+    """Read rings again that the core has accepted before."""
     points = [(Fraction(x, denominator), Fraction(y, denominator)) for x, y in numerators]
     read = _core.Polygon.of([points[i:j] for i, j in pairwise(offsets)])
     assert read is not None  # pairs of fractions

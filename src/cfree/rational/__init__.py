@@ -1,6 +1,6 @@
-"""The rational model of the configuration space: the paper's section 5.
+"""Rational model of the configuration space: the paper's section 5.
 
-`model` has contacts on fractions, `bezier` patches as rational Bezier surfaces.
+`model` has contacts in exact fractions, `bezier` has patches as rational Bezier surfaces.
 """
 
 from typing import TYPE_CHECKING

@@ -11,9 +11,9 @@ bidegree (1, 2) in (x, y) alone. Control points are values of the polar form; so
     degree 2:  1 + u^2,   1 + u v,                  1 + v^2
     degree 3:  1 + u^2,   1 + (u^2 + 2 u v) / 3,   1 + (2 u v + v^2) / 3,   1 + v^2.
 
-The middle weight of degree 2 is positive exactly if the angle spans less than half a turn; the weights of degree 3
-are at least 2/3 for u and v in one chart. Since tau has no value at the half turn, a patch that passes it is cut, and
-where |tau| > 1 it is written in the other chart of `cfree.exact.half_angle`.
+The middle weight of degree 2 is positive exactly if the angle spans less than half a turn; the weights of degree 3 are
+at least 2/3 for u and v in one chart. The half turn has no tau: a patch that passes it is cut, and its part with
+|tau| > 1 is written in the other chart of `cfree.exact.half_angle`.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class BezierPatch:
     Attributes
     ----------
     chart : int
-        0: tau = tan(theta / 2) is the third coordinate and the parameter. 1: tan((theta - pi) / 2) is.
+        Third coordinate and parameter: tau = tan(theta / 2) for 0, tan((theta - pi) / 2) for 1.
     interval : pair of Fraction
         (from, to) of the parameter, ``tau`` below.
     weights : tuple of Fraction
@@ -81,12 +81,12 @@ class BezierPatch:
     points: tuple[Row, Row]
 
     def __call__(self, t: Number, tau: Number) -> tuple[Fraction, ...]:
-        """The point at t and tau, by de Casteljau's algorithm, exact.
+        """Return the exact point at t and tau, by de Casteljau's algorithm.
 
         Raises
         ------
         ValueError
-            If t is outside [0, 1], or tau outside the interval: a net is not used beyond its ends.
+            If t is outside [0, 1], or tau outside the interval: a control net is not used beyond its ends.
         """
         along, (low, high) = to_fraction(t), self.interval
         local = (to_fraction(tau) - low) / (high - low)
@@ -102,7 +102,7 @@ class BezierPatch:
         return points, np.tile(weights, (2, 1))
 
     def as_json(self) -> dict[str, Any]:
-        """Chart, interval, degrees, weights and points; numbers are strings such as "2/3", and exact."""
+        """Return chart, interval, degrees, weights and points; numbers are exact strings such as "2/3"."""
         return {
             "chart": self.chart,
             "interval": _texts(self.interval),
@@ -116,7 +116,7 @@ class BezierPatch:
 def bezier_patch(
     surface: Surface, start: Number, stop: Number, *, chart: int = 0, dimension: Literal[2, 3] = 3
 ) -> BezierPatch:
-    """A contact surface over an interval of tau as a rational Bezier surface.
+    """Return a contact surface over an interval of tau as a rational Bezier surface.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def bezier_patch(
 
     Notes
     -----
-    Nothing asks whether the surface is a patch there: see `bezier_patches`.
+    The interval may leave the contact's range: `bezier_patches` stays within it.
 
     Examples
     --------
@@ -172,7 +172,7 @@ def bezier_patch(
 
 @checked
 def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch, ...]:
-    """A whole contact patch in (x, y, tau), but for slivers at its ends where these are not rational.
+    """Convert a whole contact patch in (x, y, tau), except slivers at ends that are not rational.
 
     Parameters
     ----------
@@ -183,12 +183,12 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
     Returns
     -------
     tuple of BezierPatch
-        In the order of the angle; one or two, the second in the other chart. All points are contacts.
+        One or two patches in the order of the angle, the second in the other chart. All points are contacts.
 
     Raises
     ------
     ValueError
-        If nothing of the patch is left: give more bits. If there is none, at a reflex vertex.
+        If nothing of the patch is left: give more bits. Also at a reflex vertex, which has no patch.
 
     Examples
     --------
@@ -208,7 +208,7 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
 
 @checked
 def save_bezier(patches: Iterable[BezierPatch], path: str | PathLike[str]) -> None:
-    """Write Bezier patches as a JSON list of `BezierPatch.as_json`, whole or not at all."""
+    """Write Bezier patches as a JSON list of `BezierPatch.as_json`, completely or not at all."""
     with replacing(path) as unfinished:
         unfinished.write_text(json.dumps([patch.as_json() for patch in patches]) + "\n", encoding="utf-8")
 
@@ -224,7 +224,7 @@ def _at(start: ExactPoint, along: ExactPoint, t: int) -> ExactPoint:
 
 
 def _polar(coefficients: Sequence[Fraction | int], arguments: Sequence[Fraction]) -> Fraction:
-    """Polar form: the symmetric function, affine in each argument, that is the polynomial where all are equal."""
+    """Polar form: symmetric, affine in each argument, equal to the polynomial if all arguments are equal."""
     d = len(arguments)
     return sum(
         (c * Fraction(sum(map(prod, combinations(arguments, k))), comb(d, k)) for k, c in enumerate(coefficients)),

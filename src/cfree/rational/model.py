@@ -5,16 +5,16 @@ Paper, eq. (2) and section 5. The rotation by theta is the rational matrix
     M(tau) = 1 / (1 + tau^2) ((1 - tau^2, -2 tau), (2 tau, 1 - tau^2)),    M(inf) = R(pi),
 
 so eqs. (4), (5), (8) and the curves of section 3.3 are rational functions of tau and t, and map fractions to
-fractions. tau runs through all numbers and infinity, which is one point, the half turn: None where numbers are exact,
-inf in arrays. The sub-domain Phi ends at numbers with one square root (`cfree.exact.surd`).
+fractions. tau runs through all numbers and infinity, which is one point, the half turn: None among exact numbers, inf
+in arrays. The sub-domain Phi ends at numbers with one square root (`cfree.exact.surd`).
 
     contact     surface or curve                     on fractions                 a contact for
     v-e, e-v    S(t, tau) = p + t q - M (a + t g)    x, y, tau fractions          t in [0, 1], tau in Phi
     v-v         C(tau) = b_j - M a_i                 x, y, tau fractions          tau in Phi
     e-e         C(t) = S(t, tau_min), S of v-e       x, y, tau with one root      t in `t_range`
 
-A *surface* is where the contact is at least a pseudo contact: t in [0, 1], every tau. `point` and calls evaluate it
-there and raise an error for any other t, for it would be no contact of any sort; `locate` tells what of it is patch.
+A *surface* has all poses in which the contact is at least a pseudo contact: t in [0, 1], every tau. `point` and calls
+evaluate it there and raise an error for any other t, which is no contact of any sort. `locate` tests for the patch.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ RationalPoint = tuple[Fraction, Fraction, HalfTangent]
 
 @dataclass(frozen=True, slots=True)
 class RationalRange:
-    """Phi of eq. (6): the closed range of orientations of a contact type, counter-clockwise from start to end.
+    """Range Phi of eq. (6): the closed range of orientations of a contact type, counter-clockwise from start to end.
 
     Attributes
     ----------
@@ -73,8 +73,8 @@ class RationalRange:
     def domain(self) -> tuple[tuple[Surd | None, Surd | None], ...]:
         """Phi as one interval of tau, or two if it passes infinity: [tau_min, inf] and [inf, tau_max].
 
-        None is infinity, and belongs to Phi: as a lower end it is -inf, as an upper end +inf, twice it is a range that
-        is the half turn alone. Where eq. (6) cuts the circle at theta = 0, the rational model cuts it at theta = pi.
+        None is infinity, and belongs to Phi: as a lower end it is -inf, as an upper end +inf; two of them are the half
+        turn alone. Eq. (6) cuts the circle at theta = 0, the rational model cuts it at theta = pi.
         """
         tau_min, tau_max = self.start.tau, self.end.tau
         if tau_min is None or tau_max is None or self.locate(None) is Location.OUTSIDE:
@@ -83,24 +83,24 @@ class RationalRange:
 
     @checked
     def locate(self, tau: Number | None) -> Location:
-        """Is an orientation inside Phi, at an end, or outside? Decided by signs of integers."""
+        """Location of an orientation: inside Phi, at an end, or outside; decided by signs of integers."""
         c, s, _ = half_angle_rotation(half_tangent(tau))
         return self._locate((c, s))
 
     @checked
     def inside(self, bits: int) -> tuple[HalfTangent, HalfTangent]:
-        """The widest part of Phi with ends of a stated precision.
+        """Return the widest part of Phi with ends of a stated precision.
 
         Parameters
         ----------
         bits : int
-            An end that is not rational is replaced by one whose tau, or 1 / tau where that is in [-1, 1], is a multiple
-            of 2^-bits: at most 2^(1 - bits) radians are lost there.
+            An end that is not rational is replaced by one whose tau is a multiple of 2^-bits; or whose 1 / tau is, if
+            that is in [-1, 1]. At most 2^(1 - bits) radians are lost there.
 
         Raises
         ------
         ValueError
-            If nothing of positive width is left.
+            If no part of positive width is left.
 
         Examples
         --------
@@ -120,7 +120,7 @@ class RationalRange:
 
     @checked
     def outside(self, bits: int) -> tuple[HalfTangent, HalfTangent]:
-        """The narrowest range with ends of a stated precision that contains Phi; see `inside`.
+        """Return the narrowest range with ends of a stated precision that contains Phi; see `inside`.
 
         Raises
         ------
@@ -139,7 +139,7 @@ class RationalRange:
 
 @dataclass(frozen=True, slots=True)
 class RationalSurface:
-    """S(t, tau) of a v-e or e-v contact, eqs. (5) and (8), and where it is a patch.
+    """Surface S(t, tau) of a v-e or e-v contact, eqs. (5) and (8), and the range Phi of its patch.
 
     Attributes
     ----------
@@ -179,16 +179,16 @@ class RationalSurface:
 
     @checked
     def locate(self, t: Number, tau: Number | None) -> Location:
-        """Is S(t, tau) inside the patch, on its rim, or outside of it? Exact."""
-        s, at = to_fraction(t), self.Phi.locate(tau) if self.Phi else Location.OUTSIDE
+        """Exact location of S(t, tau): inside the patch, on its rim, or outside."""
+        s, in_range = to_fraction(t), self.Phi.locate(tau) if self.Phi else Location.OUTSIDE
         if not 0 <= s <= 1:
             return Location.OUTSIDE
-        return Location.BOUNDARY if s in (0, 1) and at is Location.INSIDE else at
+        return Location.BOUNDARY if s in (0, 1) and in_range is Location.INSIDE else in_range
 
 
 @dataclass(frozen=True, slots=True)
 class RationalHelix:
-    """C(tau) of a v-v contact, section 3.3.1: a rational cubic in (x, y, tau).
+    """Helix C(tau) of a v-v contact, section 3.3.1: a rational cubic in (x, y, tau).
 
     Attributes
     ----------
@@ -220,13 +220,13 @@ class RationalHelix:
 
     @checked
     def locate(self, tau: Number | None) -> Location:
-        """Is C(tau) inside the arc of contacts, at an end, or outside? Exact."""
+        """Exact location of C(tau): inside the arc of contacts, at an end, or outside."""
         return self.Phi.locate(tau)
 
 
 @dataclass(frozen=True, slots=True)
 class RationalSegment:
-    """C(t) of an e-e contact, section 3.3.2, or pseudo contact, at one orientation, with a square root in general.
+    """Segment C(t) of an e-e contact, section 3.3.2, or pseudo contact: one orientation, in general a square root.
 
     Attributes
     ----------
@@ -274,7 +274,7 @@ class RationalSegment:
 
     @checked
     def locate(self, t: Number) -> Location:
-        """Is C(t) inside the segment, at an end, or outside? Exact."""
+        """Exact location of C(t): inside the segment, at an end, or outside."""
         after_low, before_high = self.t_range[0].compare(t), self.t_range[1].compare(t)
         if after_low is Order.AFTER or before_high is Order.BEFORE:
             return Location.OUTSIDE
@@ -283,12 +283,12 @@ class RationalSegment:
 
 @checked
 def rational_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> RationalRange:
-    """Phi of a contact, exactly.
+    """Return the exact range Phi of a contact.
 
     Raises
     ------
     ValueError
-        If it never is a contact, as in `cfree.contact.contact.angle_range`.
+        If the contact type is never a contact, as in `cfree.contact.contact.angle_range`.
 
     Notes
     -----
@@ -310,7 +310,7 @@ def rational_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> Ratio
 
 @checked
 def rational_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> RationalSurface:
-    """Surface and patch of a v-e or e-v contact; without a patch at a reflex vertex.
+    """Return surface and patch of a v-e or e-v contact; there is no patch at a reflex vertex.
 
     Examples
     --------
@@ -326,13 +326,13 @@ def rational_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | Ed
 
 @checked
 def rational_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> RationalHelix:
-    """Helix of a v-v contact; a ValueError if reflex vertices leave it no angle."""
+    """Return the helix of a v-v contact; a ValueError if reflex vertices leave it no angle."""
     return RationalHelix(contact_helix(robot, obstacle, contact), rational_range(robot, obstacle, contact))
 
 
 @checked
 def rational_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> RationalSegment:
-    """Segment of an e-e contact, t where it is one; a ValueError if reflex vertices keep the edges apart."""
+    """Return the segment of an e-e contact; a ValueError if reflex vertices keep the edges apart."""
     angle = rational_range(robot, obstacle, contact).start
     S = contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j))
     return RationalSegment(S, angle, _t_range(robot, obstacle, contact))
@@ -342,7 +342,7 @@ def rational_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> Ra
 def rational_edge_edge_surface(
     robot: Polygon, obstacle: Polygon, contact: EdgeEdge
 ) -> tuple[RationalSegment, RationalSegment]:
-    """Both segments of an e-e pair's contact surface, Definition 1; `cfree.contact.edge_edge_surface`, exactly.
+    """Return both segments of an e-e pair's contact surface, Definition 1: the exact `contact.edge_edge_surface`.
 
     Examples
     --------
@@ -361,12 +361,13 @@ def rational_edge_edge_surface(
 
 @checked
 def to_rational(points: ArrayLike) -> Floats:
-    """Points (x, y, theta) of the geometrical model as (x, y, tau), in doubles.
+    """Convert points (x, y, theta) of the geometrical model to (x, y, tau), in doubles.
 
     Parameters
     ----------
     points : (..., 3) array
-        theta in radians, any value; within one unit in the last place of a multiple of pi / 2 it means that multiple.
+        theta in radians, any value. Values within one unit in the last place of a multiple of pi / 2 mean that
+        multiple.
 
     Returns
     -------
@@ -376,14 +377,14 @@ def to_rational(points: ArrayLike) -> Floats:
     Raises
     ------
     ValueError
-        If the shape is another, or a number is not finite.
+        If the shape is different, or a number is not finite.
 
     Notes
     -----
-    Measured on random points: there and back, theta returns within one unit in its last place. Near the half turn tau
-    is large and has no more digits than pi - theta: back and there, tau returns with a relative error of at most
-    2^-50 over the sine of theta, and as inf from about 1e16 on. Whole turns are lost. One exact pose in both models is
-    a `Pose`, with `tau`, `theta` and `theta_error`.
+    Measured on random points: theta to tau to theta returns within one unit in its last place. Near the half turn tau
+    is large and has no more digits than pi - theta. So tau to theta to tau returns with a relative error of at most
+    2^-50 over the sine of theta, and as inf from about 1e16 on. Whole turns are lost. A `Pose` is exact in both models,
+    with `tau`, `theta` and `theta_error`.
 
     Examples
     --------
@@ -400,7 +401,7 @@ def to_rational(points: ArrayLike) -> Floats:
 
 @checked
 def to_geometrical(points: ArrayLike) -> Floats:
-    """Points (x, y, tau) of the rational model as (x, y, theta), theta in [0, 2 pi), in doubles.
+    """Convert points (x, y, tau) of the rational model to (x, y, theta), theta in [0, 2 pi), in doubles.
 
     Parameters
     ----------
@@ -410,7 +411,7 @@ def to_geometrical(points: ArrayLike) -> Floats:
     Raises
     ------
     ValueError
-        If the shape is another, x or y is not finite, or tau is NaN.
+        If the shape is different, x or y is not finite, or tau is NaN.
 
     Notes
     -----
@@ -428,15 +429,15 @@ def to_geometrical(points: ArrayLike) -> Floats:
 
 
 def _exactly_placed(helix: Helix, tau: Number | None) -> RationalPoint:
-    """P - M(tau) a."""
-    at = half_tangent(tau)
-    c, s, w = half_angle_rotation(at)
+    """Exact point P - M(tau) a of a helix."""
+    tangent = half_tangent(tau)
+    c, s, w = half_angle_rotation(tangent)
     (px, py), (ax, ay) = helix.centre, helix.fixed
-    return px - (c * ax - s * ay) / w, py - (s * ax + c * ay) / w, at
+    return px - (c * ax - s * ay) / w, py - (s * ax + c * ay) / w, tangent
 
 
 def _placed(P: tuple[ArrayLike, ArrayLike], tau: Floats, a: tuple[ArrayLike, ArrayLike]) -> Floats:
-    """The same for arrays of the shape of tau."""
+    """Points P - M(tau) a for arrays of the shape of tau."""
     c, s = rational_rotation(tau)
     (px, py), (ax, ay) = (np.asarray(v, dtype=np.float64) for v in P), (np.asarray(v, dtype=np.float64) for v in a)
     return np.stack((px - (c * ax - s * ay), py - (s * ax + c * ay), tau), axis=-1)

@@ -1,7 +1,7 @@
-// The arrangement of all contact surfaces: vertices, edges, faces and cells, with their incidence.
+// Arrangement of all contact surfaces: vertices, edges, faces and cells, with their incidence.
 //
-// Trapezoids of one patch that meet across a curve or an angle at which nothing happens are one face, and so on. Every face has
-// two sides, the free one (outer) and the forbidden one (inner) of its pair; a cell is bounded by closed surfaces of sides.
+// Trapezoids of one patch that meet across a curve or an angle without any other surface are one face, and so on. Every face
+// has two sides, the free one (outer) and the forbidden one (inner) of its pair; closed surfaces of sides bound a cell.
 #pragma once
 #include "cfree/arrangement/sheets.hpp"
 #include "cfree/free/cell_facts.hpp"
@@ -13,27 +13,27 @@ enum class ArrangementVertex : std::uint8_t { triple, helix_crossing, end };  //
 
 struct Arrangement {
     Sheets sheets;
-    std::vector<Index> face_of;    // of each trapezoid
-    std::vector<Index> component;  // of each trapezoid: what is connected by edges
-    std::vector<Index> surface;    // of its outer and its inner side: the closed surface
+    std::vector<Index> face_of;    // by trapezoid
+    std::vector<Index> component;  // by trapezoid: its component connected by edges
+    std::vector<Index> surface;    // closed surface of its outer and its inner side
     // faces
     std::vector<Index> face_first;              // one of its trapezoids
     std::vector<Index> face_outer, face_inner;  // cells
     std::vector<Index> face_euler;
-    // edges, at each the faces around it, once for every time they meet it
+    // edges, each with the faces around it, once for every time they meet it
     std::vector<std::uint8_t> edge_kind;
     std::vector<Index> edge_vertices;  // two each; -1 if it is closed
     std::vector<Index> edge_start{0}, edge_face;
     // vertices
     std::vector<std::uint8_t> vertex_kind;
-    std::vector<Index> vertex_degree, vertex_pairs;  // edges that end there; pairs whose boundaries meet there
+    std::vector<Index> vertex_degree, vertex_pairs;  // number of edges that end there; of pairs whose boundaries meet there
     std::vector<double> xy, theta;                   // in the user's units, from `Scene::frame`
-    // cells; 0 is beyond everything
+    // cells; 0 is the unbounded one
     std::vector<Index> cell_set, cell_euler, cell_surfaces;
     std::shared_ptr<const PointLocation> points;
 
     Volumes volumes() const;  // infinite for the first
-    // What is at a pose: a cell and no trapezoids, or the trapezoids that it is on, and -1.
+    // Location of a pose: its cell and no trapezoids, or -1 and the trapezoids that contain it.
     struct Place {
         Index cell;
         std::vector<Index> on;
@@ -41,7 +41,8 @@ struct Arrangement {
     Place locate(const ExactPose& pose) const;
 };
 
-// Throws std::length_error if there are more than so many vertices, std::domain_error if surfaces meet in a way not decided.
+// Throws std::length_error if there are more vertices than `most_vertices`, std::domain_error if surfaces meet in an
+// undecided way.
 std::shared_ptr<const Arrangement> arrange(Sheets&& sheets, int threads, std::int64_t most_vertices);
 
 }  // namespace cfree

@@ -1,8 +1,8 @@
-// Whether whole motions are free: translations, rotations about a pole, and slides, decided exactly.
+// Exact tests that whole motions are free: translations, rotations about a pole, and slides.
 //
-// Along a motion the robot's points are X(u) / W(u), polynomials in a parameter u in [0, 1]; so are the obstacles' points
-// seen from the robot. They are quadratic, of slides of degree 6. A point is on the inner side of an edge's line where a
-// polynomial is positive. Two convex pieces overlap unless an edge of one has the other's vertices on its outer side or on
+// Along a motion the robot's points are X(u) / W(u), polynomials in a parameter u in [0, 1]; so are the obstacles' points in
+// the robot's frame. The polynomials are quadratic, for slides of degree 6. A point is on the inner side of an edge's line if
+// a polynomial is positive. Two convex pieces overlap unless an edge of one has the other's vertices on its outer side or on
 // its line.
 #pragma once
 #include <array>
@@ -19,7 +19,8 @@ namespace cfree {
 struct Box;
 class BoxTree;
 
-// From a pose along a vector, or about a pole by at most half a turn. Lengths are in the scene's integer units, over `unit`.
+// Motion from a pose along a vector, or about a pole by at most half a turn. Lengths are in the scene's integer units, over
+// `unit`.
 struct Motion {
     Int c, s, w;     // the pose's cosine is c / w, its sine s / w
     Int x, y, unit;  // and its position
@@ -28,13 +29,13 @@ struct Motion {
     Int start, q, p; // half of the angle turned is that of (1 - u) (start, 0) + u (q, p)
 };
 
-// From a pose along (x / d, y / d), polynomials in u, as the robot turns: half the angle is that of (q, p u).
+// Motion of a turning robot from a pose along (x / d, y / d), polynomials in u; half the angle is that of (q, p u).
 struct Slide {
     Int c, s, w, q, p;
     std::array<Int, 5> x, y, d;  // position in the scene's integer units; d is positive
 };
 
-// The pieces overlap just after a parameter: a root at which the polynomial grows through zero, or 0.
+// A parameter just after which pieces overlap: a root at which the polynomial grows through zero, or 0.
 struct Collision {
     RealRoot at;
     Index robot_piece, obstacle_piece;
@@ -53,7 +54,7 @@ public:
     // Does it begin beyond the frames around the bounds and the workspace, where nothing is in the way?
     bool begins_outside(const Motion& motion) const;
     std::optional<Collision> first_collision(const Motion& motion) const;
-    // Of a translation: the parameter of the first collision.
+    // Parameter of the first collision of a translation.
     std::optional<Ratio> free_share(const Motion& translation) const;
 
     const std::shared_ptr<const Scene> scene;
@@ -67,7 +68,7 @@ private:
     };
     std::array<std::optional<Rim>, 2> rims;  // by layer, of the frames
     const std::vector<Box> boxes;
-    const std::unique_ptr<BoxTree> tree;  // of the obstacles' pieces
+    const std::unique_ptr<BoxTree> tree;  // tree of the obstacles' pieces
 };
 
 }  // namespace cfree

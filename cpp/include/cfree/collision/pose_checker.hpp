@@ -1,9 +1,9 @@
-// Is a pose free? Convex pieces of the robot against those of the obstacles near by, by separating axes.
+// Test that poses are free: convex pieces of the robot against those of near obstacles, by separating axes.
 //
-// A pose is forbidden if the interiors of two pieces meet; those of convex polygons do unless an edge of one has all of
-// the other on its outer side, or on its line. In doubles that is a distance d of an edge's line from the other piece, and
-// |error| < margin for every d computed here (pose_checker.cpp): d >= margin separates, d <= -margin for all edges is an overlap.
-// Anything else is decided in exact integers.
+// A pose is forbidden if the interiors of two pieces meet. Interiors of convex polygons meet unless an edge of one has all
+// of the other on its outer side, or on its line. Doubles give the distance d of an edge's line from the other piece, with
+// |error| < margin for every d computed here (pose_checker.cpp): d >= margin separates, d <= -margin for all edges is an
+// overlap. Exact integers decide all other cases.
 #pragma once
 #include <array>
 #include <atomic>
@@ -23,7 +23,7 @@ struct Placement {
     double x, y, c, s;
 };
 
-// The pose itself: cosine c / w, sine s / w, position (x, y) / unit; w, unit > 0.
+// The exact pose: cosine c / w, sine s / w, position (x, y) / unit; w, unit > 0.
 struct ExactPlacement {
     Int c, s, w, x, y, unit;
 };
@@ -49,28 +49,28 @@ public:
     // out.
     std::optional<bool> is_free(double x, double y, double theta) const;
 
-    // Certainly free are all poses from + u (by), u in [0, 1]: x, y and theta, radians, change evenly. False may mean that
-    // they come too close to tell.
+    // True if all poses from + u (by), u in [0, 1], are certainly free: x, y and theta, in radians, change evenly. False may
+    // mean that they come too close to decide.
     bool sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const;
 
-    // Of one pose after another, by one thread.
+    // Tests of one pose after another, by one thread.
     class Looks;
 
 private:
     // Convex pieces, edge k from vertex k, with its outward unit normal n and n . vertex.
     struct Pieces {
-        std::vector<Index> number, first;  // in the shape; of its vertices, and the end
+        std::vector<Index> number, first;  // number in the shape; first of its vertices, and the end
         std::vector<double> x, y, nx, ny, h;
-        std::vector<std::array<Index, 16>> far;  // of a piece, vertices that reach far in sixteen directions
+        std::vector<std::array<Index, 16>> far;  // by piece: vertices that reach far in sixteen directions
         Index count() const { return static_cast<Index>(number.size()); }
     };
-    struct Ranges {  // of a piece's coordinates
+    struct Ranges {  // ranges of a piece's coordinates
         double x0, y0, x1, y1;
     };
     static Pieces pieces_of(const Shape& shape);
     double distance(const Pieces& p, Index piece, double x, double y) const;
     struct Placed;
-    // Poses around one: the reference point no further away than `shift`, turned by no more than `turn`. Verdicts hold for all.
+    // Poses around one: moved by at most `shift`, turned by at most `turn`. Verdicts hold for all of them.
     struct Range {
         double shift = 0, turn = 0;
     };
@@ -82,19 +82,19 @@ private:
     template <class Exact>
     bool decide(double x, double y, double theta, Exact&& exact) const;
 
-    // Which obstacle pieces the robot may reach from somewhere in a cell of a grid. By cell and sector of angles: what is known
-    // of all poses there; threads may find it twice, and find the same.
-    enum class State : std::uint8_t { unseen, once, twice, forbidden, free, mixed };  // looked at once or twice: not known
+    // Obstacle pieces within the robot's reach from a cell of a grid. By cell and sector of angles, the verdict for all poses
+    // there; two threads may compute it, with the same result.
+    enum class State : std::uint8_t { unseen, once, twice, forbidden, free, mixed };  // once, twice: looked at, undecided
     struct Grid {
-        double x0 = 0, y0 = 0, side = 0, per_unit = 0, radius = 0;  // radius: of a cell, and a little more
+        double x0 = 0, y0 = 0, side = 0, per_unit = 0, radius = 0;  // radius: a little more than that of a cell
         Index nx = 0, ny = 0;
         State enough{};
         std::vector<Index> start, member;
-        std::vector<Ranges> around;  // by sector and robot piece: boxes that hold it, the reference point at the origin
+        std::vector<Ranges> around;  // by sector and robot piece: boxes around it, the reference point at the origin
         std::vector<std::atomic<State>> known;
         std::size_t slot(double x, double y, double theta) const;
     };
-    // For so many poses more: the more have been asked for, the finer. Each is made when first needed.
+    // Grid for this many further poses: the more poses in all, the finer. Each grid is made when first needed.
     Grid& near(std::size_t poses) const;
     Verdict verdict(Grid& grid, std::size_t slot, const double* pose, Placed& placed) const;
     struct Fineness;
@@ -105,7 +105,7 @@ private:
     std::array<double, 4> limits;
     Pieces robot, obstacles;
     std::vector<Ranges> box;       // of the obstacles' pieces
-    double reach = 0, margin = 0;  // of the robot around its reference point, rounded up; see above
+    double reach = 0, margin = 0;  // reach of the robot around its reference point, rounded up; margin: see above
     struct Level {
         std::once_flag once;
         Grid grid;
@@ -118,7 +118,7 @@ class PoseChecker::Looks {
 public:
     explicit Looks(std::shared_ptr<const PoseChecker> of);
     ~Looks();
-    // Certainly forbidden? Theta in [0, 2 pi].
+    // True if a pose is certainly forbidden; theta in [0, 2 pi].
     bool is_forbidden(double x, double y, double theta);
     const std::shared_ptr<const PoseChecker> checker;
 

@@ -1,4 +1,4 @@
-// The line of a contact surface at one orientation: P + t U, t in [0, 1], in any numbers.
+// Line of a contact surface at one orientation: P + t U, t in [0, 1], in any number type.
 //
 //   v-e:  P = b_v - R a_i,  U = E_j = b_w - b_v          (robot vertex i on the obstacle edge j = (v, w))
 //   e-v:  P = b_j - R a_v,  U = -R E_i = -R (a_w - a_v)  (robot edge i = (v, w) on the obstacle vertex j)
@@ -11,7 +11,7 @@
 
 namespace cfree {
 
-// A rotation, times w: that by tau is (1 - tau^2, 2 tau) with w = 1 + tau^2.
+// A rotation, times w: the one by tau is (1 - tau^2, 2 tau) with w = 1 + tau^2.
 template <class T>
 struct Rotation {
     T c, s, w;
@@ -23,13 +23,13 @@ inline Rotation<double> rotation_by(int chart, double tau) {
     const double m = (chart ? -1 : 1) / (1 + tau * tau);
     return {(1 - tau * tau) * m, 2 * tau * m, 1};
 }
-// By p / r, times r^2 + p^2.
+// Rotation by tau = p / r, times r^2 + p^2.
 inline Rotation<Int> rotation_by(int chart, const Int& p, const Int& r) {
     const Int c = r * r - p * p, s = 2 * p * r;
     return {chart ? Int(-c) : c, chart ? Int(-s) : s, r * r + p * p};
 }
 
-// What it is made of, the robot at rest: a of the robot, b of the obstacles, and the edge E of one of them.
+// Vectors of a contact line, with the robot at rest: a of the robot, b of the obstacles, and the edge E of one of them.
 template <class T>
 struct ContactLine {
     bool on_edge;  // v-e
@@ -44,12 +44,12 @@ struct ContactLine {
         b = of.vertex(O, on_edge ? O.v[contact.obstacle] : contact.obstacle);
         E = on_edge ? of.edge(O, contact.obstacle) : of.edge(A, contact.robot);
     }
-    // Both times w.
+    // P and U, both times w.
     Vec<T> start(const Rotation<T>& R) const { return Vec<T>{R.w * b.x, R.w * b.y} - R(a); }
     Vec<T> direction(const Rotation<T>& R) const { return on_edge ? Vec<T>{R.w * E.x, R.w * E.y} : -R(E); }
 };
 
-// Where its parts are taken from: doubles in the user's units, or the core's own numbers.
+// Sources of coordinates: doubles in the user's units, or the core's own numbers.
 struct UserUnits {
     Vec<double> vertex(const Shape& s, Index v) const { return {s.xy[2 * v], s.xy[2 * v + 1]}; }
     Vec<double> edge(const Shape& s, Index e) const {

@@ -1,4 +1,4 @@
-// Points of contact surfaces in bulk. Both kinds of the paper are one formula (eqs. 5 and 8):
+// Points of contact surfaces in bulk. One formula covers both kinds of the paper (eqs. 5 and 8):
 //   x = p + t q - R(phi) (a + t g),
 // v-e: p = b_j, q = E_j, a = a_i, g = 0;   e-v: p = b_j, q = 0, a = a_i, g = E_i.
 #pragma once

@@ -1,4 +1,4 @@
-// Closed curves and the rings of polygons: does one contain the other? Decided exactly.
+// Exact containment of closed curves in rings of polygons, and of rings in curves.
 //
 // A curve is cut into parts until no edge of the ring meets the interior of a part's hull. Then each part is on one side of
 // the ring. docs/theory/curved-shapes.md has the proof.
@@ -17,9 +17,9 @@ struct CurvePiece {
 // Each piece begins where the one before ends.
 using ClosedCurve = std::vector<CurvePiece>;
 
-// True if all of the curve is inside a ring of the polygon or on it; false if some is not, or if that is too near to tell.
+// True if all of the curve is inside a ring of the polygon or on it; false if not, or if the case is too close to decide.
 bool is_around(const Polygon& polygon, Index ring, const ClosedCurve& curve);
-// True if the curve goes around the ring, and no point of it is inside; false if not, or if that is too near to tell.
+// True if the curve goes around the ring and has no point inside; false if not, or if the case is too close to decide.
 bool is_within(const Polygon& polygon, Index ring, const ClosedCurve& curve);
 
 }  // namespace cfree

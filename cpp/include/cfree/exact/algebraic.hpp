@@ -5,20 +5,20 @@
 
 namespace cfree {
 
-// The only root of p in [lo, hi]; p changes sign there, or lo = hi is the root.
+// A root of p, its only one in [lo, hi]; p changes sign there, or lo = hi is the root.
 struct RealRoot {
     Poly p;
     Dyadic lo, hi;
     bool is_dyadic() const { return cfree::compare(lo, hi) == 0; }
     unsigned digits() const;  // d if the interval is narrower than 2^-d, or 0
     void halve();
-    void narrow();  // by ever more, once the polynomial is nearly straight in the interval
+    void narrow();  // faster and faster once the polynomial is nearly straight in the interval
 };
 
-// Times a power of the denominator, the degree.
+// Value of p times the denominator to the power of the degree.
 Int value_at(const Poly& p, const Ratio& x);
 inline Ratio ratio_of(const Dyadic& x) { return reduced(x.n, Int(1) << x.k); }
-// A root, if it is rational.
+// Value of a root, if it is rational.
 std::optional<Ratio> rational_value(RealRoot x);
 // Sign of q at the root; narrows its interval.
 int sign_at(const Poly& q, RealRoot& x);

@@ -1,9 +1,9 @@
 // Interval arithmetic in twice the precision of doubles: the second rung of every decision.
 //
 // A ball holds its middle as an unevaluated sum hi + lo of two doubles, and a radius. Error-free transformations (Knuth's
-// sum, the product with a fused multiply-add) give exactly what an operation rounds away, and the radius grows by just that:
-// where nothing is lost it stays zero, the value is exact, and even a zero is certain. That settles ties between small
-// integers, while ties between long ones are left to exact integers.
+// sum, the product with a fused multiply-add) give the exact rounding of an operation, and the radius grows by just that.
+// If nothing is lost it stays zero: the value is exact, and even a zero is certain. This settles ties between small
+// integers; ties between long ones are left to exact integers.
 #pragma once
 #include <optional>
 
@@ -27,7 +27,7 @@ inline TwoDoubles two_sum(double x, double y) {
     const double s = x + y, part = s - x;
     return {s, (x - (s - part)) + (y - part)};
 }
-// s + e = x y, up to what is added to `lost`: below 2^-960 the rest e may round to a multiple of 2^-1074.
+// s + e = x y, up to an error that is added to `lost`: below 2^-960 the rest e may round to a multiple of 2^-1074.
 inline TwoDoubles two_product(double x, double y, double& lost) {
     const double p = x * y;
     if (!(std::abs(p) >= 0x1p-960) && x != 0 && y != 0) lost += 0x1p-1074;
@@ -60,9 +60,9 @@ inline Ball operator*(const Ball& x, const Ball& y) {
         const auto [q, f] = two_product(x.hi, y.lo, lost);
         const auto [r, g] = two_product(x.lo, y.hi, lost);
         const auto [z, h] = two_product(x.lo, y.lo, lost);
-        const auto [a, d1] = two_sum(q, r);  // of order 2^-53
+        const auto [a, d1] = two_sum(q, r);  // order of magnitude 2^-53
         const auto [b, d2] = two_sum(lo, a);
-        const auto [v, k1] = two_sum(f, g);  // of order 2^-106
+        const auto [v, k1] = two_sum(f, g);  // order of magnitude 2^-106
         const auto [w, k2] = two_sum(v, z);
         const auto [d, k3] = two_sum(d1, d2);
         const auto [n, k4] = two_sum(w, d);
@@ -77,7 +77,7 @@ inline Ball operator*(const Ball& x, const Ball& y) {
     return {hi, lo, lost * radius_growth};
 }
 
-// The sign, if it is certain.
+// Sign of a ball, if it is certain.
 inline std::optional<int> certain_sign(const Ball& x) {
     const double value = x.hi + x.lo;
     if (value > 2 * x.radius) return 1;
@@ -86,10 +86,10 @@ inline std::optional<int> certain_sign(const Ball& x) {
     return {};
 }
 
-// Of two exact middles.
+// True if one exact middle is below another.
 inline bool is_below(const Ball& x, const Ball& y) { return x.hi < y.hi || (x.hi == y.hi && x.lo < y.lo); }
 
-// What the sum of two doubles loses of a longer number: cut after 106 digits, or subnormal.
+// Bound of the loss when a longer number becomes a sum of two doubles: cut after 106 digits, or subnormal.
 inline double ball_error(double hi) { return std::abs(hi) * 0x1p-104 + least_radius; }
 
 // n / 2^k

@@ -1,4 +1,4 @@
-// The number types of the decisions: exact integers of any size, and doubles that carry their magnitude.
+// Number types of the decisions: exact integers of any size, and doubles with their magnitude.
 #pragma once
 #include <boost/multiprecision/cpp_int.hpp>
 #include <algorithm>
@@ -10,14 +10,14 @@
 
 namespace cfree {
 
-// For the benchmark of what exactness costs, and for nothing else: every sign is that of the double, however uncertain.
+// Mode for the benchmark of the cost of exactness, and for nothing else: every sign is that of the double, even if uncertain.
 #ifdef CFREE_DOUBLE_ONLY
 inline constexpr bool double_only = true;
 #else
 inline constexpr bool double_only = false;
 #endif
 
-// Exact integers; up to 512 bits without touching the heap.
+// Exact integers; up to 512 bits they need no heap.
 using Int = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
@@ -26,7 +26,7 @@ using Int = boost::multiprecision::number<
 // n / d, correctly rounded; d is not zero.
 inline double ratio(const Int& n, const Int& d) {
     if (n.is_zero()) return 0;
-    // 62 or 63 bits of the quotient, fewer of a subnormal one; the last tells whether anything is left
+    // 62 or 63 bits of the quotient, fewer of a subnormal one; the last is set if there is a remainder
     const Int p = abs(n), r = abs(d);
     const int up = std::min(62 + static_cast<int>(msb(r)) - static_cast<int>(msb(p)), 1076);
     Int quotient, rest;
@@ -56,9 +56,9 @@ inline Int root_below(const Int& n) {
 // Where it is known to be wide enough.
 __extension__ typedef __int128 Wide;
 
-// A double v and the magnitude m of the terms it was summed from. An expression of d roundings in a row, inputs
-// included, satisfies |v - exact| <= d u m (1 + O(u)), u = 2^-53, but for underflow, which bounds allow for. Overflow makes
-// m infinite, and then no comparison against a multiple of m succeeds.
+// A double v and the magnitude m of its summands. An expression of d roundings in a row, inputs included, satisfies
+// |v - exact| <= d u m (1 + O(u)), u = 2^-53, except for underflow, which bounds allow for. Overflow makes m infinite, and
+// then no comparison against a multiple of m succeeds.
 struct Approx {
     double v, m;
 };

@@ -70,10 +70,10 @@ Poly difference(const Poly& p, const Poly& q);
 Poly derivative(const Poly& p);
 Int value_at(const Poly& p, const Dyadic& tau);  // times 2^(k d), d the degree
 int sign_at(const Poly& p, const Dyadic& tau);
-int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi);  // on the whole closed interval, 0 if not certain
+int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi);  // sign on the whole closed interval, 0 if not certain
 Poly greatest_common_divisor(Poly p, Poly q);
 Poly squarefree(const Poly& p);
-// Divided by what all of them have in common, numbers as well; one at least is not zero.
+// Divide polynomials, not all zero, by their common factors, numbers included.
 void cancel(std::span<Poly> parts);
 
 // Sturm's chain of a squarefree polynomial.

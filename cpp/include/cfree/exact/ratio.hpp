@@ -20,7 +20,7 @@ struct Ratio {
 
 inline constexpr int most_digits = 4000;  // longer numbers are refused: no coordinate needs them
 
-// Of a text like "0.1", "-2e3" or "1/3", in ASCII; nothing if it is none, divides by zero, or is too long.
+// Read a text like "0.1", "-2e3" or "1/3", in ASCII; nothing if it is no number, divides by zero, or is too long.
 std::optional<Ratio> ratio_of(std::string_view text);
 Ratio ratio_of(double value);  // finite
 Ratio reduced(Int n, Int d);   // d is not zero
@@ -32,7 +32,7 @@ inline Ratio operator-(const Ratio& x, const Ratio& y) { return reduced(x.n * y.
 inline Ratio operator*(const Ratio& x, const Ratio& y) { return reduced(x.n * y.n, x.d * y.d); }
 inline Ratio operator/(const Ratio& x, const Ratio& y) { return reduced(x.n * y.d, x.d * y.n); }  // y is not zero
 
-// The fraction of the least denominator in [low, high], and of those the nearest to 0.
+// Fraction of least denominator in [low, high], the nearest to 0 of those.
 Ratio simplest_between(const Ratio& low, const Ratio& high);
 // A simple fraction in the middle half of an interval.
 Ratio simple_middle(const Ratio& low, const Ratio& high);
@@ -41,7 +41,7 @@ double nearest(const Int& n, const Int& d);  // n / d rounded once, to even; d >
 
 // "-1/3", "2".
 std::string text_of(const Ratio& value);
-// The shortest decimal that reads back as this double, as Python writes it: "0.1", "1e-05", "2.0".
+// Shortest decimal that reads back as this double, as Python writes it: "0.1", "1e-05", "2.0".
 std::string text_of(double value);
 
 }  // namespace cfree

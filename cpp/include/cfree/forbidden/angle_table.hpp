@@ -1,4 +1,4 @@
-// The critical angles of all trapezoids in one order, equal ones made one: across patches, names and charts.
+// Critical angles of all trapezoids in one order, equal ones merged across patches, names and charts.
 #pragma once
 #include "cfree/forbidden/critical_angle.hpp"
 
@@ -6,11 +6,11 @@ namespace cfree {
 
 class AngleTable {
 public:
-    // The same with any number of threads.
+    // The table is the same for any number of threads.
     AngleTable(const Scene& scene, const Patches& patches, const Trapezoids& trapezoids, int threads);
 
-    // Ranks from 0 (theta = -pi/2) over `middle` (pi/2, where the charts meet) to `last` (3 pi/2, which is -pi/2 again).
-    std::vector<Index> from, to;  // of each trapezoid
+    // Ranks go from 0 (theta = -pi/2) over `middle` (pi/2, where the charts meet) to `last` (3 pi/2, which is -pi/2 again).
+    std::vector<Index> from, to;  // by trapezoid
     Index middle = 0, last = 0;
 
     // An angle in a chart that holds it: an interval of tau, and the exact number.
@@ -23,7 +23,7 @@ public:
 private:
     struct Angle {
         double lo, hi;
-        Index trapezoid;  // one that has it; -1: the end of a chart
+        Index trapezoid;  // a trapezoid with this angle; -1: the end of a chart
         bool is_to;
     };
     std::size_t place(Index rank, int chart) const { return static_cast<std::size_t>(rank + chart); }
@@ -35,7 +35,7 @@ private:
     const Scene& scene;
     const Patches& patches;
     const Trapezoids& trapezoids;
-    std::vector<Angle> angles;  // of chart 0, end to end, then of chart 1: `middle` is in both
+    std::vector<Angle> angles;  // chart 0 from end to end, then chart 1: `middle` is in both
 };
 
 }  // namespace cfree

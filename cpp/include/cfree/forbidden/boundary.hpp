@@ -1,4 +1,4 @@
-// The trimmed boundary of the forbidden space: all patches, divided among threads. Everything built on it shares it.
+// Trimmed boundary of the forbidden space: all patches, divided among threads. Everything built on it shares it.
 #pragma once
 #include <functional>
 #include <memory>
@@ -26,13 +26,13 @@ public:
 
     const std::shared_ptr<const Scene> scene;
     const Patches patches;
-    const std::vector<std::uint8_t> trimmed;  // of each patch, whether it has been
+    const std::vector<std::uint8_t> trimmed;  // by patch: true if it has been trimmed
     const Trapezoids trapezoids;
     const IsolatedParts isolated;
     const Tally tally;
 
     bool is_complete() const;
-    // All critical angles in one order; found when first asked for, by so many threads.
+    // All critical angles in one order, computed at the first call, by this many threads.
     const AngleTable& angles(int threads = 1) const;
 
 private:
@@ -42,7 +42,7 @@ private:
 
 // Critical angles of trapezoids and of isolated parts in one order; see AngleTable.
 struct AngleRanks {
-    std::vector<Index> from, to;  // of each trapezoid, then of each isolated part
+    std::vector<Index> from, to;  // by trapezoid, then by isolated part
     Index middle = 0, last = 0;
 };
 AngleRanks angle_ranks(const Boundary& boundary);
@@ -52,19 +52,19 @@ using SharedBoundary = std::shared_ptr<const Boundary>;
 // All pairs of a convex vertex and an edge, patches of the boundary before trimming.
 Patches list_patches(const Scene& scene);
 
-// Whether the robot has a vertex at its reference point, and an obstacle an edge on the outside of the bounds: then surfaces may
-// coincide with opposite sides.
+// True if the robot has a vertex at its reference point, and an obstacle an edge on the outside of the bounds: then surfaces
+// may coincide with opposite sides.
 bool may_have_slits(const Scene& scene);
 
-// What the one who waits wants: to go on, to have what there is so far, or nothing any more.
+// Wish of the waiting caller: to go on, to finish with the result so far, or to cancel.
 enum class Wish { go_on, finish, cancel };
 
 struct Task {
     int threads = 1;
     bool regularized = false;           // without slits, surfaces that coincide with opposite sides
-    std::function<Wish(double)> watch;  // asked ten times a second, with the share that is done
-    // Of a part of a scene: the obstacle features, vertices of rings and the edges that start there, whose patches are trimmed. No
-    // isolated parts are looked for then, and curves keep the names under which they were found, which depend on what is near.
+    std::function<Wish(double)> watch;  // called ten times a second, with the share done
+    // For a part of a scene: the obstacle features, vertices of rings and the edges that start there, whose patches are
+    // trimmed. Then isolated parts are not computed, and curves keep their first names, which depend on the features near by.
     std::optional<std::vector<Index>> features = {};
 };
 

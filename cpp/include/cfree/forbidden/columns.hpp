@@ -1,4 +1,4 @@
-// The result as flat arrays: patches, trapezoids, isolated parts; features packed into one number.
+// Boundary as flat arrays: patches, trapezoids, isolated parts; features are packed into one number.
 #pragma once
 #include <array>
 #include <vector>
@@ -42,13 +42,13 @@ struct Trapezoids {
     void push_row(const Trapezoids& of, Index k);
 };
 
-// Every point and every line under one name, whoever found the trapezoid.
+// Give every point and every line one name, in all trapezoids.
 void use_names(const Scene& scene, const std::array<std::vector<std::uint64_t>*, 6>& columns);
 std::uint64_t named(const Representatives& names, std::uint64_t feature);
 
-// What is free without any width, {(t, theta): lower <= t <= upper, from <= theta <= to} of a patch: from = to (a segment, or a
-// point) or lower = upper (a curve). A curve or an angle may be named on the surface of another patch. Its two ends are at
-// t = first_t on the surface of lower_patch and t = last_t on that of upper_patch.
+// Free parts without width, {(t, theta): lower <= t <= upper, from <= theta <= to} of a patch: from = to (a segment, or a
+// point) or lower = upper (a curve). A curve or an angle may be named on the surface of another patch. The two ends of a
+// part are at t = first_t on the surface of lower_patch and t = last_t on that of upper_patch.
 struct IsolatedParts {
     Trapezoids parts;
     std::vector<Index> lower_patch, upper_patch, from_patch, to_patch;

@@ -1,4 +1,5 @@
-// Whether trapezoids from outside can be those of a scene: what all other files rely on, to end and to stay within their arrays.
+// Checks that trapezoids from outside can be those of a scene. All other files rely on this to terminate and to stay within
+// their arrays.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,13 +10,13 @@ namespace cfree {
 
 bool are_patches_of(const Scene& scene, const Patches& patches);
 
-// What cannot be right of a boundary whose indices are in their ranges: "", or a name.
+// Name of an impossible part of a boundary whose indices are in their ranges, or "".
 std::string misfit(const Boundary& boundary, int threads);
 
-// The first trapezoid that cannot be: every angle is the only root of its polynomial in its interval, `from` is before `to`, and
-// between them 0 <= lower <= upper <= 1.
+// First impossible trapezoid. Possible ones satisfy: every angle is the only root of its polynomial in its interval, `from`
+// is before `to`, and between them 0 <= lower <= upper <= 1.
 std::optional<Index> first_impossible(const Scene& scene, const Patches& patches, const Trapezoids& trapezoids, int threads);
-// Of isolated parts: their angles and curves are some.
+// First impossible isolated part, by its angles and curves.
 std::optional<Index> first_impossible(const Scene& scene, const Patches& patches, const IsolatedParts& isolated);
 
 }  // namespace cfree

@@ -1,7 +1,7 @@
-// A short name for a curve in C, whoever names it: its point at one fixed orientation, in integers modulo a prime.
+// Short name of a curve in C, the same on every surface: its point at one fixed orientation, in integers modulo a prime.
 //
-// Equal curves have equal hashes. Different ones differ but for a chance of 2^-60, or by an unlucky choice of numbers:
-// whoever finds two equal ones asks `is_same_curve`.
+// Equal curves have equal hashes. Hashes of different curves are equal with a chance of 2^-60, or by an unlucky choice of
+// numbers: `is_same_curve` decides equal hashes.
 #pragma once
 #include <compare>
 #include <functional>
@@ -17,7 +17,7 @@ struct CurveHash {
     auto operator<=>(const CurveHash&) const = default;
 };
 
-// A curve as a surface names it: where `other`, a surface or a helix, meets it.
+// A curve named on a surface: its intersection with `other`, a surface or a helix.
 struct NamedCurve {
     Feature on, other;
 };
@@ -28,7 +28,7 @@ public:
     CurveHashes(const Scene& scene, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve, int threads);
     CurveHashes(const CurveHashes&) = delete;
     const CurveHash& operator[](std::size_t k) const { return hashes[k]; }
-    // Whether the curve may lie on a surface; if not, it does not.
+    // False if the curve certainly does not lie on a surface.
     bool may_lie_on(const Feature& surface, const CurveHash& curve) const;
 
 private:
@@ -52,7 +52,7 @@ private:
     std::vector<CurveHash> hashes;
 };
 
-// Whether a curve lies on a surface, and whether two names are of one curve, exactly.
+// Exact tests: a curve lies on a surface; two names are of one curve.
 bool lies_on(const Scene& scene, const NamedCurve& curve, const Feature& surface);
 bool is_same_curve(const Scene& scene, const NamedCurve& x, const NamedCurve& y);
 

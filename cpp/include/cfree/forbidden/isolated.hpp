@@ -1,7 +1,7 @@
-// Free contacts that no trapezoid reaches: where free space is only a curve, a segment at one angle, or a point.
+// Isolated free contacts, which are on no trapezoid: free space there is only a curve, a segment at one angle, or a point.
 //
-// Trimming leaves parts without width on each patch. Most of them lie on trapezoids of other patches; what is left when those
-// have been taken away is isolated, and is listed once.
+// Trimming leaves parts without width on each patch. Most of them lie on trapezoids of other patches; the rest is isolated,
+// and is listed once.
 #pragma once
 #include <atomic>
 

@@ -1,4 +1,4 @@
-// Where the curves that bound a trapezoid meet its line at an orientation, in doubles, from the scene's frame.
+// Limits of trapezoids: the points of their curves on their line at an orientation, in doubles, from the scene's frame.
 #pragma once
 #include <array>
 
@@ -20,11 +20,11 @@ public:
     };
     Line line(const Feature& contact, const Rotation<double>& r) const;
     struct Meeting {
-        double t, sine;  // of the angle between the two lines, at least in size
+        double t, sine;  // absolute sine of the angle between the two lines
     };
     std::array<Meeting, 2> meetings(Index trapezoid, double theta) const;  // the same, with sines
     Meeting meets(const Feature& contact, const Line& l, std::uint64_t curve, const Rotation<double>& r) const;
-    // Curves may have no value at the ends of a trapezoid: looked at a little inside.
+    // Orientation a little inside a trapezoid: curves may have no value at its ends.
     static double inside(double tau, double from, double to);
 
 private:

@@ -1,5 +1,6 @@
-// A built boundary at one orientation: a look-up, then the contact segments; chained, the outline of the forbidden region.
-// Doubles throughout: what is where was decided before. At a critical angle the slice is that of the orientations just after.
+// Slice of a built boundary at one orientation: a look-up yields the contact segments; a chain of them is the outline of the
+// forbidden region. All is in doubles, as the boundary has the exact decisions. At a critical angle it is the slice of the
+// orientations just after.
 #pragma once
 #include <vector>
 
@@ -21,7 +22,7 @@ public:
     // Closed outlines, forbidden on the left: counter-clockwise around a part, clockwise around a hole in it.
     struct Rings {
         std::vector<double> xy;
-        std::vector<Index> start;  // of each ring in points, and the end
+        std::vector<Index> start;  // first point of each ring, and the end
         std::vector<Index> shell;  // a hole's ring around it, -1 if none; a part's own number
     };
     Rings rings(int chart, double tau) const;
@@ -37,7 +38,7 @@ private:
     void move(std::vector<double>& xy, const Turn& r) const;
     void step_off_events(int& chart, double& tau) const;
 
-    struct Name {  // of a point of the outline: the helix, or the two surfaces, that meet there
+    struct Name {  // name of a point of the outline: its helix, or the two surfaces that meet there
         Code first, second;
         bool operator==(const Name& o) const { return first == o.first && second == o.second; }
     };

@@ -1,4 +1,4 @@
-// Which trapezoids may be at an orientation: for each chart, [-1, 1] in equal parts, and lists of those that meet them.
+// Index of trapezoids by orientation: for each chart, [-1, 1] in equal parts, and lists of the trapezoids that meet a part.
 #pragma once
 #include <algorithm>
 #include <numeric>
@@ -11,7 +11,7 @@ namespace cfree {
 
 class TauIndex {
 public:
-    // As many parts as make the lists about 1 + `copies` times as long as the trapezoids are many.
+    // The number of parts makes the lists, in all, about 1 + `copies` times as long as the list of trapezoids.
     TauIndex(std::span<const std::uint8_t> chart, std::span<const double> from, std::span<const double> to, double copies) {
         const auto n = static_cast<Index>(chart.size());
         double width = 0;
@@ -25,13 +25,13 @@ public:
         each([&](Index q, Index) { ++start[q]; });
         std::partial_sum(start.begin(), start.end(), start.begin());
         member.resize(start.back());
-        each([&](Index q, Index k) { member[--start[q]] = k; });  // from the ends: members are in order
+        each([&](Index q, Index k) { member[--start[q]] = k; });  // backwards, so that members are in order
     }
     Index part_of(int chart, double tau) const {
         return chart * parts + std::clamp<Index>(static_cast<Index>(0.5 * (tau + 1) * parts), 0, parts - 1);
     }
     std::span<const Index> at(Index part) const { return {member.data() + begin(part), member.data() + begin(part + 1)}; }
-    Index begin(Index part) const { return start[part]; }  // of its list among all, one after the other
+    Index begin(Index part) const { return start[part]; }  // start of its list in `member`
     Index count() const { return 2 * parts; }
     // Ends of a part in its chart, a little outside.
     double from(Index part) const { return 2.0 * (part % parts) / parts - 1 - 0x1p-40; }

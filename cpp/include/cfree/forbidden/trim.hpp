@@ -1,9 +1,9 @@
-// One contact patch: what remains of it when all pillars have been taken away.
+// Trimming of one contact patch: the rest of it after all pillars have been subtracted.
 //
 // The patch's domain is (t, theta). A pillar Q = O_k (+) -R A_p covers, at each theta, one open interval of t: its bands on
 // the patch. `live` starts as the whole domain and loses one band after another; it is a list of trapezoids, each
-// bounded by two angles and two curves. Areas are closed and bands are open, so that parts of no width can remain: a curve, a
-// piece of the line at one angle, a point. Those are `thin`.
+// bounded by two angles and two curves. Areas are closed and bands are open, so that parts without width can remain: a curve,
+// a piece of the line at one angle, a point. Those are `thin`.
 #pragma once
 #include <initializer_list>
 #include <vector>
@@ -43,14 +43,14 @@ struct Trapezoid {
     int from_place = 0, to_place = 0;  // see Predicates::place
 };
 
-// The range of a patch in slices, and between which t something is left in each; nothing if low > high.
+// Range of a patch in slices, and the least and greatest live t in each; nothing is live if low > high.
 struct Slices {
     static constexpr int most = 16;
     int count = 0;
     double kappa = 1;      // see Predicates
     double at[most + 1];   // tau; slice s is from at[s] to at[s + 1]
     double low[most], high[most];
-    // From one slice to another, both with it.
+    // Slices from one to another, both included.
     struct Part {
         int first, last;
         bool may_pinch;  // see Shadows
@@ -61,20 +61,21 @@ struct Slices {
 
 class Trimmer {
 public:
-    // The part of a patch between two angles of one chart.
+    // Start with the part of a patch between two angles of one chart.
     Trimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to);
     virtual ~Trimmer() = default;
 
-    // Take away robot piece p against obstacle piece k, which covers nothing that is left outside of this part.
+    // Subtract the pillar of robot piece p and obstacle piece k, which covers nothing live outside this part.
     void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
-    // Sets what is left in each slice, if that has changed since.
+    // Update the live range of each slice, if it has changed.
     void left(Slices& slices);
-    // Take away what another patch of the same surface owns, between two angles.
+    // Subtract the part that another patch of the same surface owns, between two angles.
     void cede(const Feature& owner, const Event& from, const Event& to);
-    // Part what is left along a helix, on both sides of which it goes on.
+    // Cut the live areas along a helix, if they continue on both sides of it.
     void split(const Feature& helix);
     bool empty() const { return live.empty() && thin.empty(); }
-    // What is left, in order, neighbours with the same curves joined; and what is left without width: lower = upper or from = to.
+    // Write the live areas in order, neighbours with the same curves joined; and the live parts without width: lower = upper or
+    // from = to.
     void finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out);
 
     Predicates decide;
@@ -85,12 +86,12 @@ protected:
     };
     struct Area {
         Index from, to, lower, upper;  // two events, two curves
-        double t_min, t_max;           // its t lies between
+        double t_min, t_max;           // bounds of its t
     };
     // An edge of the pillar: an obstacle edge with a robot vertex, or a robot edge with an obstacle vertex.
     struct PillarEdge {
         Feature feature;
-        Index s0, v0, s1, v1;  // the vertices b_v - R a_s it leads from and to
+        Index s0, v0, s1, v1;  // its first and last vertex b_v - R a_s
         Index around[2];       // edges of the other shape before and after its supporting vertex, -1 if it is a point
     };
     // A pillar at one orientation, and the patch's line through it or beside it; t grows upwards along the line:
@@ -125,7 +126,7 @@ protected:
         bool is_offset;
         Index robot, obstacle;
         int sign;
-        bool may_vanish;  // an offset that is identically zero will do
+        bool may_vanish;  // an offset that is identically zero also counts
         Filtered value;
     };
     // holds: the span has been narrowed to where the state lives. wrong: a sign contradicts it. resample: a sign is zero at the
@@ -143,13 +144,13 @@ protected:
         const State* state;
     };
 
-    // A band against an area, between the angles where both are.
+    // A band against an area, over the angles of both.
     struct Overlap {
         Overlap(const Area& of, const Band& with) : area(of), band(with) {}
         const Area& area;
         const Band& band;
         Index from = -1, to = -1;
-        // Of the band's lower (upper) curve against the area's, and where an order changes.
+        // Orders of the band's lower (upper) curve against the area's, and angles at which an order changes.
         enum Which { lower_to_upper, upper_to_lower, lower_to_lower, upper_to_upper };
         Predicates::Order orders[4];
         struct Cut {
@@ -157,8 +158,8 @@ protected:
             int which;
         };
         Few<Cut, 16> cuts;
-        int position[4] = {0, 0, 0, 0};  // among the signs of each order
-        bool low_meets = false, high_meets = false;  // whether two lower, two upper curves meet at the last cut
+        int position[4] = {0, 0, 0, 0};  // place among the signs of each order
+        bool low_meets = false, high_meets = false;  // true if two lower, two upper curves meet at the last cut
         int sign(Which which) const { return orders[which].sign[position[which]]; }
     };
     // Coverage of an area by a band between two cuts: some of its inside; its lower, its upper curve. Both curves matter only
@@ -204,10 +205,10 @@ protected:
     Feature normal_form(const Feature& feature) const;
     double extreme(const Curve& curve, double lo, double hi, bool want_max) const;
     void bounds(Area& area) const;
-    // What becomes of a band, and of a state in which the line does not pass through the pillar.
+    // Treatment of a band, and of a state in which the line does not pass through the pillar.
     virtual void take(const Band& band) { subtract(band); }
     virtual void pass(const State&, const Span&) {}
-    // In such a state, an angle at which the nearest vertex just touches the line.
+    // Treatment, in such a state, of an angle at which the nearest vertex just touches the line.
     virtual void meet(const State&, Index) {}
     void subtract(const Band& band);
     void subtract_from_live(const Band& band);
@@ -237,9 +238,9 @@ protected:
     Feature ends[2];  // the helices at t = 0 and t = 1
     std::vector<Event> events;
     std::vector<Curve> curves;
-    std::vector<Index> slots;  // of a hash table of curves; -1: empty
-    bool has_changed = true;   // what is left, since it was asked for
-    std::vector<Area> live, next, open;  // what there is, what will be there, and of that what has no end yet
+    std::vector<Index> slots;  // hash table of curves; -1: empty
+    bool has_changed = true;   // true if the live areas have changed since the last `left`
+    std::vector<Area> live, next, open;  // areas now, areas of the next state, and those of the next state without end
     std::vector<Area> thin, fresh;
     std::vector<Index> pinches;  // angles at which a pillar's edge touches the surface along the line
     std::vector<Span> todo;

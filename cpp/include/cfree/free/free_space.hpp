@@ -1,20 +1,19 @@
-// Cells of the free space: the closed surfaces of a boundary, which of them is inside which, and what they bound.
+// Cells of the free space: the closed surfaces of a boundary, their nesting, and the cells that they bound.
 #pragma once
 #include "cfree/free/point_location.hpp"
 
 namespace cfree {
 
-// What is known of the closed surfaces, one row each; of trapezoids: `component` and `lift`.
+// Data of the closed surfaces, one row each; and of trapezoids: `component` and `lift`.
 struct Surfaces {
-    std::vector<Index> component;           // the closed surface of each trapezoid
+    std::vector<Index> component;           // by trapezoid: its closed surface
     std::vector<Index> parent;              // the next surface around, or -1
-    std::vector<std::uint8_t> free_inside;  // just inside it: it is the outer boundary of a cell, else of an island
-    std::vector<Index> turns;               // how often its loops go round in theta: the greatest common divisor
-    std::vector<Index> lift;                // full turns of each trapezoid against the first of its surface, along some path
+    std::vector<std::uint8_t> free_inside;  // outer rim of a cell, or an island
+    std::vector<Index> turns;               // greatest common divisor of the turns of its loops in theta
+    std::vector<Index> lift;                // by trapezoid: full turns against the first one of its surface, along some path
 };
 
-// How often loops on each component go round in theta, and by how many turns its faces are lifted; over sides that two of its
-// faces share.
+// Turns in theta of loops on each component, and turns by which its faces are lifted; over sides that two of its faces share.
 struct Turns {
     std::vector<Index> turns, lift;
 };
@@ -24,14 +23,14 @@ class FreeSpace {
 public:
     FreeSpace(SharedBoundary boundary, Surfaces surfaces);
     FreeSpace(SharedBoundary boundary, Surfaces surfaces, PointLocation location);
-    // Throws std::logic_error if surfaces are inside each other as none can be.
+    // Throws std::logic_error if the nesting of the surfaces is impossible.
     static std::shared_ptr<const FreeSpace> of(const CellComplex& cells);
 
     const SharedBoundary boundary;
     const Surfaces surfaces;
-    const Index outside;              // the cell where nothing is around: 0, the unbounded one, or -1
-    const std::vector<Index> cell_of; // the cell that each surface bounds; those bounded in the order of the surfaces around them
-    const std::vector<Index> depth;   // how many surfaces are around each
+    const Index outside;              // the cell inside no surface: 0, the unbounded one, or -1
+    const std::vector<Index> cell_of; // by surface: its cell; cells with surfaces around are in their order
+    const std::vector<Index> depth;   // by surface: the number of surfaces around it
     Index cells() const;
     const PointLocation& points() const { return location; }
     Index locate(const ExactPose& q) const { return location.locate(q, table()); }
@@ -45,7 +44,7 @@ private:
     PointLocation location;
 };
 
-// Of each closed surface the next around it: free and forbidden sides alternate, or something is wrong.
+// Next surface around each closed surface: free and forbidden sides must alternate.
 std::vector<Index> parents(const PointLocation::Nesting& nesting, bool is_bounded);
 
 }  // namespace cfree

@@ -1,5 +1,5 @@
-// Which closed surfaces of a boundary are around a pose: those that the ray from it towards -x, at its orientation, crosses an
-// odd number of times. Exact: every crossing is the sign of a polynomial in tau at a rational number.
+// Exact location of poses: the closed surfaces of a boundary around a pose are those that the ray from it towards -x, at its
+// orientation, crosses an odd number of times. Every crossing is the sign of a polynomial in tau at a rational number.
 #pragma once
 #include <optional>
 
@@ -13,22 +13,22 @@ struct ExactPose {
     Int X, Y, W;
     int chart;
     Int p, r;
-    // The pose that doubles are, in the user's units.
+    // Exact pose of given doubles, in the user's units.
     static ExactPose from(double x, double y, int chart, double tau, const Int& scale);
 };
 
 class PointLocation {
 public:
-    // component: of each trapezoid, its closed surface
+    // component: by trapezoid, its closed surface
     PointLocation(SharedBoundary boundary, std::vector<Index> component);
 
-    // Of every component: those around it, in order, and whether space is free just inside it.
+    // Components around every component, in order, and whether space is free just inside it.
     struct Nesting {
         std::vector<Index> start, around;
         std::vector<std::uint8_t> free_inside;
     };
     Nesting nesting() const;
-    // Of every component, a ray in general position towards -x from a pose on one of its trapezoids: the trapezoids that it
+    // A ray towards -x in general position, for every component, from a pose on one of its trapezoids: the trapezoids that it
     // crosses, and whether it begins on the left of that one, its forbidden side.
     struct Ray {
         ExactPose pose;
@@ -37,59 +37,60 @@ public:
         std::vector<Index> crossed;
     };
     std::vector<Ray> rays() const;
-    // Trapezoids that a ray from a pose crosses, just after its orientation or at it, in the order in which it does; and whether
-    // it comes to their left sides.
+    // Trapezoids that a ray from a pose crosses, just after its orientation or at it, in the order of crossing; and whether it
+    // arrives at their left sides.
     struct Crossing {
         Index trapezoid;
         bool to_left;
     };
     std::vector<Crossing> in_order(const ExactPose& pose, const std::vector<Index>& crossed, bool after) const;
 
-    // The cell of a pose, -1 if it is forbidden, by what bounds which cell. On the boundary: the first cell that it bounds.
+    // Cell of a pose, -1 if it is forbidden, from the cells that surfaces bound. On the boundary, the first cell bounded there.
     struct Cells {
-        std::span<const Index> depth, cell;  // of each component: how many are around it, the cell it bounds
+        std::span<const Index> depth, cell;  // by component: the number of those around it, the cell it bounds
         std::span<const std::uint8_t> free_inside;
-        Index outside;                       // where nothing is around
+        Index outside;                       // the cell inside no component
     };
     Index locate(const ExactPose& q, const Cells& cells) const;
-    // Of a free pose: the cell, or on the boundary all cells that it bounds; a forbidden one's is -1.
+    // Cell of a free pose, or on the boundary all cells that it bounds; -1 for a forbidden pose.
     std::vector<Index> cells_at(const ExactPose& q, const Cells& cells) const;
-    // The same for many poses that doubles are, in the user's units.
+    // Cells of many poses in doubles, in the user's units.
     void locate(const double* xy, const int* chart, const double* tau, std::size_t count, int threads, const Cells& cells,
                 Index* out) const;
 
-    // What is at a pose: the trapezoids that hold it, ends included, with -1 if one begins at its orientation, 1 if one ends
-    // there, else 0; those that the ray from it towards -x crosses just after its orientation, as often as it does; and whether
-    // no critical angle of these is there.
+    // Trapezoids at a pose: those that hold it, ends included, with -1 if one begins at its orientation, 1 if one ends
+    // there, else 0; those that the ray from it towards -x crosses just after its orientation, once per crossing; and true if
+    // none of these has a critical angle there.
     struct Nearby {
         std::vector<Index> on, crossed;
         std::vector<std::int8_t> end;
         bool generic = true;
     };
     Nearby nearby(const ExactPose& q) const;
-    // Trapezoids that may hold a pose, as far as heights in doubles tell.
+    // Trapezoids that may hold a pose, by heights in doubles.
     std::vector<Index> at_height_of(const ExactPose& q) const;
 
-    // Where the line from a pose towards -x, at its orientation, crosses trapezoids but its own: x = n / d in the scene's integers,
-    // and whether space is free to the left of it. Nothing if a critical angle is on it, or the pose on another trapezoid.
+    // Places where the line from a pose towards -x, at its orientation, crosses trapezoids other than its own: x = n / d in the
+    // scene's integers, and whether space is free to the left. Nothing if a critical angle is on the line, or the pose is on
+    // another trapezoid.
     struct Passage {
         Index trapezoid;
         Int n, d;
         bool is_free_before;
     };
     std::optional<std::vector<Passage>> passages(const ExactPose& q, Index own = -1) const;
-    // A pose on a trapezoid, strictly between its angles and its curves, and whether space is free to the left of it; other ones for
-    // other attempts, nothing if there is none for this one.
+    // A pose on a trapezoid, strictly between its angles and its curves, and whether space is free to the left of it; each
+    // attempt gives another one, or nothing.
     std::optional<std::pair<ExactPose, bool>> pose_on(Index trapezoid, int attempt) const;
 
-    // A critical angle as the only root in an interval of a polynomial; an empty one if both ends are it.
+    // A critical angle as the only root of a polynomial in an interval; the polynomial is empty if both ends are the angle.
     const std::vector<Index>& components() const { return component; }
-    // An interval no wider than 2^-bits around the first or last angle of a trapezoid; both ends are it if it is one.
+    // Interval no wider than 2^-bits around the first or last angle of a trapezoid; both ends are the angle if it is dyadic.
     std::array<Dyadic, 2> angle(Index trapezoid, bool last, unsigned bits) const;
 
 private:
     struct View;
-    enum class When { at, after };  // at the orientation, or just after it
+    enum class When { at, after };  // `at` the orientation, or just `after` it
     Nearby look(const View& q, When when, Index own) const;
     void look_on(const View& q, Nearby& seen) const;
     std::vector<Index> surfaces(const std::vector<Index>& crossed) const;
@@ -98,7 +99,7 @@ private:
     int order(bool of_end, Index k, const View& q) const;
     struct Probe;
     std::optional<Probe> probe(Index k, int attempt) const;
-    // Where the segments of a trapezoid are while tau is in a part: heights, the left end, and the top of all below in the tree.
+    // Extent of a trapezoid's segments while tau is in a part: heights, the left end, and the top of all below in the tree.
     struct Extent {
         double low, high, left, top;
         Index trapezoid;
@@ -114,7 +115,7 @@ private:
     const Trapezoids& trapezoids;
     std::vector<Index> component;
     TauIndex index;
-    std::vector<Extent> extents;  // of the index's lists, each a tree: in order of `low`, the root in the middle
+    std::vector<Extent> extents;  // extents of the index's lists, each a tree: in order of `low`, the root in the middle
 };
 
 }  // namespace cfree

@@ -1,4 +1,4 @@
-// Single closed surfaces of a boundary, grown from a trapezoid over its sides: only patches that they meet are trimmed.
+// Single closed surfaces of a boundary, grown from a trapezoid over its sides; only patches that they meet are trimmed.
 #pragma once
 #include "cfree/forbidden/cell_complex.hpp"
 #include "cfree/free/point_location.hpp"
@@ -12,17 +12,18 @@ public:
     SurfaceExplorer(const SurfaceExplorer&) = delete;
     SurfaceExplorer& operator=(const SurfaceExplorer&) = delete;
 
-    // The trapezoid at a free pose where one contact is, and no other; none where that is not certain. The pose is seen from
-    // an obstacle vertex near by.
+    // Trapezoid at a free pose with exactly one contact; nothing if that is not certain. `vertex` is an obstacle vertex near
+    // the pose, the origin of doubles.
     std::optional<Index> trapezoid_at(const ExactPose& pose, Index vertex);
-    // Grow the closed surface of a trapezoid by so many others; what there is of it once it is closed, or a target is reached.
+    // Grow the closed surface of a trapezoid by this many others; the result is there once it is closed, or a target is
+    // reached.
     struct Grown {
         std::shared_ptr<const CellComplex> complex;
         bool is_closed = false;
     };
     Grown grow(Index seed, Index most, Index target = -1);
 
-    // How many have been so far.
+    // Number of patches trimmed so far.
     std::size_t trimmed_patches() const;
 
 private:

@@ -6,7 +6,7 @@
 
 namespace cfree {
 
-// At a point: the length L of the ruling, its unit vector u, and V = dx / dphi, which is s across the ruling and k along it.
+// Data at a point: the length L of the ruling, its unit vector u, and the parts of V = dx / dphi, s across it and k along it.
 struct RulingPoint {
     bool turns;  // e-v
     double L, ux, uy, s, k;
@@ -15,7 +15,7 @@ RulingPoint ruling_point(const Ruled& surface, double t, double phi);
 
 struct LocalGeometry {
     double E, F, G, e, f, g, v;  // v: the area element, sqrt(E G - F^2)
-    std::array<double, 9> frame; // rows in x, y, angle_scale * theta: along the ruling, across it, the normal towards the free side
+    std::array<double, 9> frame; // rows in x, y, angle_scale * theta: along the ruling, across it, normal to the free side
     double K, H;                 // Gaussian and mean curvature
 };
 

@@ -1,5 +1,5 @@
-// Gauss-Legendre quadrature with eight nodes, on intervals that are halved until halving changes less than 1e-12 of the value: a
-// measured error, no proved one.
+// Gauss-Legendre quadrature with eight nodes, on intervals that are halved until halving changes less than 1e-12 of the
+// value: a measured error, not a proved one.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ double over_nodes(const F& f, double from, double to) {
     return sum;
 }
 
-// Close is what halving may change of 1 or of the value; `coarse` is that of all nodes over the interval.
+// Halving may change at most `close` of `one` or of the value; `coarse` is the integral by all nodes over the interval.
 template <class F>
 Integral integral(const F& f, double from, double to, double coarse, double one, int halvings = 12) {
     constexpr double close = 1e-12;
@@ -45,7 +45,7 @@ Integral integral(const F& f, double from, double to, double coarse, double one,
     return sum;
 }
 
-// Limits of t on a trapezoid's line at an orientation, and the sines of the angles at which its two curves' lines cross it.
+// Limits of t on a trapezoid's line at an orientation, and the sines of the angles between it and its two curves' lines.
 struct TrapezoidLine {
     Index trapezoid;
     double theta, lower, upper, lower_sine, upper_sine;
@@ -55,7 +55,7 @@ TrapezoidLine trapezoid_line(const Limits& limits, Index trapezoid, double theta
 // First and last orientation.
 std::array<double, 2> angles_of(const Boundary& boundary, Index trapezoid);
 
-// Of a function of such lines, integrated over theta, for each trapezoid; 1 above is the mean of all.
+// Integrals over theta of a function of such lines, for each trapezoid; `one` is the mean of all.
 std::vector<Integral> trapezoid_integrals(const Boundary& boundary, const std::function<double(const TrapezoidLine&)>& along_t);
 std::vector<Integral> trapezoid_areas(const Boundary& boundary, double angle_scale);
 std::vector<Integral> trapezoid_curvatures(const Boundary& boundary, double angle_scale);  // of K

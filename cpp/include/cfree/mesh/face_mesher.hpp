@@ -5,15 +5,15 @@
 
 namespace cfree {
 
-using Rim = std::array<std::vector<MeshPoint>, 4>;  // points by side, in the order of the loop
+using Rim = std::array<std::vector<MeshPoint>, 4>;  // points by side, in loop order
 
 class FaceMesher {
 public:
-    // Inner points may be off the surface, if `free` says so.
+    // Inner points may be off the surface if `free` is set.
     FaceMesher(double most_error, bool free) : error(most_error), may_leave(free) {}
 
-    // Triangles of `net`, their corners among `points`; of two ways to place points inside the one that needs fewer. Which face
-    // it is, is for the message if the bounds cannot be met, a std::logic_error.
+    // Fill `net` with triangles, their corners among `points`; of two layouts of inner points, take the one with fewer. Throws
+    // std::logic_error, with the face's number `which`, if the bounds cannot be met.
     void fill(const MeshFace& face, const Rim& rim, const Layout& layout, Index which);
 
     Triangulation net;
@@ -39,7 +39,7 @@ private:
     const bool may_leave;
     const MeshFace* face = nullptr;
     Index number = 0;
-    double stretch = 1, lean = 0;  // of the coordinates of `net`: ((u - lean * phi) / stretch, stretch * phi)
+    double stretch = 1, lean = 0;  // coordinates of `net`: ((u - lean * phi) / stretch, stretch * phi)
     Triangulation::Star star;
 };
 

@@ -1,7 +1,7 @@
-// A face of the boundary as a mesh sees it: the contact surface, the two curves, and the bounds of a triangle's distance.
+// Face of the boundary for meshes: the contact surface, the two curves, and the bounds of a triangle's distance.
 //
-// At each angle the surface is a line; s is the position along it: of an e-v surface from the foot of the perpendicular from
-// the reference point, of a v-e surface from the origin. Letters as in docs/theory/meshes.md.
+// At each angle the surface is a line; s is the position along it. On an e-v surface it counts from the foot of the
+// perpendicular from the reference point, on a v-e surface from the origin. Letters are those of docs/theory/meshes.md.
 #pragma once
 #include <array>
 #include <utility>
@@ -12,9 +12,9 @@ namespace cfree {
 
 struct MeshPoint {
     double s, phi;
-    std::array<double, 2> inward;  // how far inside the lower and the upper curve
-    Index vertex = -1;             // in the mesh
-    double off = 0;                // the line, along its normal
+    std::array<double, 2> inward;  // distance inside the lower and the upper curve
+    Index vertex = -1;             // number in the mesh
+    double off = 0;                // distance off the line, along its normal
 };
 // Share of the error that chords of the curves may take: strips need it below sqrt(1/2).
 inline constexpr double on_curves = 0.7;
@@ -26,27 +26,27 @@ public:
     MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double from, double to,
           double error, double angle_scale);
 
-    MeshPoint point(double s, double phi) const;         // on the face but for rounding
-    MeshPoint point_inside(double s, double phi) const;  // the nearest to s between the curves
+    MeshPoint point(double s, double phi) const;         // on the face, up to rounding
+    MeshPoint point_inside(double s, double phi) const;  // nearest to s between the curves
     double position(Complex x, double phi) const;
     Complex at(double s, double phi, double off = 0) const;
-    double gradient(double s) const;  // how much off the line a place is for each unit of distance from an e-v surface
-    // At most 1 if every point of the triangle is proved to be within `error` of the face.
+    double gradient(double s) const;  // distance off the line per distance from an e-v surface
+    // Proved bound: at most 1 if every point of the triangle is within `error` of the face.
     double excess(const Corners& corners) const;
-    // The same for an e-v triangle far from the face's sides.
+    // Proved bound for an e-v triangle far from the face's sides.
     double excess_inside(const Corners& corners) const;
 
     // Coordinates in which an e-v edge (dx, dy) is off by w |dx dy| / 4, about: u = arsinh(s / w) + shear * phi, and phi.
     double u(double s) const { return std::asinh(s / w); }
     double s(double u) const { return w * std::sinh(u); }
     double scale() const { return w; }
-    double width_u(double phi) const;  // of the face at an angle
+    double width_u(double phi) const;  // width of the face at an angle
     double most_width_u() const { return most_width; }
     double height() const { return h; }
-    // That an edge of an e-v face is off by a quarter of, about.
+    // Four times the approximate distance of an edge from its e-v face.
     double form(const MeshPoint& p, const MeshPoint& q) const;
 
-    // Is there less between its angles than doubles can tell apart? Then its corners are all that is known of it.
+    // True if its angles are too close for doubles. Then only its corners are known.
     bool is_thin() const { return to - from < 1e-9; }
 
     bool is_saddle;
@@ -55,19 +55,19 @@ public:
     std::array<ContactCurve, 2> curves;
 
 private:
-    struct Spread;  // of a triangle's corners
+    struct Spread;  // spread of a triangle's corners
     double most_form(const Corners& corners) const;
     double third_order(const Spread& d) const;
     double slice_distance(const Corners& corners, const Spread& d) const;
     double beyond(const Corners& corners, const Spread& d) const;
     double slice_distance_near_sides(const Corners& corners, const Spread& d) const;
-    struct Wave;  // of an edge
+    struct Wave;  // bounds along an edge
     Wave wave(const MeshPoint& p, const MeshPoint& q) const;
     double peak(const MeshPoint& p, const MeshPoint& q) const;
 
     double eps, w;
     Complex fixed, direction;  // e-v: b and the robot's edge; v-e: a and the obstacle's edge
-    double h = 0;              // signed perpendicular of an e-v surface
+    double h = 0;              // e-v: signed length of the perpendicular
     double offset = 0;         // v-e: n.b
     double most_width = 0;
 };

@@ -1,5 +1,5 @@
-// A triangulation of one face, built up from its rim: points are put in, edges split and flipped. What is decided by
-// coordinates is which triangle is better; whatever they are, the result is a disc with the given rim.
+// Triangulation of one face, built up from its rim: insert points, split and flip edges. Coordinates decide only which
+// triangle is better; for any coordinates, the result is a disc with the given rim.
 #pragma once
 #include <array>
 #include <vector>
@@ -20,7 +20,7 @@ public:
     };
     std::vector<Place> places;
     std::vector<Triangle> triangles;
-    std::vector<Index> changed;  // triangles made or flipped while edges were made Delaunay
+    std::vector<Index> changed;  // triangles made or flipped by Delaunay steps
 
     // Fills the region between two chains by their heights y; chains may share their first or last point.
     void zip(const std::vector<Index>& left, const std::vector<Index>& right);
@@ -31,18 +31,18 @@ public:
     void split_triangle(Index t, Index p);
     // Flips the edges across from p, and on, where they are not Delaunay, unless they are of the rim.
     void make_delaunay_around(Index p);
-    // Puts point p where it is, if that is well inside a triangle, and makes the edges around it Delaunay.
+    // Insert point p if it is well inside a triangle, and make the edges around it Delaunay.
     bool insert(Index p);
     void make_delaunay();
-    int longest_inner_edge(Index t) const;  // by the corner opposite, -1 if all are of the rim
+    int longest_inner_edge(Index t) const;  // by the opposite corner, -1 if all are on the rim
 
     // Around an inner point, counter-clockwise: triangle k has the corners p, link[k] and the next of the link.
     struct Star {
         std::vector<Index> triangles, link;
     };
     void star_of(Index p, Index t, Star& star) const;
-    bool can_fan(const Star& star, std::size_t from) const;  // are triangles from link[from] to the rest of the link upright?
-    void fan(const Star& star, std::size_t from);            // in place of the star; the first and the last of it are dropped
+    bool can_fan(const Star& star, std::size_t from) const;  // all triangles from link[from] to the rest are upright
+    void fan(const Star& star, std::size_t from);            // replaces the star; its first and last triangles are dropped
     void sweep_dropped();
 
     bool can_flip(Index t, int k) const;  // to the other diagonal of a convex quadrilateral
@@ -56,7 +56,7 @@ private:
     void replace_neighbour(Index t, Index old, Index now);
     void make_stacked_delaunay();
     bool is_outside_circle(Index t, int k) const;
-    std::vector<std::array<Index, 2>> stack;  // corners and triangles: the edges opposite may not be Delaunay
+    std::vector<std::array<Index, 2>> stack;  // corners and triangles: the opposite edges may not be Delaunay
     Index last = 0;
 };
 

@@ -1,8 +1,8 @@
-// A path on the boundary of a cell, made of translations and rotations that are proved free.
+// Paths on the boundary of a cell, made of translations and rotations that are proved free.
 //
-// A trapezoid's lines of constant theta are translations, its lines of constant t rotations about the point of contact; steps
-// along them are free because the trapezoid is part of the boundary. They are taken where nothing better is: poses off the
-// contact, by half of the room there, are joined by one motion where that is free.
+// A trapezoid's lines of constant theta are translations, its lines of constant t are rotations about the point of contact;
+// steps along them are free because the trapezoid is part of the boundary. They are the last resort: poses off the contact,
+// by half of the room there, are joined by one motion if that is free.
 #pragma once
 #include <map>
 #include <mutex>
@@ -13,20 +13,20 @@ namespace cfree {
 
 class BoundaryWalker {
 public:
-    // Lengths are travel plus angle_scale, the robot's radius, times turning. The slides on ways are added to those found.
+    // Lengths are travel plus angle_scale, the robot's radius, times total rotation. Slides on paths are added to `slides`.
     BoundaryWalker(std::shared_ptr<const FreeSpace> space, std::shared_ptr<const CellComplex> cells,
                    std::shared_ptr<const MotionChecker> checker, double angle_scale, std::shared_ptr<FoundSlides> slides);
 
-    // Poses from the start to the goal, both in the cell or on its boundary; the motions between them are free. Places: the
-    // same in doubles. Throws std::logic_error if no way is found. Calls from several threads are fine.
+    // Poses from the start to the goal, both in the cell or on its boundary; the motions between them are free. Places are the
+    // same in doubles. Throws std::logic_error if no path is found. Several threads may call this.
     struct End {
         RationalPose pose;
         Place place;
     };
     Poses walk(const End& start, const End& goal, Index cell) const;
 
-    // From the middle of one face to the middle of another, over their last or first angles, nearer and nearer to these. Nothing if
-    // none was found.
+    // Poses from the middle of one face to the middle of another, over their last or first angles, closer and closer to these.
+    // Nothing if none are found.
     struct EndOfFace {
         Index face;
         bool is_last;
@@ -49,7 +49,7 @@ private:
 
     const FaceGraph graph;
     const Extent extent;
-    mutable std::mutex lock;  // of what is kept for later
+    mutable std::mutex lock;  // guards the cache
     mutable std::map<Index, std::shared_ptr<const std::vector<Link>>> known;
 };
 

@@ -1,4 +1,4 @@
-// Slides from a pose that is in two contacts: the rational curve on which both are kept; theory, "Motions".
+// Slides from a pose in two contacts: the rational curve that keeps both; theory, "Motions".
 #pragma once
 #include <map>
 #include <mutex>
@@ -8,8 +8,8 @@
 
 namespace cfree {
 
-// Turned by 2 atan(t), t from 0 to tau, the reference point is (x, y) / d from where it was, in the user's units: polynomials in
-// t, the constant first.
+// After a turn by 2 atan(t), t from 0 to tau, the reference point has moved by (x, y) / d, in the user's units: polynomials
+// in t, the constant first.
 struct ContactSlide {
     RationalPose from, to;
     std::array<Feature, 2> contacts;
@@ -18,21 +18,22 @@ struct ContactSlide {
     Slide motion(const Scene& scene) const;
 };
 
-// Along two contacts that a pose is in; it need not be free. Nothing if a contact is not one of the scene's own features, the
-// lines become parallel or do not meet at the pose, or Bernstein coefficients do not say that the points of contact stay within
-// their edges: shorter slides may exist.
+// Slide along two contacts of a pose; it need not be free. Nothing if a contact is not one of the scene's own features, or if
+// the lines become parallel or do not meet at the pose. Also nothing if Bernstein coefficients do not prove that the points
+// of contact stay within their edges: shorter slides may exist.
 std::optional<ContactSlide> slide_along(const Scene& scene, const RationalPose& pose, const Feature& first, const Feature& last,
                                         const Ratio& tau);
 
-// A free one from a pose to another, along a contact's surface and a curve on it, whose name stands for all edges on its line.
+// Free slide from a pose to another, along a contact's surface and a curve on it, whose name stands for all edges on its
+// line.
 std::optional<ContactSlide> free_slide(const Scene& scene, const MotionChecker& checker, const RationalPose& from,
                                        const RationalPose& to, const Feature& contact, const Feature& curve);
 
-// Free slides, by the poses that they join. Calls from several threads are fine.
+// Free slides, by the poses that they join. Several threads may call this.
 class FoundSlides {
 public:
     void add(ContactSlide slide);
-    // Those that join neighbours on a way, in either direction.
+    // Slides that join neighbours on a path, in either direction.
     std::vector<ContactSlide> along(const std::vector<RationalPose>& way) const;
 
 private:

@@ -1,4 +1,4 @@
-// The time that a question may take.
+// Time limit of a query.
 #pragma once
 #include <chrono>
 #include <stdexcept>
@@ -11,7 +11,7 @@ struct TooLate : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Begins when it is made.
+// The time begins at construction.
 class Deadline {
 public:
     explicit Deadline(const Listener& listener) : seconds(listener.max_seconds) {}

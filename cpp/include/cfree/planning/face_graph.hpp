@@ -1,5 +1,5 @@
-// Which trapezoids a path along the boundary of a cell crosses: the shortest way over common sides, in doubles. Nothing is
-// decided here. Where a cell has several closed surfaces, free segments link them.
+// Graph of trapezoids for paths along the boundary of a cell: the shortest path over common sides, in doubles. Nothing is
+// decided here. If a cell has several closed surfaces, free segments link them.
 #pragma once
 #include <memory>
 #include <span>
@@ -11,33 +11,33 @@
 
 namespace cfree {
 
-inline constexpr Index far_away = -1;  // in place of a face: to the left of everything
+inline constexpr Index far_away = -1;  // stands for a face to the left of everything
 
-// Where a free way ends on a face, or far away.
+// End of a free path on a face, or far away.
 struct Mark {
     Index face;
     Place at;
 };
 
-// In the user's units.
+// Position of a vertex in the user's units.
 Vec<double> position(const CellComplex& cells, Index vertex);
 Place position_on(const Scene& scene, const Feature& contact, double t, double theta);
 
 class FaceGraph {
 public:
-    // Lengths are travel plus angle_scale times turning, between the middles of sides.
+    // Lengths are travel plus angle_scale times total rotation, between the middles of sides.
     FaceGraph(std::shared_ptr<const CellComplex> cells, double angle_scale);
 
-    // A face, and the half-edge that it is left by. From their number H on these stand for ends of links, H + 2 k for the
-    // first one of link k, H + 2 k + 1 for the second; after them comes the end of the way.
+    // A face, and the half-edge through which the path leaves it. Numbers from H, the number of half-edges, on are ends of
+    // links: H + 2 k is the first end of link k, H + 2 k + 1 the second; after them comes the end of the path.
     struct Step {
         Index face, by;
     };
-    // From a place over one of the starts, and one of the goals, to another; links by their ends, two by two. Empty if there is
-    // no way. A side without a twin is not crossed.
+    // Shortest path from a place over one of the starts, and one of the goals, to another place; links have two ends each.
+    // Empty if there is no path. It does not cross sides without a twin.
     std::vector<Step> shortest(const Place& start, std::span<const Mark> starts, const Place& goal, std::span<const Mark> goals,
                                std::span<const Mark> links) const;
-    // Of the sides of a face, behind what was found before.
+    // Append the middles of a face's sides.
     void middles(Index face, std::vector<Place>& found) const;
     double apart(const Place& a, const Place& b) const;
     const std::shared_ptr<const CellComplex> cells;

@@ -1,7 +1,7 @@
-// Scenes with a robot a little smaller, in bounds as much larger; what is found of each is kept.
+// Scenes with a slightly smaller robot, in bounds larger by the same amount, with cached results.
 //
-// A pose at which the smaller robot touches an obstacle is one at which the robot overlaps it. What that proves is in theory,
-// "Separations".
+// If the smaller robot touches an obstacle at a pose, the robot overlaps it there. Theory, "Separations", has the
+// consequences.
 #pragma once
 #include <map>
 
@@ -9,7 +9,7 @@
 
 namespace cfree {
 
-// A closed surface between two poses: of a smaller robot in larger bounds, "closed", or of the scene's own, "interior".
+// Separating surface of two poses: "closed", of a smaller robot in larger bounds, or "interior", of the scene itself.
 struct Separation {
     Barrier surface;
     std::shared_ptr<const KnownScene> of;
@@ -20,23 +20,23 @@ class Insets {
 public:
     explicit Insets(const SceneShapes& scene);
 
-    // Insets that a proof may need, as powers of two of the robot's size: each is half as many digits as the next. The narrowest
-    // gap may be as narrow as the scene's coordinates have digits, and some times that.
+    // Insets that a proof may need, as powers of two of the robot's size: each has half as many digits as the next. The
+    // narrowest gap may need the digits of the scene's coordinates, and some times as many.
     const std::vector<int> powers;
-    // The first of them that leaves something of each of the robot's polygons.
+    // First power that leaves something of each of the robot's polygons.
     int first();
-    // With the robot smaller by 2^power of its size; none if nothing is left of it, or coordinates are beyond what is allowed.
+    // Scene with a robot smaller by 2^power of its size; null if nothing is left of it, or coordinates are out of range.
     std::shared_ptr<KnownScene> scene(int power);
-    // Of the power of two that is about as large as the robot.
+    // Exponent of the power of two that is about the size of the robot.
     const int size;
 
-    // By an inset of 2^power of the robot's size, if that separates. Calls from several threads are made one after the other.
+    // Separation by an inset of 2^power of the robot's size, if there is one. Calls from several threads run one after another.
     std::optional<Separation> closed(const RationalPose& start, const RationalPose& goal, int power, const Listener& listener);
     std::size_t known() const { return scenes.size(); }
 
 private:
     struct Inner {
-        std::shared_ptr<KnownScene> scene;  // null if nothing is left of the robot, or coordinates are beyond what is allowed
+        std::shared_ptr<KnownScene> scene;  // null if nothing is left of the robot, or coordinates are out of range
         bool is_whole = false;
     };
     const Inner& at(int power);
@@ -46,8 +46,8 @@ private:
     std::map<int, Inner> scenes;
 };
 
-// A proof that no motion joins two free poses that are not in the closure of one cell: closed, by the first of some insets that
-// separates them; or else of the interior.
+// Proof that no motion joins two free poses that are not in the closure of one cell: "closed", by the first inset that
+// separates them; else "interior".
 Separation separation(const std::shared_ptr<const KnownScene>& scene, const Built& built, Insets& insets, const RationalPose& start,
                       const RationalPose& goal, const std::vector<int>& powers, const Listener& listener);
 

@@ -1,4 +1,4 @@
-// What is found out about one scene, when it is first asked for, and kept: closed surfaces around poses, all of the free space.
+// Lazily computed, cached results for one scene: closed surfaces around poses, and all of the free space.
 #pragma once
 #include <mutex>
 
@@ -11,12 +11,12 @@
 
 namespace cfree {
 
-// All of the free space: the boundary, and the surfaces that bound the cells.
+// The whole free space: the boundary, and the surfaces that bound the cells.
 struct Built {
     SharedBoundary boundary;
     std::shared_ptr<const CellComplex> surfaces;
     std::shared_ptr<const FreeSpace> space;
-    // The first cell that two free poses are both in or on the boundary of, or -1.
+    // First cell whose closure contains two free poses, or -1.
     Index common_cell(const RationalPose& start, const RationalPose& goal) const;
 };
 
@@ -28,7 +28,7 @@ struct Barrier {
 
 Barrier barrier_of(const CellComplex& surface);
 
-// Calls from several threads are fine where nothing else is said.
+// Several threads may call this, with the exceptions noted below.
 class KnownScene {
 public:
     static std::shared_ptr<KnownScene> of(const SceneShapes& shapes);
@@ -39,30 +39,29 @@ public:
     const Scene& scene() const { return *features->scene; }
     const SceneShapes& shapes() const { return features->shapes; }
 
-    // What is around bounds and workspace is not all of the plane: the scene does not know it.
+    // False outside the frame around bounds and workspace, which the scene does not represent.
     bool is_within_limits(const RationalPose& pose) const;
     bool is_free(const RationalPose& pose) const;
-    // Patches before trimming.
+    // Number of patches before trimming.
     std::int64_t patches() const;
     const Nearness& nearness() const;
     std::shared_ptr<const PoseChecker> poses() const;
-    // A box around the workspace, or else around the obstacles, in the user's units; empty if there are none.
+    // Box around the workspace, or else around the obstacles, in the user's units; empty if there are none.
     const Area& box() const;
 
-    // What finds out whether two free poses are joined: used by one thread at a time, as all others of this scene.
+    // Search that decides whether two free poses are joined; only one thread may use those of a scene at a time.
     Connecting connecting(const RationalPose& start, const RationalPose& goal);
-    // A closed surface around one of two poses that touch nothing and not around the other, if one is; by one thread
-    // at a time.
+    // Closed surface around exactly one of two poses that touch nothing, if there is one; for one thread at a time.
     std::optional<Barrier> barrier(const RationalPose& start, const RationalPose& goal, const Listener& listener);
 
-    // Null as long as it has not been built.
+    // Null until it has been built.
     std::shared_ptr<const Built> built() const;
     std::shared_ptr<const Built> build(const Listener& listener);
     void keep(std::shared_ptr<const Built> found);
 
 private:
-    std::optional<std::array<Int, 4>> frame;  // around a workspace: xmin, ymin, xmax, ymax
-    mutable std::mutex lock;  // of what is kept
+    std::optional<std::array<Int, 4>> frame;  // frame of a workspace: xmin, ymin, xmax, ymax
+    mutable std::mutex lock;  // guards the cache
     std::shared_ptr<Surroundings> around;
     std::shared_ptr<const Built> space;
     mutable std::unique_ptr<const Nearness> near;
@@ -70,8 +69,8 @@ private:
     mutable std::optional<Area> around_all;
 };
 
-// Of the surfaces of a free space: the one with the fewest faces that is around one of two cells and not around the other; -1 is
-// no cell. Of no faces if there is none.
+// Surface of a free space with the fewest faces that is around exactly one of two cells; -1 is no cell. It has no faces if
+// there is none.
 Barrier barrier_between(const Built& built, Index first, Index second);
 
 }  // namespace cfree

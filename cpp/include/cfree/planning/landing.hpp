@@ -1,5 +1,5 @@
-// Where a straight way from a pose meets the boundary of its cell, ways off a free pose onto trapezoids that it can go on along,
-// and free segments that link a cell's closed surfaces.
+// Landings on the boundary of a cell: straight ways from a pose to it, motions from a free pose onto trapezoids along which
+// it can go on, and free segments that link a cell's closed surfaces.
 #pragma once
 #include <map>
 
@@ -9,7 +9,7 @@
 
 namespace cfree {
 
-inline constexpr int most_halvings = 4096;  // of a way or an interval: more than any scene needs
+inline constexpr int most_halvings = 4096;  // halvings of a way or an interval: more than any scene needs
 
 // A free way to a pose on a face, strictly between its first and last orientation, or far away.
 struct Landing {
@@ -18,13 +18,13 @@ struct Landing {
     const RationalPose& pose() const { return way.back(); }
     Mark mark() const { return {face, pose().place()}; }
 };
-// From one landing to another: the first one's way backwards, then the second one's.
+// Link from one landing to another: the first one's way backwards, then the second one's.
 struct Link {
     Landing first, second;
 };
 
-// How far things are: no point of the robot is farther than `reach` from its reference point; `length` is more than any free
-// straight way that ends, and `far` is x to the left of everything.
+// Sizes of the scene: no point of the robot is farther than `reach` from its reference point; `length` exceeds every finite
+// free straight way, and `far` is x to the left of everything.
 struct Extent {
     Ratio reach, length, far;
     Extent(const CellComplex& cells, const Ratio& reach);
@@ -32,17 +32,17 @@ struct Extent {
 
 class Landings {
 public:
-    // All are referred to.
+    // Keeps references to all arguments.
     Landings(const FreeSpace& space, const Extent& extent, const FreeMotions& motions);
 
     Sheet sheet(Index face) const { return Sheet::of(*space.boundary, space.points(), face); }
-    // Half way from the contact at (t, tau) to the next.
+    // Pose half-way from the contact at (t, tau) to the next contact.
     RationalPose off(const Sheet& sheet, const Ratio& t, const Ratio& tau) const;
     // Ways from a pose, in a cell or on its boundary, to the boundary.
     std::vector<Landing> of(const RationalPose& pose, Index cell) const;
-    // Free segments that link all closed surfaces of a cell, and what is far away if it is unbounded: all that lie on one ray
-    // towards -x, for each surface but the outer one. The ray leaves the cell and comes back over the same surface, as no other
-    // bounds that part of the forbidden space from there: so they link its ends.
+    // Free segments that link all closed surfaces of a cell, and the far left if it is unbounded: all segments on one ray
+    // towards -x, for each surface except the outer one. The ray leaves the cell and comes back over the same surface, as no
+    // other surface bounds that part of the forbidden space there: so they link its ends.
     std::vector<Link> links(Index cell) const;
 
 private:

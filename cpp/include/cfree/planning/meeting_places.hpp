@@ -1,6 +1,6 @@
-// MeetingPlaces where parts of the free space meet without width: cells and isolated parts, at rational orientations exactly.
+// Meeting places of parts of the free space without width: cells and isolated parts, at rational orientations exactly.
 //
-// Doubles say where to look; what is there, and what holds it, is computed.
+// Doubles propose candidates; poses and their holders are then computed exactly.
 #pragma once
 #include <compare>
 #include <set>
@@ -12,16 +12,16 @@ namespace cfree {
 
 class BoxTree;
 
-inline constexpr double not_told_apart = 0x1p-30;  // of the scene's size, or in an angle: where to look, which decides nothing
+inline constexpr double not_told_apart = 0x1p-30;  // per size of the scene, or as an angle; only for proposals
 
-// What may hold a pose: a cell, an isolated part, or a closed surface with slits of no width.
+// Holder of poses: a cell, an isolated part, or a closed surface with slits of no width.
 struct Holder {
     enum class Of { cell, part, surface } of;
     Index index;
     friend auto operator<=>(const Holder&, const Holder&) = default;
 };
 
-// Faces and isolated parts that doubles do not tell apart at some vertex.
+// Faces and isolated parts that doubles cannot distinguish at some vertex.
 struct Encounter {
     std::vector<Index> faces, parts;
     double theta;
@@ -29,24 +29,24 @@ struct Encounter {
 
 class MeetingPlaces {
 public:
-    // Slits: the surfaces of the boundary with slits of no width, where bounds leave such.
+    // slits: the surfaces of the boundary with slits of no width, if bounds leave such.
     MeetingPlaces(std::shared_ptr<const BoundaryWalker> walker, std::shared_ptr<const CellComplex> slits);
     ~MeetingPlaces();
     MeetingPlaces(const MeetingPlaces&) = delete;
     MeetingPlaces& operator=(const MeetingPlaces&) = delete;
 
-    // What holds a free pose: cells on whose boundary it is, or that it is in, and isolated parts.
+    // Holders of a free pose: cells whose closure contains it, and isolated parts.
     std::vector<Holder> holders(const RationalPose& pose) const;
-    // Between two poses that a holder holds; nothing if none was found along an isolated part.
+    // Path between two poses of a holder; nothing if none is found along an isolated part.
     std::optional<Poses> way(const RationalPose& start, const RationalPose& goal, const Holder& holder) const;
-    // Poses that may be where two of them or more meet.
+    // Candidates for poses at which two or more holders meet.
     Poses candidates() const;
 
-    // At vertices that bound several cells, or are on faces of another, or near to ends of isolated parts.
+    // Encounters at vertices that bound several cells, or are on faces of another, or near ends of isolated parts.
     const std::vector<Encounter>& encounters() const { return met; }
 
     const std::shared_ptr<const BoundaryWalker> walker;
-    const std::unique_ptr<const BoundaryWalker> slits;  // on surfaces with slits, each a cell of its own, or none
+    const std::unique_ptr<const BoundaryWalker> slits;  // walker on surfaces with slits, each a cell of its own, or null
     const std::vector<ThinPart> parts;
 
 private:
@@ -60,9 +60,9 @@ private:
     std::vector<Index> parts_near(const Box& box) const;
 
     const double size;  // the largest coordinate
-    std::vector<Index> face_at, first_at;  // faces by vertex, and where each vertex's begin
+    std::vector<Index> face_at, first_at;  // faces by vertex, and the start of each vertex's list
     std::vector<Encounter> met;
-    std::unique_ptr<const BoxTree> tree, vertices;  // of isolated parts, of vertices
+    std::unique_ptr<const BoxTree> tree, vertices;  // trees of isolated parts and of vertices
 };
 
 }  // namespace cfree

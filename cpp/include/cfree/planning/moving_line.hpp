@@ -1,10 +1,10 @@
-// The line of a contact as the robot turns on from a rotation by 2 atan(t): positions P + s U, polynomials in t.
+// Line of a contact of a turning robot, as polynomials in t: positions P + s U after a further rotation by 2 atan(t).
 #pragma once
 #include "cfree/contact/contact_line.hpp"
 
 namespace cfree {
 
-// Times w (1 + t^2).
+// All times w (1 + t^2).
 struct MovingLine {
     std::array<Poly, 2> P, U;
     MovingLine(const ContactLine<Int>& line, const Rotation<Int>& from) {

@@ -1,8 +1,7 @@
-// Ways through exact fits: contact motions between cells, and from poses in no cell, where free space is too thin for any
-// clearance.
+// Paths through exact fits: contact motions between cells, and from poses in no cell, where free space has no clearance.
 //
-// C_free is closed. Its cells may touch, and its isolated parts are free without being in any cell. Every motion is checked: a
-// way that is found is a proof. That none is found says nothing.
+// C_free is closed. Its cells may touch, and its isolated parts are free without being in any cell. Every motion is checked:
+// a path that is found is a proof. Finding none proves nothing.
 #pragma once
 #include <set>
 #include <tuple>
@@ -15,15 +14,15 @@ class Passages {
 public:
     Passages(std::shared_ptr<const BoundaryWalker> walker, std::shared_ptr<const CellComplex> slits);
 
-    // Poses from start to goal, both free: the fewest places first. Nothing if no way was found. MeetingPlaces at irrational
-    // orientations are left out unless asked for: they take long. Throws std::logic_error if a cell cannot be walked in. Calls
-    // from several threads wait for each other.
+    // Poses from start to goal, both free: the fewest places first. Nothing if no path is found. Places at irrational
+    // orientations are used only if `irrational` is set: they take long. Throws std::logic_error if there is no path within a
+    // cell. Calls from several threads wait for each other.
     std::optional<Poses> path(const RationalPose& start, const RationalPose& goal, bool irrational);
 
     const MeetingPlaces places;
 
 private:
-    // Poses, and what holds them; some are joined by one motion besides.
+    // Poses and their holders; one motion joins some of them.
     struct Spots {
         Poses poses;
         std::vector<std::vector<Holder>> holders;
@@ -33,7 +32,7 @@ private:
     };
     using Leg = std::tuple<RationalPose::Key, Holder, RationalPose::Key>;
     const Spots& spots(bool irrational);
-    // From one pose to the next, by what holds both; nothing where one motion joins them.
+    // Step from one pose to the next through a holder of both; without one, a single motion joins them.
     struct Step {
         std::optional<Holder> by;
         Index to;
@@ -43,7 +42,7 @@ private:
 
     std::mutex lock;
     std::optional<Spots> rational, every;
-    std::set<Leg> broken;  // isolated parts along which no motions were found
+    std::set<Leg> broken;  // isolated parts without motions along them
 };
 
 }  // namespace cfree

@@ -1,9 +1,10 @@
-// Can the robot get from start to goal? Poses of a path, the motions between them free, or a proof that there is none.
+// Planner of free motions from start to goal: the poses of a path, with free motions between them, or a proof that there is
+// none.
 //
-// Cheap things come first: one motion, a turn and a straight way; then a search with random poses and the closed surfaces around
-// the two poses in turns, by counted work: the same answer everywhere, in about twice the time of the better of both. These
-// surfaces are those of a slightly smaller robot first: they prove that there is no path, or lead to one near by. What
-// they do not settle, the cells of the free space do: they name the answer, and a walk along a cell's boundary is a path.
+// Cheap attempts come first: one motion, then a turn and a straight way. Then a search with random poses and the growth of
+// the closed surfaces around the two poses alternate, by counted work: the answer is the same everywhere, in about twice the
+// time of the better of both. The first surfaces are those of a slightly smaller robot: they prove that there is no path, or
+// lead to one near by. The cells of the free space settle the rest: a walk along a cell's boundary is a path.
 #pragma once
 #include <variant>
 
@@ -17,20 +18,20 @@ class Planner {
 public:
     Planner(std::shared_ptr<KnownScene> scene, double angle_scale);
 
-    enum class Refused { start, goal, unclear };  // forbidden ends; unclear without more effort
+    enum class Refused { start, goal, unclear };  // start, goal: forbidden; unclear: needs more effort
     using Answer = std::variant<Poses, Separation, Refused>;
     enum class Effort { few_surfaces, all };
-    // The way back is the same, backwards. Some neighbours on a way are joined by slides. Calls from several threads are fine.
+    // The path from goal to start is the same, backwards. Slides join some neighbours on a path. Several threads may call this.
     Answer plan(const End& start, const End& goal, const Listener& listener, Effort most = Effort::all);
 
-    // Along the boundary of the first cell that both poses are in or on the boundary of, if one is.
+    // Path along the boundary of the first cell whose closure contains both poses, if there is one.
     std::optional<Poses> walk(const End& start, const End& goal, const Listener& listener);
     // Poses of a path between free poses, if simple ways or a search find one.
     std::optional<Poses> quick(const End& start, const End& goal) const;
 
     const std::shared_ptr<KnownScene> scene;
     const double angle_scale;  // length per radian: the robot's radius about its reference point
-    const std::shared_ptr<FoundSlides> slides;  // on all ways so far
+    const std::shared_ptr<FoundSlides> slides;  // slides on all paths so far
 
 private:
     using Found = std::variant<Poses, Separation>;
@@ -50,13 +51,13 @@ private:
     Passages& passages(const Listener& listener);
     Insets& insets();
 
-    std::mutex working;  // one thread at a time asks more than a search
+    std::mutex working;  // one thread at a time does more than a search
     std::shared_ptr<const BoundaryWalker> walks;
     std::unique_ptr<Passages> fits;
     std::unique_ptr<Insets> smaller;
 };
 
-// The way back, in as many motions; half a turn, which could go on either side, in two.
+// Reversed path, with as many motions; half a turn, which could go on either side, becomes two.
 Poses reversed(const Poses& way);
 
 }  // namespace cfree

@@ -7,14 +7,14 @@
 
 namespace cfree {
 
-// The half of an orientation, as the direction (q, p) in lowest terms, tau = p / q: q > 0, or it is (0, 1).
+// Half of an orientation, as the direction (q, p) in lowest terms, tau = p / q: q > 0, or it is (0, 1).
 struct HalfAngle {
     Int q = 1, p = 0;
-    // From a coordinate in a chart.
+    // Half angle of a coordinate in a chart.
     static HalfAngle of(int chart, const Ratio& tau);
-    // Of a direction that may not be in lowest terms, or point the other way.
+    // Half angle of a direction that may not be in lowest terms, or point the other way.
     static HalfAngle along(const Int& x, const Int& y);
-    // Chart and coordinate; what is on the border belongs to chart 0.
+    // Chart and coordinate; the border belongs to chart 0.
     int chart() const { return abs(p) <= q ? 0 : 1; }
     Ratio tau() const;
     // The coordinate in a chart, -1 or 1 on the border.
@@ -32,9 +32,9 @@ struct RationalPose {
     static RationalPose of(const ExactPose& pose, const Scene& scene);
     Place place() const { return {nearest(x.n, x.d), nearest(y.n, y.d), half.theta()}; }
     ExactPose exact(const Scene& scene) const;
-    Configuration configuration(const Scene& scene) const;  // without its doubles
+    Configuration configuration(const Scene& scene) const;  // without doubles
     friend bool operator==(const RationalPose&, const RationalPose&) = default;
-    // To be ordered and looked up by.
+    // Key for order and look-up.
     using Key = std::array<Int, 6>;
     Key key() const { return {x.n, x.d, y.n, y.d, half.q, half.p}; }
 };

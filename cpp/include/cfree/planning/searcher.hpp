@@ -1,4 +1,4 @@
-// Searches and shorter paths between rational poses: grids, areas and units for what `search/` does in doubles.
+// Searches and shorter paths between rational poses: grids, areas and units for the doubles of `search/`.
 #pragma once
 #include <span>
 
@@ -11,20 +11,21 @@ namespace cfree {
 
 using End = BoundaryWalker::End;
 
-// Of positions to try, in the user's units: the bounds, else around the workspace, else with room around obstacles and poses.
+// Area of positions to try, in the user's units: the bounds, else the box of the workspace, else a box around obstacles and
+// poses with room.
 Area search_area(const KnownScene& scene, std::span<const Place> poses, double radius);
 
 class Searcher {
 public:
-    // Around some poses; costs in the user's units, a radian's weight the robot's radius.
+    // Searcher around poses; costs are in the user's units, the weight of a radian is the robot's radius.
     Searcher(std::shared_ptr<const KnownScene> scene, std::span<const Place> poses, const Costs& costs);
 
     RrtConnect search(const End& start, const End& goal, std::uint64_t seed = 0) const;
     Shortcut shortener(std::span<const End> way, std::uint64_t seed = 0) const;
-    // A shortener of a path beside this one that keeps a distance from obstacles where there is room.
+    // Shortener of a path beside this one that keeps a distance from obstacles if there is room.
     Shortcut balanced(std::span<const End> way, std::uint64_t seed = 0) const;
     Poses poses(const Route& route) const;
-    // What lengths of the user are multiplied by in the doubles of shapes.
+    // Factor from the user's lengths to the doubles of shapes.
     const double unit;
 
 private:
@@ -33,9 +34,9 @@ private:
     Route route(std::span<const End> way) const;
 
     const std::shared_ptr<const KnownScene> scene;
-    const Costs costs;  // in the doubles of shapes
+    const Costs costs;  // per length in the doubles of shapes
     const Area area;
-    const int extent;  // its exponent
+    const int extent;  // exponent of the area's extent
 };
 
 }  // namespace cfree

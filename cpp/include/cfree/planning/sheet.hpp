@@ -1,4 +1,4 @@
-// A trapezoid of a boundary, exactly: poses on it at rational t and tau, rational ends included.
+// Exact trapezoid of a boundary: poses on it at rational t and tau, rational ends included.
 #pragma once
 #include <initializer_list>
 #include <optional>
@@ -11,16 +11,16 @@
 
 namespace cfree {
 
-inline constexpr unsigned trusted_bits = 32;  // of tau, with which doubles are trusted
+inline constexpr unsigned trusted_bits = 32;  // bits of tau with which doubles are trusted
 
 class Sheet {
 public:
-    // Ends: all orientations from the first to the second, in its chart, are strictly within.
+    // ends: all orientations from the first to the second, in its chart, are strictly within.
     Sheet(const Scene& scene, const Feature& contact, int chart, std::array<std::uint64_t, 2> curves, Ratio low, Ratio high);
-    // Of a face, with `points` to know its ends better.
+    // Sheet of a face; `points` refines its ends.
     static Sheet of(const Boundary& boundary, const PointLocation& points, Index face);
 
-    // An isolated part: both its curves are it, or name its ends; see IsolatedParts. Its ends are not refined.
+    // Sheet of an isolated part: both its curves are the part, or name its ends; see IsolatedParts. Its ends are not refined.
     static Sheet isolated(const Boundary& boundary, Index part);
 
     const Feature contact;
@@ -28,7 +28,7 @@ public:
     const std::array<std::uint64_t, 2> curves;  // below and above
     const Index face = -1;
     Ratio low, high;
-    // Comes as near as 2^-bits to the first and the last orientation, if it is a face.
+    // Refine the ends of a face to within 2^-bits of its first and last orientation.
     void refine(unsigned bits);
 
     // Positions (P + t U) / w in the scene's integers.
@@ -38,13 +38,13 @@ public:
     };
     Line at(const HalfAngle& half) const;
     Line at(const Ratio& tau) const { return at(HalfAngle::of(chart, tau)); }
-    // Limits of t at an orientation from the first to the last: where a curve's formula has no value, that around there.
+    // Limits of t at an orientation from the first to the last; if a curve's formula has no value, the limit around there.
     std::pair<Ratio, Ratio> limits(const Ratio& tau) const;
     Ratio middle(const Ratio& tau) const;  // a simple t well within
     RationalPose pose(const Ratio& t, const Ratio& tau) const { return pose(t, HalfAngle::of(chart, tau)); }
-    // Of another orientation than its own as well: the same points touch, on their lines.
+    // Pose at any orientation, also outside its own: the same points touch, on their lines.
     RationalPose pose(const Ratio& t, const HalfAngle& half) const;
-    // A name of a curve of it in its chart: the same for the same positions.
+    // Name of one of its curves in its chart: the same for the same positions.
     std::vector<Int> trace(std::size_t side) const;
     // t of a pose on its line, at this orientation.
     Ratio t_of(const RationalPose& pose, const Ratio& tau) const;
@@ -62,12 +62,12 @@ private:
     const ContactLine<Int> line;
 };
 
-// In the middle of a trapezoid or an isolated part at an orientation strictly within.
+// Pose in the middle of a trapezoid or an isolated part, at an orientation strictly within.
 RationalPose middle_of(const Boundary& boundary, const Trapezoids& table, Index row, const Ratio& tau);
 // An orientation strictly within sheets that share a part of a curve; refines them.
 Ratio common_tau(std::span<Sheet* const> sheets);
 Ratio common_tau(std::initializer_list<Sheet*> sheets);
-// t on two sheets at orientations of theirs where one is beside the other: in the middle of what they share, if they do.
+// t on two sheets at orientations at which they are adjacent: in the middle of their common part, if there is one.
 std::optional<std::pair<Ratio, Ratio>> common_part(const Sheet& f, const Ratio& sigma, const Sheet& g, const Ratio& tau);
 
 }  // namespace cfree

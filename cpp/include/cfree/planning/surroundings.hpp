@@ -1,6 +1,6 @@
-// The closed surface around a pose, without the rest of the boundary: a ray towards -x meets a surface, which is grown until it
-// is closed. Met from inside it is the outer boundary of the pose's cell. An island of the cell is met from outside: where the
-// ray leaves it for the last time it is in the cell again, and goes on. theory, "One surface alone".
+// Closed surface around a pose, without the rest of the boundary: a ray towards -x meets a surface, which is grown until it is
+// closed. If met from inside, it is the outer boundary of the pose's cell. If met from outside, it is an island: the ray is in
+// the cell again after leaving it for the last time, and goes on. Theory, "One surface alone".
 #pragma once
 #include <functional>
 
@@ -9,7 +9,7 @@
 
 namespace cfree {
 
-// A part of a way on one surface: from one pose of contact to another.
+// Part of a path on one surface, from one pose of contact to another.
 struct Stretch {
     std::shared_ptr<const CellComplex> surface;
     ExactPose enter, leave;
@@ -19,29 +19,29 @@ class Surroundings {
 public:
     Surroundings(std::shared_ptr<const Scene> scene, std::shared_ptr<const MotionChecker> checker, bool regularized);
 
-    // What is known of the cell of a pose.
+    // Search for the cell of a pose.
     struct Search {
         ExactPose pose;
         bool ended = false;
-        bool failed = false;  // ended without an answer: the pose is too close to contacts, or touches all around
-        Index surface = -1;   // ended: the outer boundary of its cell; -1 if nothing is around it
-        ExactPose from, at;   // near the pose, where the ray starts, and where it goes on
-        std::vector<Stretch> passed;  // islands on the ray: where it meets and where it leaves them
-        ExactPose contact;    // what it has met last
-        Index seed = -1;      // there, of a surface that grows
+        bool failed = false;  // ended without answer: the pose is too close to contacts, or touches all around
+        Index surface = -1;   // ended: the outer boundary of its cell; -1 if there is none
+        ExactPose from, at;   // near the pose, start of the ray; and the pose from which it goes on
+        std::vector<Stretch> passed;  // islands on the ray, from first to last meeting
+        ExactPose contact;    // its last contact
+        Index seed = -1;      // seed there of a growing surface
     private:
         friend class Surroundings;
         int attempt = 0;
     };
     Search search(const ExactPose& free_pose) const;
-    // Go on with it, by about so many trapezoids, of a surface that grows towards a seed of another search, if there is one.
-    // What of it has reached that.
+    // Continue a search by about `most` trapezoids, of a surface that grows towards the seed of another search, if any. Returns
+    // the part that has reached the seed.
     std::shared_ptr<const CellComplex> advance(Search& search, Index most, Index target);
 
-    // From another place near the pose, joined to it by one free motion; false if there is none any more.
+    // Restart from another place near the pose, joined to it by one free motion; false if there is none left.
     bool start_again(Search& search) const;
 
-    // Whether a surface is around where the ray of a search starts; nothing if that is on it.
+    // True if a surface is around the start of a search's ray; nothing if the start is on it.
     std::optional<bool> is_around(Index surface, const Search& search) const;
     const std::shared_ptr<const CellComplex>& surface(Index k) const { return surfaces[k].complex; }
 
@@ -65,16 +65,16 @@ private:
 
     SurfaceExplorer explorer;
     std::vector<Known> surfaces;
-    Int size, radius, left;  // of the robot, of it about its reference point, of the smallest x of what is an obstacle
+    Int size, radius, left;  // size of the robot, its radius about the reference point, smallest x of obstacles
 };
 
-// Two free poses: in one cell, with a way from one to the other, or apart.
+// Verdict on two free poses: in one cell, with a path from one to the other, or apart.
 struct Connection {
-    enum class Verdict { open, unclear, apart, joined };  // open: not yet known
+    enum class Verdict { open, unclear, apart, joined };  // open: undecided so far
     Verdict verdict = Verdict::open;
-    std::shared_ptr<const CellComplex> surface;  // apart: it is around one of them and not the other
-    int inside = 0;                              // then: that one
-    // Joined: the way goes to the first of two poses near these, straight to stretches one after another, and so to the goal.
+    std::shared_ptr<const CellComplex> surface;  // apart: around exactly one of them
+    int inside = 0;                              // apart: the pose inside
+    // Joined: the path goes to the first of two poses near these, straight to stretches one after another, and so to the goal.
     // After the first `before` of them it may be far away to the left.
     RationalPose start, goal;
     ExactPose near_start, near_goal;
@@ -83,13 +83,13 @@ struct Connection {
     std::size_t before = 0;
 };
 
-// Finds it out from both at once.
+// Decides the connection from both poses at once.
 class Connecting {
 public:
     Connecting(std::shared_ptr<Surroundings> around, const RationalPose& start, const RationalPose& goal);
-    // Go on by about so many trapezoids around each.
+    // Continue by about `most` trapezoids around each.
     void run(Index most);
-    // Go on to the end, by twice as many each time, as long as whoever is asked then, with the number, wants to.
+    // Continue to the end, by twice as many each time, as long as `go_on`, called with the number, returns true.
     Connection::Verdict decide(const std::function<bool(Index most)>& go_on = {});
     const Connection& found() const { return result; }
     const std::shared_ptr<Surroundings> around;

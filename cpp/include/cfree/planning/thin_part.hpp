@@ -1,4 +1,4 @@
-// Isolated parts of a boundary as ways: segments and points at one orientation, curves along two contacts.
+// Isolated parts of a boundary as paths: segments and points at one orientation, curves along two contacts.
 #pragma once
 #include "cfree/planning/face_graph.hpp"
 #include "cfree/planning/free_motions.hpp"
@@ -7,7 +7,7 @@ namespace cfree {
 
 struct Box;
 
-// The first or last angle of a trapezoid, in its chart, if it is rational.
+// First or last angle of a trapezoid, in its chart, if it is rational.
 std::optional<Ratio> rational_angle(const Boundary& boundary, Index trapezoid, bool last);
 
 class ThinPart {
@@ -17,17 +17,17 @@ public:
     const Index number;
     const bool is_curve;  // else it is at one orientation
     const Sheet sheet;
-    std::array<std::optional<Ratio>, 2> tau;          // its first and last orientation, where they are rational
-    std::array<std::optional<RationalPose>, 2> ends;  // where they are rational
+    std::array<std::optional<Ratio>, 2> tau;          // its first and last orientation, if rational
+    std::array<std::optional<RationalPose>, 2> ends;  // if rational
     std::array<Place, 2> rounded;                     // in doubles
 
-    // Around its positions, and a margin; of a curve by samples, to look near.
+    // Box around its positions, with a margin; for a curve from samples, only for proposals.
     Box box(double margin) const;
-    // Is a pose on it?
+    // True if a pose is on it.
     bool holds(const RationalPose& pose) const;
-    // Where a segment or point meets another part at its orientation, if that is not a piece of both.
+    // Pose at which a segment or point meets another part at its orientation, unless they share a segment.
     std::optional<RationalPose> crossing(const ThinPart& other) const;
-    // Along it, from one pose on it to another.
+    // Path along it, from one pose on it to another.
     std::optional<Poses> way(const RationalPose& start, const RationalPose& goal, const FreeMotions& motions) const;
 
 private:

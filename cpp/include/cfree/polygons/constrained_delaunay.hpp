@@ -1,8 +1,8 @@
-// The constrained Delaunay triangulation of the region that rings bound, exactly.
+// Exact constrained Delaunay triangulation of the region that rings bound.
 //
 // Circles are those of the frame in which the points' bounding box is a square of side 1, so that flat polygons get as good
-// triangles as square ones. Where more than three points lie on one circle, and only there, numbers decide: these triangles
-// meet at the least of their points. So the result depends on nothing but the rings.
+// triangles as square ones. If more than three points lie on one circle, their indices decide: the triangles meet at the
+// least of the points. So the result depends on nothing but the rings.
 #pragma once
 #include <array>
 #include <vector>
@@ -24,11 +24,11 @@ struct Cover {
 // by the same index.
 Cover constrained_delaunay(const Points& points, const std::vector<std::vector<Index>>& rings);
 
-// Some triangulation of it: what a sweep from left to right connects.
+// Triangulation of the region by a sweep from left to right.
 Triangles swept_triangles(const Points& points, const std::vector<std::vector<Index>>& rings);
 
-// The twins of triangles' edges; nothing if triangles and rings do not fit together: edges that occur twice, or not at all,
-// triangles that are not upright. If they do, the triangles' indicators add up to the winding number of the rings.
+// Twins of triangles' edges; nothing if triangles and rings do not fit together: edges that occur twice, or not at all, or
+// triangles that are not upright. If they fit, the triangles' indicators add up to the winding number of the rings.
 std::vector<Index> twins(const Points& points, const std::vector<std::vector<Index>>& rings, const Triangles& triangles);
 
 }  // namespace cfree

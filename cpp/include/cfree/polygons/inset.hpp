@@ -1,4 +1,4 @@
-// Polygons strictly inside others, by exact tests: edges moved inwards; theory, "Separations".
+// Shrink polygons by moving edges inwards; exact tests confirm strict inclusion; theory, "Separations".
 #pragma once
 #include <memory>
 
@@ -6,7 +6,7 @@
 
 namespace cfree {
 
-// A polygon strictly inside one, every edge of which has moved inwards and kept its direction; none if an edge is too short for
+// Return a polygon strictly inside one: every edge moves inwards and keeps its direction; null if an edge is too short for
 // that. Numbers are short if a grid much finer than the inset leaves it inside.
 std::shared_ptr<const Polygon> inset(const Polygon& polygon, const Ratio& by);
 

@@ -1,4 +1,4 @@
-// Points with exact integer coordinates, and the signs that polygons are checked and cut by.
+// Points with exact integer coordinates, and the signs that check and cut polygons.
 //
 // Coordinates of at most 62 bits, which nearly all are, are compared in machine integers; longer ones in doubles with a
 // proven bound first, then exactly.
@@ -10,7 +10,7 @@
 
 namespace cfree {
 
-// A bug of ours.
+// A bug in the core.
 struct BrokenInvariant : std::logic_error {
     using std::logic_error::logic_error;
 };
@@ -31,8 +31,8 @@ public:
     int turn(Index p, Index q, Index r, Index s) const;  // sign of (q - p) x (s - r): 1 if rs turns left of pq
     int orient(Index p, Index q, Index r) const { return turn(p, q, p, r); }  // 1 if r is left of pq, 0 if on its line
     int along(Index p, Index q, Index r, Index s) const;  // sign of (q - p) . (s - r)
-    bool is_upper(Index p, Index q) const;                // is the angle of q - p in [0, pi)?
-    int compare_lengths(Index p, Index q, Index r, Index s) const;  // of pq and rs: -1, 0 or 1
+    bool is_upper(Index p, Index q) const;                // true if the angle of q - p is in [0, pi)
+    int compare_lengths(Index p, Index q, Index r, Index s) const;  // pq against rs: -1, 0 or 1
 
     bool are_small() const { return !x.empty() || X.empty(); }
     std::int64_t small_x(Index k) const { return x[k]; }
@@ -47,10 +47,10 @@ private:
 };
 
 enum class Meeting { apart, cross, touch, overlap };
-Meeting meet(const Points& v, Index p, Index q, Index r, Index s);  // what the segments pq and rs have in common
+Meeting meet(const Points& v, Index p, Index q, Index r, Index s);  // intersection of the segments pq and rs
 
-// Where a direction lies in the sector swept counter-clockwise from `start` to `end`, all of them from the point o towards
-// points. Two equal directions bound the whole turn, slit along them.
+// Location of a direction in the sector swept counter-clockwise from `start` to `end`; all directions are from the point o
+// towards points. Two equal directions bound the whole turn, slit along them.
 enum class Location { inside, boundary, outside };
 Location locate_in_sector(const Points& v, Index o, Index towards, Index start, Index end);
 

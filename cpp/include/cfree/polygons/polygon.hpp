@@ -13,16 +13,16 @@
 
 namespace cfree {
 
-// Rings that do not bound a polygon: ring 0 is the outer one, k + 1 is hole k; edge k of a ring goes from its point k, as
-// given, to the next one kept.
+// Rings that do not bound a polygon: ring 0 is the outer one, k + 1 is hole k. Edge k of a ring goes from its input point k
+// to the next point that is a vertex.
 struct InvalidPolygon : std::invalid_argument {
     explicit InvalidPolygon(const std::string& message) : std::invalid_argument(message) {}
     InvalidPolygon(Index ring_at_fault, const std::string& message, std::vector<Index> edges_at_fault = {});
-    Index ring = -1;  // where no ring is at fault
+    Index ring = -1;  // -1: no ring is at fault
     std::vector<Index> edges;
 };
 
-// A point of the input that is no vertex: the same as the one before, or on the line of its neighbours.
+// A point of the input that is not a vertex: the same as the one before, or on the line of its neighbours.
 struct Removed {
     Index ring, index;
     bool repeated;
@@ -40,26 +40,26 @@ class Polygon {
 public:
     // Rings in either direction, the outer one first; a last point equal to the first is dropped.
     explicit Polygon(std::vector<RatioRing> rings);
-    // Of integers over a denominator.
+    // Rings of integers over a denominator.
     Polygon(std::vector<Points> rings, const Int& denominator);
 
     Points vertices;  // times the denominator, the least that makes them whole
     Int denominator = 1;
     std::vector<Index> offsets;  // ring r holds the vertices offsets[r] to offsets[r + 1] - 1
-    std::vector<char> convex;    // by vertex: is the interior angle below pi?
+    std::vector<char> convex;    // by vertex: true if the interior angle is below pi
     std::vector<Removed> removed;
     bool is_convex() const { return is_convex_ring; }
 
-    // Convex pieces that cover the polygon and do not overlap; found when first asked for, not by two threads at once.
+    // Convex pieces that cover the polygon and do not overlap, computed at the first call; not for two threads at once.
     const Pieces& pieces() const;
 
 private:
     bool is_convex_ring = false;
     mutable Pieces found_pieces;
-    void check(std::vector<Points>&& rings, bool is_least);  // is the denominator?
+    void check(std::vector<Points>&& rings, bool is_least);  // is_least: the denominator is the least
 };
 
-// Is all of a polygon, its boundary included, in the interior of another?
+// True if all of a polygon, its boundary included, is in the interior of another.
 bool is_inside(const Polygon& inner, const Polygon& outer);
 
 }  // namespace cfree

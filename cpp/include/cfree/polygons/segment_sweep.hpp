@@ -1,4 +1,4 @@
-// One exact sweep over the edges of rings: do any cross, where do rings touch, and which ring lies in which?
+// One exact sweep over the edges of rings finds crossings, places where rings touch, and the nesting of rings.
 //
 // Shamos and Hoey's sweep from left to right (the vertical line leans, so that points are met in the order of their pairs
 // of coordinates). It keeps the edges it cuts in their order from below to above; edges that cross are neighbours there
@@ -14,23 +14,23 @@
 
 namespace cfree {
 
-// What rings are made of: ring r holds the points offsets[r] to offsets[r + 1] - 1.
+// Links of rings: ring r holds the points offsets[r] to offsets[r + 1] - 1.
 struct RingLinks {
     explicit RingLinks(const std::vector<Index>& offsets);
     std::vector<Index> next, previous, ring;
 };
 
-// Two edges that cross or overlap, or touch though they belong to one ring and are no neighbours; the first is the lesser.
+// Two edges that cross or overlap, or touch without being neighbours in one ring; the first is the lesser.
 struct EdgesMeet {
     Index first, second;
 };
 
-// How rings that do not cross lie in each other.
+// Nesting of rings that do not cross.
 struct Nesting {
     std::vector<Index> order;     // rings, from left to right
     std::vector<Index> below;     // by ring: the edge right below its first point, -1 if there is none
-    std::vector<char> rightward;  // by edge: does the sweep run along it from its start to its end?
-    std::vector<std::pair<Index, Index>> touching;  // edge, and a point of another ring on it that is none of its ends
+    std::vector<char> rightward;  // by edge: true if the sweep runs along it from its start to its end
+    std::vector<std::pair<Index, Index>> touching;  // edge, and a point of another ring inside it
 };
 
 // Rings without repeated or collinear neighbours and without spikes.
@@ -39,7 +39,7 @@ std::variant<EdgesMeet, Nesting> sweep(const Points& points, const std::vector<I
 // Innermost ring around each ring, -1 if there is none.
 std::vector<Index> containers(const Nesting& nesting, const std::vector<Index>& ring_of_edge, const std::vector<char>& counterclockwise);
 
-// Indices of points in the order of the sweep, of equal points the least first.
+// Indices of points in the order of the sweep; equal points are ordered by index.
 std::vector<Index> swept_order(const Points& points);
 
 // Edges that the sweep line cuts, from below to above.
@@ -50,7 +50,7 @@ public:
     std::vector<Index> edges;
     // The edges through a point, those from `first` to `last` - 1.
     std::pair<std::size_t, std::size_t> through(Index point) const;
-    // Puts `leaving`, from below to above, in their place.
+    // Replace them by `leaving`, from below to above.
     void replace(std::pair<std::size_t, std::size_t> range, const std::vector<Index>& leaving);
     // Edges that leave a point rightwards, sorted by slope: few, so each is inserted in turn.
     std::vector<Index> from_below(Index point, const std::vector<Index>& leaving) const;

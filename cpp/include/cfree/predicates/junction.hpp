@@ -1,4 +1,4 @@
-// What several contact lines look like at one critical angle, and just before and after it.
+// Configuration of several contact lines at one critical angle, and just before and after it.
 #pragma once
 #include <functional>
 #include <memory>
@@ -8,54 +8,54 @@
 
 namespace cfree {
 
-// A place on a contact line at the critical angle: where a curve of the surface arrives.
+// A place on a contact line at the critical angle: the end of a curve of the surface.
 struct Spot {
     struct Place {  // t = n / d
         Int n, d;
     };
     Feature curve;
-    Code code = 0;  // or none
+    Code code = 0;  // 0: none
     Feature on = {};
-    std::shared_ptr<const Place> given = nullptr;  // where the curve runs along the line: t of the surface `on`, by continuity
+    std::shared_ptr<const Place> given = nullptr;  // if the curve runs along the line: t on the surface `on`, by continuity
 };
 
-// What a number certainly lies in.
+// Interval that certainly contains a number.
 struct Interval {
     double lo, hi;
 };
 
 class Junction {
 public:
-    // At an angle of a chart, in an interval; in a narrow one, and exactly, when asked for.
+    // Junction at an angle of a chart, in an interval; a narrow one, and the exact angle, are computed when needed.
     Junction(const Scene& scene, int chart, double lo, double hi, std::function<RealRoot()> exact,
              std::function<std::optional<Predicates::Bracket>()> bracket);
 
-    // Three surfaces, or a helix and a surface and nothing, known to meet here: see CriticalAngle::name.
+    // Enter three surfaces, or a helix and a surface and nothing, that meet here: see CriticalAngle::name.
     void know(const std::array<Code, 3>& name) { known.insert(name); }
-    // An edge of the robot and one of the obstacles, known to be parallel here.
+    // Enter an edge of the robot and one of the obstacles that are parallel here.
     void know_parallel(Index g, Index f);
 
     // Directions of two contact lines: 1 if y's is to the left of x's, -1 to the right, 0 parallel.
     int turn(const Feature& x, const Feature& y);
-    // 1 the same, -1 opposite, 0 not parallel.
+    // Directions of two lines: 1 equal, -1 opposite, 0 not parallel.
     int parallel(const Feature& x, const Feature& y);
-    // Of parallel lines: y is left of x (1), right (-1), or the same line.
+    // Side of parallel lines: y is left of x (1), right (-1), or the same line (0).
     int side(const Feature& x, const Feature& y);
-    // The side of x's line on which the point b_b - R a_a lies.
+    // Side of x's line on which the point b_b - R a_a lies.
     int side(const Feature& x, Index a, Index b);
-    // Of parallel lines: how far y is to the left of x, in a unit that depends on x alone.
+    // Distance of parallel lines: y to the left of x, in a unit that depends on x alone.
     Interval offset(const Feature& x, const Feature& y) const;
-    // Where a curve on a surface ends.
+    // End of a curve on a surface.
     Spot spot(const Feature& on, const Feature& curve) const;
-    // About where that is: t on a surface whose line goes through it.
+    // Approximate t of a spot on a surface whose line goes through it.
     double value(const Feature& line, const Spot& p) const;
     Interval range(const Feature& line, const Spot& p) const;
-    // The side of x's line on which a place on another surface's line lies.
+    // Side of x's line on which a place on another surface's line lies.
     int side(const Feature& x, const Feature& line, const Spot& p);
-    // Order of two places along a line, that of a surface through both.
+    // Order of two places along the line of a surface through both.
     int order(const Feature& line, const Spot& p, const Spot& q);
-    // Two surfaces with one line here: whether, just after this angle or before it and between two places on the patch of x,
-    // x is left of y (1) or right (-1); 0: they are one surface.
+    // Order of two surfaces with one line here, just after this angle or before it, between two places on the patch of x: x is
+    // left of y (1) or right (-1); 0: they are one surface.
     int across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after);
 
 private:
@@ -94,9 +94,9 @@ private:
     int chart;
     double lo, hi;
     std::function<RealRoot()> exact;
-    mutable std::optional<RealRoot> root;  // once needed
+    mutable std::optional<RealRoot> root;  // computed when needed
     mutable std::optional<Ball> few_digits;
-    mutable std::function<std::optional<Predicates::Bracket>()> bracket;  // until asked
+    mutable std::function<std::optional<Predicates::Bracket>()> bracket;  // called at most once
     mutable std::optional<Ball> narrowed;
     MeetingNames known;
 };

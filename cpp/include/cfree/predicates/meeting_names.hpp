@@ -1,4 +1,4 @@
-// Names of what meets at an angle: a table of open addresses, as one angle may have many thousands of them.
+// Names of the features that meet at an angle, in a hash table with open addresses: one angle may have many thousands.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -22,12 +22,12 @@ public:
     }
 
 private:
-    static constexpr Name empty{~Code{0}, ~Code{0}, ~Code{0}};  // three codes that nothing has
+    static constexpr Name empty{~Code{0}, ~Code{0}, ~Code{0}};  // three codes that no feature has
     static bool is_empty(const Name& name) { return name[2] == empty[2]; }
     std::vector<Name> slots;  // a power of two
     std::size_t count = 0;
 
-    // Where it is, or would be.
+    // Slot of a name, or the slot for it.
     std::size_t place(const Name& name) const {
         std::uint64_t mixed = 0;
         for (const Code part : name) mixed = (mixed ^ part) * 0x9e3779b97f4a7c15, mixed ^= mixed >> 32;

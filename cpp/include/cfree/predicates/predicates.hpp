@@ -1,10 +1,10 @@
-// Every sign and every order of the boundary is decided by this class (predicates.cpp, roots.cpp, angles.cpp), and nowhere
-// else; point_location.cpp compares with poses, motion_checker.cpp decides along motions.
+// This class (predicates.cpp, roots.cpp, angles.cpp) decides every sign and every order of the boundary, and no other code
+// does; point_location.cpp compares with poses, motion_checker.cpp decides along motions.
 //
-// At an orientation theta a contact surface is a line, a pillar a convex polygon, and what is asked are signs of
+// At an orientation theta a contact surface is a line, a pillar is a convex polygon, and decisions are signs of
 //   f(theta) = a + b cos(theta) + c sin(theta)                  (Trig: offsets, parallels, numerators, denominators)
 // and of N1 D2 - N2 D1 (two curves on a surface). In a chart, tau = tan(theta'/2) in [-1, 1] with theta = theta' or
-// theta' + pi, f times 1 + tau^2 is a quadratic and the order of two curves a quartic in tau.
+// theta' + pi. In tau, f times 1 + tau^2 is a quadratic, and the order of two curves is a quartic.
 //
 // Rungs: identity of features; doubles with a proven bound; balls of twice the precision; exact integers of any size.
 // No tolerance decides anything.
@@ -20,7 +20,7 @@
 
 namespace cfree {
 
-// What names a curve on a surface, or a critical angle: a pair (robot feature, obstacle feature).
+// Kind of a feature pair (robot feature, obstacle feature), which names a curve on a surface, or a critical angle.
 enum class Kind : std::uint8_t { none, vertex_edge, edge_vertex, vertex_vertex, edge_edge };
 struct Feature {
     Kind kind = Kind::none;
@@ -29,12 +29,12 @@ struct Feature {
 // Equal features have equal codes: vertices by point, edges by line (parallels: by direction).
 using Code = std::uint64_t;
 Code code(const Scene& scene, const Feature& f);
-// Of a surface: the helix at t = 0 or t = 1.
+// Helix of a surface at t = 0 or t = 1.
 Feature end_helix(const Scene& scene, const Feature& contact, int end);
 
 // The contact surface under study, in one chart.
 struct Surface {
-    Feature contact;  // vertex_edge or edge_vertex, of ring features
+    Feature contact;  // vertex_edge or edge_vertex, with ring features
     int chart = 0;    // base rotation 0 or pi
 };
 
@@ -53,7 +53,7 @@ struct Filtered {
 // A critical angle: the only root in [lo, hi] of the polynomial that its features define on the surface:
 //   none: an end of the chart (lo = hi = -1 or 1);  edge_edge: the two edges parallel;
 //   vertex_vertex alone: the helix meets the surface;  otherwise the two curves cross.
-// Where doubles cannot hold two roots apart, `fine` is the place of a finer interval kept by the Predicates that found it.
+// If doubles cannot separate two roots, `fine` is the place of a finer interval, stored by the Predicates that found it.
 struct Event {
     Feature first, second;
     double lo, hi;
@@ -61,16 +61,16 @@ struct Event {
     bool is_touch = false;  // the polynomial does not change sign there
 };
 
-// A curve t(theta) = N / D on the surface, D > 0 where it is used.
+// A curve t(theta) = N / D on the surface, used where D > 0.
 struct Curve {
     Feature feature;
     Code code;
-    bool constant, constant_D;  // by kind: t, or D alone, does not depend on theta
+    bool constant, constant_D;  // by kind: t, or only D, does not depend on theta
     bool flipped;               // N and D have been negated
     Filtered N, D;
 };
 
-// A rational sample: a double, taken exactly, or a finer dyadic where no double lies between two angles.
+// A rational sample: a double, taken exactly, or a finer dyadic if no double lies between two angles.
 struct Sample {
     double tau;
     std::optional<Dyadic> fine;
@@ -78,7 +78,7 @@ struct Sample {
     Ball ball() const { return fine ? cfree::ball(fine->n, static_cast<int>(fine->k)) : Ball(tau); }
 };
 
-// Decisions by the rung that took them, and the time of the slowest.
+// Numbers of decisions by rung, and the time of the slowest.
 struct Counters {
     std::int64_t identity = 0, filter = 0, interval = 0, exact = 0;
     double exact_seconds = 0;
@@ -109,7 +109,7 @@ public:
     // Sign of x - y: 0 if they are one angle.
     int order(const Event& x, const Event& y);
     int order(const Event& x, const Sample& at);
-    // A sample strictly between two angles: the first about half way and of few digits, others for further attempts.
+    // A sample strictly between two angles: the first is about half-way with few digits; further attempts give others.
     static constexpr int most_attempts = 1000;
     Sample between(const Event& x, const Event& y, int attempt = 0);
     static Sample within(double lo, double hi, int attempt = 0);
@@ -122,48 +122,49 @@ public:
     };
     Roots offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to);
     Roots parallel_roots(Index g, Index f, const Event& from, const Event& to);
-    // Order of two curves between two angles: where it may change, and the sign of p - q before, between and after.
+    // Order of two curves between two angles: the angles at which it may change, and the sign of p - q before, between and
+    // after.
     struct Order {
         Few<Event, 4> at;
         int sign[5]{};        // all 0 if the curves are one
-        bool strict = false;  // the same sign at the two ends, too
+        bool strict = false;  // the same sign also at the two ends
         bool is(int everywhere) const { return at.empty() && sign[0] == everywhere; }
     };
     Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
 
-    // Whether what two curves, or a helix alone, define on the surface is zero at every angle.
+    // True if the polynomial that two curves, or a helix alone, define on the surface is zero at every angle.
     bool vanishes(const Feature& first, const Feature& second) const { return polynomial(first, second).empty(); }
 
-    // Order at a sample of where two curves are on the surface, wherever that is.
+    // Order at a sample of two curves on the surface, also outside the patch.
     int order_at(const Feature& p, const Feature& q, const Sample& at) const;
-    // Sign of the D of a curve there.
+    // Sign of a curve's D at a sample.
     int denominator_sign(const Feature& f, const Sample& at) const;
 
-    // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
+    // Place of an angle: 0 if it is the only root in its interval of doubles, else its number among the roots there, from 1.
     int place(const Event& x) const;
-    // The angle of that place, for decisions made here.
+    // Angle of that place, for decisions of this object.
     Event restored(const Event& x, int place);
-    // Whether the polynomial of an angle has certain, opposite signs at lo and hi.
+    // True if the polynomial of an angle has certain, opposite signs at lo and hi.
     bool changes_sign(const Event& x, double lo, double hi) const;
-    // Whether, certainly, the line through vertices v and w of the robot, or else of the obstacles, turns parallel to an edge of the other
-    // shape between lo and hi.
+    // True if the line through vertices v and w of the robot, or else of the obstacles, certainly becomes parallel to an edge
+    // of the other shape between lo and hi.
     bool turns_parallel(bool robot, Index v, Index w, Index edge, double lo, double hi) const;
-    // Whether an angle of that place is the only root of its polynomial there.
+    // True if an angle of that place is the only root of its polynomial there.
     bool isolates(const Event& x, int place) const;
-    // Whether 0 <= lower <= upper <= 1 for two curves everywhere between two angles.
+    // True if 0 <= lower <= upper <= 1 for two curves everywhere between two angles.
     bool are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to);
-    // Whether an angle and one of another surface, each alone in its interval, are seen to be one number of few digits: in axis-parallel
-    // scenes thousands are.
+    // True if an angle and one of another surface, each alone in its interval, are proved to be one number of few digits: in
+    // axis-parallel scenes thousands are.
     bool are_one_of_few_digits(const Event& x, const Predicates& other, const Event& y) const;
     static double of_few_digits_near(double tau) { return std::nearbyint(16 * tau) / 16; }
-    // The angle as an exact number.
+    // Angle as an exact number.
     RealRoot root_of(const Event& x) const;
-    // Its interval shrunk to about the precision of balls, where that can be done: between certain, opposite signs.
+    // Interval of an angle shrunk to about the precision of balls, if possible: between certain, opposite signs.
     using Bracket = std::array<Ball, 2>;
     std::optional<Bracket> bracket(const Event& x) const;
-    const std::optional<Bracket>& narrowed(const Event& x);  // remembered
+    const std::optional<Bracket>& narrowed(const Event& x);  // cached
 
-    // Where a patch's range begins or ends: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max, and its chart.
+    // Begin or end of a patch's range: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max, and its chart.
     struct RangeEnd {
         int chart;
         Event event;
@@ -174,7 +175,7 @@ public:
 
 private:
     friend class Junction;  // the same polynomials, at critical angles
-    friend class PointLocation;  // and at rational ones
+    friend class PointLocation;  // the same at rational angles
     template <class T>
     Trig<T> offset_trig(Index s, Index v) const;
     template <class T>
@@ -186,7 +187,7 @@ private:
     template <class T>
     std::array<Trig<T>, 2> curve_trig(const Feature& f) const;  // N and D
     Filtered filtered(const Trig<Approx>& f) const;
-    // What an event's features define; see Event. Two curves: N1 D2 - N2 D1.
+    // Polynomial of an event's features; see Event. Two curves: N1 D2 - N2 D1.
     template <class T>
     Coefficients<T> coefficients(const Trig<T>& f) const;
     template <class T>
@@ -217,16 +218,16 @@ private:
         Event x;
         std::optional<Bracket> bracket;
     };
-    std::vector<Narrowed> recent;  // a table by features, since one angle is compared with many; empty until then
-    std::size_t misses = 0;        // since it has its size
+    std::vector<Narrowed> recent;  // table by features, as one angle is compared with many; empty at first
+    std::size_t misses = 0;        // misses since the last resize
 };
 
-// --- the quadratics of which there are most, one formula for every number type; the others are in predicates.cpp ----------------
+// --- the most frequent quadratics, one formula for every number type; the others are in predicates.cpp ---
 
 // Coefficients are one cross or dot product of differences: at most 6 roundings in a row. The polar form adds 5 and at
-// most doubles the magnitude: 22 times 2^-53 would do.
+// most doubles the magnitude: 22 times 2^-53 would suffice.
 inline constexpr double coefficient_error = 0x1p-48;
-// More than any underflow loses: coefficients are far above it or zero.
+// Exceeds any loss by underflow: coefficients are far above it or zero.
 inline constexpr double tiny = 0x1p-900;
 
 template <class T>

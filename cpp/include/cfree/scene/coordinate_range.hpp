@@ -1,4 +1,4 @@
-// The documented range of a scene's coordinates, checked once, where a scene is made.
+// Documented range of a scene's coordinates, checked once, when a scene is made.
 //
 // Coordinates become integers over one common denominator. If they have at most `most_bits` the core's doubles neither
 // overflow nor underflow, and its exact integers stay fast: lengths from 1e-150 to 1e150 may meet in one scene.
@@ -10,9 +10,9 @@
 
 namespace cfree {
 
-inline constexpr unsigned most_bits = 1110;  // with the frame around it and `largest_bits` no double is below 2^-1022
+inline constexpr unsigned most_bits = 1110;  // including the frame and `largest_bits`, no double is below 2^-1022
 
-// What lies outside the range: "robot", "obstacles" or "bounds" with an index, or "workspace", and why.
+// Shape outside the range: "robot", "obstacles" or "bounds" with an index, or "workspace", and the reason.
 struct RangeFault {
     std::string kind;
     Index index;  // -1 for the workspace

@@ -1,8 +1,8 @@
-// The scene as the rest of the core takes it, made from polygons: integer coordinates, and an identity for every feature.
+// Scene in the form of the core, made from polygons: integer coordinates, and an identity for every feature.
 //
 // Coordinates are multiplied by one common denominator. Coincident vertices get one point, directed edges on one line with
-// one direction one line, parallel edges one direction: equality of features is settled here, exactly, once. The core then
-// names curves and critical angles by these, and most ties need no arithmetic.
+// one direction get one line, parallel edges get one direction: equality of features is settled here, exactly, once. The
+// core then names curves and critical angles by these, and most ties need no arithmetic.
 //
 // Two layers meet only themselves: the robot's polygons with the obstacles (and the complement of the workspace), and the
 // robot's reference point, as a shape of its own, with the complement of the bounds.
@@ -17,26 +17,26 @@
 
 namespace cfree {
 
-// What a scene is made of.
+// Shapes of a scene.
 struct SceneShapes {
     std::vector<std::shared_ptr<const Polygon>> robot, obstacles;
-    std::shared_ptr<const Polygon> workspace;         // or none: the whole robot stays in it
+    std::shared_ptr<const Polygon> workspace;         // optional; the whole robot stays in it
     std::optional<std::array<Ratio, 4>> bounds;       // xmin, ymin, xmax, ymax: the reference point stays in them
 };
 
-// What the features of a part of a scene need to know of the whole, so that all parts have the numbers of the whole.
+// Data of the whole scene that the features of its parts need, so that all parts have the numbers of the whole.
 struct WholeScene {
     Int scale = 1;                          // the common denominator
-    std::optional<std::array<Int, 4>> box;  // of its obstacles, times the denominator: xmin, ymin, xmax, ymax
-    Rounded rounded, near_rounded;          // of the scene, and of the scene that is near
-    // One obstacle more.
+    std::optional<std::array<Int, 4>> box;  // box of its obstacles, times the denominator: xmin, ymin, xmax, ymax
+    Rounded rounded, near_rounded;          // rounding in the scene, and in the scene near its shapes
+    // Add an obstacle.
     void add(const Polygon& polygon);
 };
 
 inline constexpr Index body_layer = 0, reference_layer = 1;
-inline constexpr Index bounds_owner = -1, workspace_owner = -2;  // in place of polygons of the user's robot or obstacles
+inline constexpr Index bounds_owner = -1, workspace_owner = -2;  // used in place of polygons of the user's robot or obstacles
 
-// Whose the vertices of a shape's rings are.
+// Owners of the vertices of a shape's rings.
 struct Owners {
     std::vector<Index> polygon, vertex;
 };

@@ -1,8 +1,8 @@
-// The input of the core: two shapes, the robot at rest and the obstacles, as flat arrays.
+// Input of the core: two shapes, the robot at rest and the obstacles, as flat arrays.
 //
 // Coordinates are integers (the user's rationals times one common denominator). Vertices that coincide share a
-// `point`, directed edges on one line with one direction share a `line`, parallel edges (either way) a `direction`:
-// equality of features is decided once, before any predicate.
+// `point`, directed edges on one line with one direction share a `line`, and parallel edges (either way) share a
+// `direction`: equality of features is decided once, before any predicate.
 #pragma once
 #include <array>
 #include <memory>
@@ -15,9 +15,9 @@ namespace cfree {
 struct Shape {
     std::vector<Int> X, Y;         // exact coordinates
     std::vector<double> x, y;      // the same times 2^-shift, rounded
-    std::vector<double> x_low, y_low;  // and what that left, rounded
-    bool rounded = false;          // whether any coordinate changed by rounding
-    bool rounded_twice = false;    // whether any is not the sum of its two doubles
+    std::vector<double> x_low, y_low;  // the remainder, rounded
+    bool rounded = false;          // true if rounding changed a coordinate
+    bool rounded_twice = false;    // true if a coordinate is not the sum of its two doubles
     std::vector<Index> point;      // class of coincident vertices
     // Directed edges v -> w. Those of rings come first: edge e of a ring starts at vertex e. Then the pieces' diagonals.
     std::vector<Index> v, w, line, direction;
@@ -25,7 +25,7 @@ struct Shape {
     Index ring_vertices = 0;
     std::vector<Index> previous;   // previous vertex in the ring
     std::vector<char> convex;      // interior angle below pi
-    std::vector<char> emit;        // whether the ring of this vertex makes surfaces (outer rims of frames do not)
+    std::vector<char> emit;        // true if the ring of this vertex makes surfaces (outer rims of frames do not)
     std::vector<Index> layer;      // vertices and pieces meet only those of the same layer of the other shape
     std::vector<Index> vertex_rank, edge_rank;  // order among coincident ring features: the lowest owns
     // Convex pieces, counter-clockwise; piece k has vertices piece_vertex[piece[k] .. piece[k + 1]) and as many edges,
@@ -36,26 +36,26 @@ struct Shape {
     bool has_extent(Index e) const { return v[e] != w[e]; }  // or is the ring a single point
     // Vertices in the user's units, correctly rounded: x0, y0, x1, ...
     std::vector<double> xy;
-    // Sets X and Y and what is derived from them; what is said to be rounded stays so. Both shapes of a scene have the same scale,
-    // integers in a unit, and shift: 0, or enough to keep products of four doubles finite.
+    // Set X and Y and the data derived from them; flags of rounding that are set stay set. Both shapes of a scene have the
+    // same scale, integers in a unit, and shift: 0, or enough to keep products of four doubles finite.
     void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0, const Int& scale = 1);
 };
 
-// Two shapes, and where they are measured from.
+// Two shapes, and the origins of their coordinates.
 struct Scene {
     Shape robot, obstacles;
     Int scale = 1;            // integers in a unit of the user
     int shift = 0;            // doubles are integers times 2^-shift
-    bool is_bounded = false;  // whether there is no free space far away
+    bool is_bounded = false;  // true if there is no free space far away
     // The same scene from an origin near each shape: far away from it doubles would have no digits left. Differences of
-    // vertices are the same; positions of the robot are moved by `frame`: obstacles' origin - R robot's origin.
+    // vertices are the same; positions of the robot move by `frame`: obstacles' origin - R robot's origin.
     std::array<double, 4> frame{};      // the two origins in the user's units: x and y of the obstacles', of the robot's
-    std::shared_ptr<const Scene> moved; // if it differs
+    std::shared_ptr<const Scene> moved; // null if it is the same
     const Scene& near() const { return moved ? *moved : *this; }
-    double unit() const { return ratio(Int(1) << static_cast<unsigned>(shift), scale); }  // of the doubles, in the user's
+    double unit() const { return ratio(Int(1) << static_cast<unsigned>(shift), scale); }  // of the doubles, in the user's units
 };
 
-// One feature for all that are at its point, or on its line: of lowest layer and rank in a ring.
+// Representatives of all features at one point, or on one line: those of lowest layer and rank in a ring.
 class Representatives {
 public:
     explicit Representatives(const Scene& scene);
@@ -63,15 +63,15 @@ public:
     Index edge(bool of_robot, Index e) const { return edges[of_robot][e]; }
 
 private:
-    std::array<std::vector<Index>, 2> vertices, edges;  // of obstacles, of the robot
+    std::array<std::vector<Index>, 2> vertices, edges;  // obstacles first, then the robot
 };
 
-// Whether coordinates of obstacles that are not there are rounded as well.
+// Rounding of coordinates of obstacles outside this part of the scene.
 struct Rounded {
     bool once = false, twice = false;
 };
 
-// Measured from the two origins as well, in the scene's integers, with a shift for coordinates from there.
+// Scene with a copy measured from the two origins, in the scene's integers, with a shift for coordinates from there.
 std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,
                                           int near_shift, const Rounded& near_rounded = {});
 

@@ -1,4 +1,4 @@
-// Poses that a search steps through, exactly and in doubles, and the one motion between two of them.
+// Poses of a search, exactly and in doubles, and the one motion between two of them.
 #pragma once
 #include "cfree/collision/motion_checker.hpp"
 
@@ -9,15 +9,15 @@ struct Place {
 };
 
 struct Configuration {
-    Int hx, hy;             // along the direction of half the orientation
+    Int hx, hy;             // direction of half the orientation
     Int x, y, unit;         // the position is (x, y) / unit in the scene's integers
-    double px, py, theta;   // the same in doubles, scaled as those of shapes; theta in (-pi, pi]
+    double px, py, theta;   // the same in doubles, scaled like the doubles of shapes; theta in (-pi, pi]
     Place place() const { return {px, py, theta}; }
 };
 
-// Where a search works: doubles become exact on a grid, in the units of shapes scaled by 2^-shift.
+// Grid of a search, on which doubles become exact, in the units of shapes scaled by 2^-shift.
 struct Grid {
-    int shift;      // of the shapes
+    int shift;      // shift of the shapes
     int place_bits; // positions are multiples of 2^-place_bits
     int angle_bits; // half-angle tangents of 2^-angle_bits
     Configuration exact(double px, double py, double theta) const;
@@ -26,16 +26,17 @@ struct Grid {
 // A translation, or the rotation by less than half a turn (counter-clockwise by half a turn) about its pole.
 Motion motion_between(const Configuration& a, const Configuration& b);
 
-// An angle of few turns, in [-pi, pi].
+// Normalise an angle of few turns to [-pi, pi].
 double wrapped(double angle);
 
-// By how much it turns, and how far the reference point travels.
+// Angle by which the motion turns, and travel of the reference point.
 double turn_between(const Configuration& a, const Configuration& b);
 double travel_between(const Configuration& a, const Configuration& b);
 
-// Some way along the motion, in doubles.
+// Place after a share of the motion, in doubles.
 Place along(const Place& a, const Place& b, double share);
-// Whether something holds at so many poses of the motion, evenly apart: its end, its middle, the middles of its halves, and so on.
+// True if a predicate holds at some of this many evenly spaced poses of the motion: its end, its middle, the middles of its
+// halves, and so on.
 template <class F>
 bool all_along(const Place& a, const Place& b, int count, F&& holds) {
     if (!holds(b)) return false;

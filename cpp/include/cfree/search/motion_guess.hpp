@@ -1,4 +1,4 @@
-// Whether a motion seems to be free: some poses of it are looked at, and none is certainly forbidden. What a search grows by.
+// Guess that a motion is free, for searches: none of some sampled poses is certainly forbidden.
 #pragma once
 #include "cfree/collision/pose_checker.hpp"
 #include "cfree/search/configuration.hpp"
@@ -7,7 +7,7 @@ namespace cfree {
 
 class MotionGuess {
 public:
-    // radius: of the robot, and unit: what lengths of the user are multiplied by, in the doubles of shapes. For one thread.
+    // radius: the robot's, in the doubles of shapes; unit: factor from the user's lengths to these. For one thread.
     MotionGuess(std::shared_ptr<const PoseChecker> checker, double radius, double unit);
     bool operator()(const Place& a, const Place& b) const;
 

@@ -1,4 +1,4 @@
-// How far the robot is from obstacles, and in which directions: doubles that guide paths and decide nothing.
+// Distances and directions from obstacles to the robot: doubles that guide paths and decide nothing.
 #pragma once
 #include <functional>
 #include <memory>
@@ -11,8 +11,8 @@ namespace cfree {
 
 class BoxTree;
 
-// A pair of convex pieces: how far apart, or by how much they overlap, negative; the direction from the obstacle's to the robot's closest point, and the arm to
-// this from the reference point.
+// A pair of convex pieces: their distance, or, negative, their overlap; the direction from the obstacle's to the robot's
+// closest point; and the arm to this from the reference point.
 struct Witness {
     double distance;
     Vec<double> normal, arm;
@@ -25,23 +25,23 @@ public:
     Nearness(const Nearness&) = delete;
     Nearness& operator=(const Nearness&) = delete;
 
-    // All pairs of pieces nearer than that.
+    // All pairs of pieces nearer than `within`.
     std::vector<Witness> around(const Place& at, double within) const;
-    // The least distance, `within` at most; not positive where the robot overlaps something.
+    // Least distance, at most `within`; not positive if the robot overlaps something.
     double distance(const Place& at, double within) const;
-    // Does the robot keep, at every share u of the motion, a distance of need(u), or nearly? False: it does not, or not
-    // certainly. Distances that mean nothing are not looked at.
+    // True if the robot keeps the distance need(u), or nearly, at every share u of the motion. False: it does not, or not
+    // certainly. Distances below `least` do not count.
     bool keeps(const Configuration& a, const Configuration& b, const std::function<double(double)>& need) const;
-    // Does the robot overlap something at one of some poses of the motion, by more than rounding?
+    // True if the robot overlaps something, by more than rounding, at one of some sampled poses of the motion.
     bool overlaps(const Configuration& a, const Configuration& b) const;
-    // The least distance that means something.
+    // Least meaningful distance.
     double least() const { return least_distance; }
 
 private:
     struct Pieces {  // edge k from vertex k, with its outward unit normal n and n . vertex
         std::vector<Index> first;
         std::vector<double> x, y, nx, ny, h;
-        struct Disc {  // around a piece
+        struct Disc {  // disc around a piece
             double x, y, radius;
         };
         std::vector<Disc> disc;
@@ -55,7 +55,7 @@ private:
     void query(const Placed& placed, Index i, double within, F&& report) const;
 
     Pieces robot, obstacles;
-    std::unique_ptr<BoxTree> tree;  // of the obstacles' pieces
+    std::unique_ptr<BoxTree> tree;  // tree of the obstacles' pieces
     double least_distance, reach = 0;  // the robot's radius
 };
 

@@ -1,4 +1,4 @@
-// Random numbers, the same anywhere.
+// Random numbers, the same on every machine.
 #pragma once
 #include <cmath>
 #include <cstdint>

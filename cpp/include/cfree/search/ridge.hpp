@@ -1,4 +1,5 @@
-// A path beside another one, as far from obstacles as it can be up to some distance; and what that asks of shorter ones.
+// Ridge: a path beside another one, as far from obstacles as possible up to some distance; and its requirements on shorter
+// paths.
 #pragma once
 #include <array>
 
@@ -6,19 +7,19 @@
 
 namespace cfree {
 
-// Across a direction (x, y, and angle times the robot's radius) as far from everything as it can be, or as is enough.
-// Returns the distance.
+// Move a place across a direction (x, y, and angle times the robot's radius) as far from everything as possible, or by
+// `enough`. Returns the distance.
 double climb(const Way& way, Place& q, const std::array<double, 3>& direction, double enough);
 
 struct Ridge {
-    Marked path;                   // marked by its length
-    std::vector<double> distance;  // of each pose, and of the motions beside it
+    Marked path;                   // marks are lengths
+    std::vector<double> distance;  // by pose, motions beside it included
 };
 Ridge ridge(const Way& way, const Route& route, double enough);
 
-// A share of the least distance of the part that a pose is in. Parts are what is left after cutting out a radius of way around
-// the narrowest place, and so on; of the first, around start and goal as well. What is cut out is asked for what is asked
-// beside it, as far as the ridge has it.
+// Required distance of a pose: a share of the least distance of its part. Parts remain after cutting out a radius of way
+// around the narrowest place, and so on; for the first part, also around start and goal. Cut-out places require the distance
+// of the places beside them, as far as the ridge has it.
 constexpr int all_parts = 100;
 std::vector<double> distances_asked(const Ridge& ridge, double radius, double share, int most_depth);
 

@@ -1,8 +1,8 @@
-// A quick search for a path. Nothing here decides what is free: every motion of what is found is checked exactly.
+// Quick search for a path. Nothing here decides freedom: every motion of a result is checked exactly.
 //
 // Two trees grow from start and goal towards random poses and towards each other (RRT-Connect: Kuffner and LaValle, 2000), in
-// doubles, over motions that seem to be free. Where trees meet, those on the way are checked, and what hangs on one that is not
-// free falls off (as in Bohlin and Kavraki's lazy roadmaps, 2000). Finding nothing means nothing.
+// doubles, over motions that seem to be free. When trees meet, the motions on the path are checked, and the subtree behind one
+// that is not free is cut off (as in Bohlin and Kavraki's lazy roadmaps, 2000). Finding nothing proves nothing.
 #pragma once
 #include <array>
 #include <functional>
@@ -15,8 +15,8 @@
 namespace cfree {
 
 struct Joins {
-    std::function<bool(const Place&, const Place&)> seems;  // whether the motion from one to the other may do: a guess
-    std::function<bool(const Configuration&, const Configuration&)> certainly;  // whether it does
+    std::function<bool(const Place&, const Place&)> seems;  // guess: the motion may be admissible
+    std::function<bool(const Configuration&, const Configuration&)> certainly;  // exact: the motion is admissible
 };
 
 class RrtConnect {
@@ -24,9 +24,9 @@ public:
     // weight: length per radian
     RrtConnect(Joins joins, Grid grid, Area area, double weight, Configuration start, Configuration goal,
            std::uint64_t seed);
-    // Guess about so many motions; a route, or nothing yet.
+    // Run for about this many guesses of motions; a route, or nothing yet.
     Route run(int guesses);
-    // The same, and on as long as both trees come to parts of the space where they have not been.
+    // Run, and continue as long as both trees reach new parts of the space.
     Route run_on(int guesses);
 
 private:
@@ -34,18 +34,18 @@ private:
         Configuration root;
         std::vector<double> x, y, theta;
         std::vector<Index> parent;
-        std::vector<char> is_certain;  // the motion from the parent
-        std::set<int> parts;           // of the configuration space, in which it has a node
+        std::vector<char> is_certain;  // certainty of the motion from the parent
+        std::set<int> parts;           // parts of the configuration space with a node
         struct Node {
             Place at;
             Index number;
         };
-        std::vector<std::vector<Node>> near;  // by squares of the area
+        std::vector<std::vector<Node>> near;  // nodes by squares of the area
         Index size() const { return static_cast<Index>(x.size()); }
         Place at(Index k) const { return {x[k], y[k], theta[k]}; }
     };
     void add(Tree& tree, const Place& q, Index from) const;
-    void cut(Tree& tree, Index k) const;  // and all that hangs on it
+    void cut(Tree& tree, Index k) const;  // with its subtree
     std::array<int, 2> square_of(const Place& q) const;
     Index nearest(const Tree& tree, const Place& q) const;
     double distance(const Place& a, const Place& b) const;
@@ -60,9 +60,9 @@ private:
     const Joins joins;
     const Grid grid;
     const Area area;
-    const double weight, range, side;  // side of a square
+    const double weight, range, side;  // side: of a square
     Tree trees[2];
-    bool turn = false;  // which tree grows
+    bool turn = false;  // the tree that grows next
     Random random;
     int left = 0;
 };

@@ -1,4 +1,4 @@
-// Shorter paths, by random shortcuts that keep what is asked of the way.
+// Shorter paths, by random shortcuts that keep the requirements of the way.
 #pragma once
 #include "cfree/search/random.hpp"
 #include "cfree/search/way.hpp"
@@ -10,7 +10,7 @@ public:
     Shortcut(Way way, Marked path, std::uint64_t seed);
     // Check about so many motions.
     void run(int checks);
-    // Neighbours replaced by one motion, or two, from start to goal.
+    // Replace neighbours by one motion, or two, from start to goal.
     void merge();
     const Route& path() const { return route; }
     double length() const { return at.back(); }
@@ -23,7 +23,7 @@ private:
 
     const Way way;
     Route route;
-    std::vector<double> mark, at;  // of each pose; costs up to each
+    std::vector<double> mark, at;  // by pose; costs up to each pose
     Random random;
     int left = 0;
 };

@@ -1,4 +1,4 @@
-// What paths are made of, and which distance from obstacles each place of one must keep.
+// Routes of paths, and the distance from obstacles that each place must keep.
 #pragma once
 #include <vector>
 
@@ -6,9 +6,9 @@
 
 namespace cfree {
 
-using Route = std::vector<Configuration>;  // a path: the motions between each and the next
+using Route = std::vector<Configuration>;  // a path: the motions between consecutive poses
 
-struct Area {  // of positions
+struct Area {  // area of positions
     double x0, y0, x1, y1;
 };
 
@@ -16,11 +16,11 @@ struct Area {  // of positions
 struct Marked {
     Route route;
     std::vector<double> mark;
-    void append(const Marked& further);  // which begins where this one ends
+    void append(const Marked& further);  // `further` begins at the end of this one
 };
 
-// What motions cost: travel plus `weight` a radian. Factors, at least 1, of travel sideways and backward, as the robot sees
-// it, whose x axis is forward; and of turning as far as no travel goes with it.
+// Costs of motions: travel plus `weight` per radian. There are factors, at least 1, for travel sideways and backward in the
+// robot's frame, whose x axis is forward; and for turning without travel.
 struct Costs {
     double weight, sideways = 1, backward = 1, turning = 1;
     bool prefer() const { return sideways > 1 || backward > 1 || turning > 1; }
@@ -30,46 +30,46 @@ double cost_of(const Route& route, const Costs& costs);
 // Costs up to each pose.
 std::vector<double> costs_along(const Route& route, const Costs& costs);
 
-// The position of one with the orientation of another.
+// Configuration with the position of one and the orientation of another.
 Configuration corner(const Configuration& position, const Configuration& orientation);
 // One motion, or a turn and a straight way in either order.
 std::vector<Route> turned_or_straight(const Configuration& a, const Configuration& b);
 
 struct Way {
     const MotionChecker& checker;
-    const Nearness* nearness;  // none: any free path will do
+    const Nearness* nearness;  // null: any free path is admissible
     Grid grid;
-    Area limits;                   // of the reference point
+    Area limits;                   // limits of the reference point
     Costs costs;
-    double per_motion = 0;         // the length that a motion is worth
-    Marked ridge = {};                   // along which something is asked,
-    std::vector<double> distances = {};  // of each pose of it a distance
-    std::vector<Place> places = {};      // of these poses
+    double per_motion = 0;         // cost of each motion, as a length
+    Marked ridge = {};                   // ridge with requirements,
+    std::vector<double> distances = {};  // a distance for each pose of it,
+    std::vector<Place> places = {};      // and the places of these poses
 
     Way asking(Marked along, std::vector<double> what) const;
-    // The pose of the ridge nearest to a place, of those with marks about from a number to another; quick if the guess is near.
+    // Pose of the ridge nearest to a place, among marks between about `from` and `to`; fast if the guess is near.
     std::size_t nearest(const Place& at, double from, double to, std::size_t guess) const;
-    // Is the motion free, and does it keep a distance? What keeps one that means something is free, within limits.
+    // True if the motion is free and keeps a distance. A motion that keeps a meaningful distance within the limits is free.
     bool keeps(const Configuration& a, const Configuration& b, double distance) const;
-    // The same of what is asked from mark to mark.
+    // True if the motion is free and keeps the distances required from mark to mark.
     bool joins(const Configuration& a, const Configuration& b, double from, double to) const;
     bool joins(const Marked& path) const;
-    // Does the reference point certainly stay within the limits?
+    // True if the reference point certainly stays within the limits.
     bool is_within(const Configuration& a, const Configuration& b) const;
-    // One motion, or a turn and a straight way in either order, or as it is driven: the first, or if something is preferred
-    // the cheapest, that costs no more and is joined; or nothing.
+    // One motion, or a turn and a straight way in either order, or a driven way: the first admissible one of at most cost
+    // `most`, or with preferences the cheapest; or nothing.
     Marked simplest(const Configuration& a, const Configuration& b, double from, double to, double most) const;
-    // Ways that go ahead, or back, from place to place: turned, along a line or an arc, or along two arcs.
+    // Ways of driving ahead, or back, from place to place: turns with a line or an arc, or two arcs.
     std::vector<Route> driven(const Configuration& a, const Configuration& b) const;
-    // A pose turned to a direction.
+    // Pose turned to a direction.
     Configuration turned(const Configuration& q, double theta) const { return corner(q, grid.exact(q.px, q.py, theta)); }
-    // The plain length, which no preference changes.
+    // Plain length, without preferences.
     Costs length() const { return {costs.weight}; }
-    // A route with the marks of the nearest poses of the ridge.
+    // Route with the marks of the nearest poses of the ridge.
     Marked marked(Route route, double from, double to) const;
 
 private:
-    // Exactly; most that are not are seen to overlap at some of their poses.
+    // True if the motion is free, exactly; most forbidden ones already overlap at sampled poses.
     bool is_free(const Configuration& a, const Configuration& b) const;
 };
 

@@ -1,4 +1,4 @@
-// Up to N values in place, of which none is made before it is there: angles are large, and mostly there is none.
+// Up to N values in place, constructed only when added: angles are large objects, and most lists of them are empty.
 #pragma once
 #include <algorithm>
 #include <stdexcept>
@@ -29,7 +29,7 @@ public:
     const T& back() const { return items[count - 1]; }
     const T* begin() const { return items; }
     const T* end() const { return items + count; }
-    // Before that one; those from there on move up.
+    // Insert before position `at`; later values move up.
     void insert(int at, const T& value) {
         push_back(value);
         std::rotate(items + at, items + count - 1, items + count);

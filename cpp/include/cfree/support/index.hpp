@@ -1,4 +1,4 @@
-// Numbers of features, trapezoids and whatever else is counted.
+// Index type of features, trapezoids and all other counted things.
 #pragma once
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// Who waits for long work: is told which part of it has begun and how much of that is done, and may end it.
+// Listener to long work: it receives the phase and the share done, and may end the work.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -8,9 +8,9 @@ namespace cfree {
 
 struct Listener {
     std::function<void(const char* phase)> begin = {};
-    std::function<void()> end = {};                    // of the phase that has begun last
-    std::function<bool(double share)> go_on = {};      // asked ten times a second where the share that is done is known
-    std::function<void(std::int64_t patches)> spend = {};  // told how many contact patches are trimmed; may end the work
+    std::function<void()> end = {};                    // ends the phase that has begun last
+    std::function<bool(double share)> go_on = {};      // called ten times a second while the share done is known
+    std::function<void(std::int64_t patches)> spend = {};  // receives the number of trimmed contact patches; may end the work
     int threads = 1;
     double max_seconds = std::numeric_limits<double>::infinity();  // for the free space, and for surfaces around poses
 };

@@ -1,7 +1,7 @@
-// A wish to stop, heard wherever a loop may be long: every thread knows the flag of the call that it works for.
+// Stop requests, checked in every long loop: each thread has the flag of the call that it works for.
 //
-// The thread that made a call may have a lookout besides: it looks around now and then and may raise the flag. So a call is
-// watched without a thread for that.
+// The thread that made a call may also have a lookout, which runs now and then and may raise the flag. So a call is watched
+// without an extra thread.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -18,7 +18,7 @@ class Lookout;
 inline thread_local const std::atomic<bool>* stop_flag = nullptr;
 inline thread_local Lookout* lookout = nullptr;
 
-// While it lives, this thread heeds the flag, and looks around ten times a second, if there is anything to look for.
+// During its lifetime, this thread heeds the flag, and calls `look_around`, if given, ten times a second.
 class Lookout {
 public:
     static constexpr std::chrono::milliseconds pause{100};
