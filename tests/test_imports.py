@@ -43,14 +43,27 @@ def imported(text: str) -> Iterator[str]:
                 yield from (name if name in MODULES or name == CORE else node.module for name in names)
 
 
+def named(text: str) -> Iterator[str]:
+    """Files of the package named by a whole string, such as an argument of `import_module`.
+
+    The beginning of f"cfree.formats.{name}" stands for some file of that package, and ends with a dot.
+    """
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Constant) and re.fullmatch(r"cfree\.(\w+[.:])*\w*", str(node.value)):
+            parts = re.split(r"[.:]", node.value)
+            names = [name for k in range(len(parts), 1, -1) if (name := ".".join(parts[:k])) in MODULES]
+            yield from names[:1] if parts[-1] else [node.value]
+
+
 def package(name: str) -> str:
     return name.split(".")[1]
 
 
 @pytest.mark.parametrize("name", [name for name in MODULES if name != "cfree"])
 def test_imports_lead_down(name: str) -> None:
-    for other in imported(MODULES[name].read_text()):
-        assert other != "cfree", "whoever imports what is public runs in a circle"
+    text = MODULES[name].read_text()
+    for other in (*imported(text), *named(text)):
+        assert other != "cfree", "importing the public package makes a circle"
         assert other == CORE or ORDER.index(package(other)) <= ORDER.index(package(name)), other
 
 
@@ -67,14 +80,18 @@ def test_imports_within_formats_lead_down() -> None:
 
 @pytest.mark.slow
 def test_no_files_import_each_other_in_a_circle() -> None:
-    graph = {name: {other for other in imported(path.read_text()) if other != name} for name, path in MODULES.items()}
+    graph = dict[str, set[str]]()
+    for name, path in MODULES.items():
+        text = path.read_text()
+        graph[name] = {other for other in imported(text) if other != name}
+        graph[name] |= {other for other in named(text) if not f"{name}.".startswith(f"{other}.")}
     try:
         TopologicalSorter(graph).prepare()
     except CycleError as error:
         pytest.fail(f"circle: {' <- '.join(error.args[1])}")
 
 
-def test_what_is_hidden_is_seen() -> None:
+def test_hidden_imports_are_read() -> None:
     text = """
         from typing import TYPE_CHECKING
         if TYPE_CHECKING:
@@ -85,6 +102,20 @@ def test_what_is_hidden_is_seen() -> None:
     """
     lines = [line.removeprefix("        ") for line in text.splitlines()]
     assert set(imported("\n".join(lines))) == {"cfree.film", "cfree.verify.world", CORE}
+
+
+def test_strings_that_name_modules_are_read() -> None:
+    text = """
+        import_module("cfree.viewer.notebook").live()
+        register("picture", "cfree.plot", "picture")
+        later = "cfree.verify.world"
+        import_module(f"cfree.formats.{later}")
+        resolve_name("cfree.viewer.pictures:picture")
+        raise ImportError("cfree.ompl needs OMPL", "cfree.Scene", "cfree")
+    """
+    lines = [line.removeprefix("        ") for line in text.splitlines()]
+    seen = ["cfree.viewer.notebook", "cfree.plot", "cfree.verify.world", "cfree.formats.", "cfree.viewer.pictures"]
+    assert sorted(named("\n".join(lines))) == sorted(seen)
 
 
 def test_includes_of_the_core_lead_down() -> None:

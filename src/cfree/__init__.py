@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from cfree.lazy import lazy_names
+from cfree.lazy import lazy_names, register
 
 if TYPE_CHECKING:
     from cfree.analysis.blockers import Blocker as Blocker
@@ -118,5 +118,8 @@ _PACKAGES = (
     "analysis arrangements collision contact curves distributed exact figures film geometry "
     "ompl planning plot rational verify viewer"
 )
+register("page", "cfree.viewer.notebook", "live")
+register("picture", "cfree.viewer.pictures", "picture")
+register("figure", "cfree.plot", "picture")
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES)
 __all__ = ["__version__", *_NAMES]

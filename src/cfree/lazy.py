@@ -1,4 +1,4 @@
-"""Import public names of a package from their files on first use, so that `import cfree` is quick."""
+"""Names imported when first used, so `import cfree` is quick: public names, and functions of later packages."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import sys
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
+
+_FUNCTIONS: dict[str, tuple[str, str]] = {}  # module and name of each registered function
 
 
 def lazy_names(
@@ -17,9 +19,9 @@ def lazy_names(
     ----------
     package : str
     homes : mapping of str to str
-        File in the package -> its public names, separated by blanks.
+        Public names, separated by blanks, by their file in the package.
     packages : str, optional
-        Subpackages that are imported on first use, under their own names.
+        Subpackages that are attributes of it without an import, separated by blanks.
     """
     home = {name: file for file, names in homes.items() for name in names.split()}
     others = packages.split()
@@ -37,3 +39,18 @@ def lazy_names(
         return sorted([*home, *others])
 
     return __getattr__, __dir__, list(home)
+
+
+def register(name: str, module: str, function: str) -> None:
+    """Register a function of a later package for earlier ones; `registered` imports it.
+
+    Only `cfree/__init__.py` calls this, so that no other file names a package after its own.
+    """
+    _FUNCTIONS[name] = module, function
+
+
+def registered(name: str) -> Callable[..., Any]:
+    """Import a registered function and return it."""
+    module, function = _FUNCTIONS[name]
+    result: Callable[..., Any] = getattr(import_module(module), function)
+    return result

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import fields
-from importlib import import_module
 from typing import Any, TypeVar
 
 import numpy as np
+
+from cfree.lazy import registered
 
 V = TypeVar("V", bound="Keeping")
 T = TypeVar("T")
@@ -55,12 +56,11 @@ class Shown:
     __slots__ = ()
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
-        return import_module("cfree.viewer.notebook").live(self, **options)
+        return registered("page")(self, **options)
 
     def _repr_svg_(self) -> str | None:
-        # by name: the drawing module imports all kinds of values
-        picture: str | None = import_module("cfree.viewer.pictures").picture(self)
-        return picture
+        text: str | None = registered("picture")(self)
+        return text
 
 
 class Answer:
@@ -80,7 +80,7 @@ class Answer:
         preferences : Preferences, optional
             Where a path does what these find dear is marked.
         """
-        return import_module("cfree.plot").picture(self, scene, boundary, preferences=preferences)
+        return registered("figure")(self, scene, boundary, preferences=preferences)
 
 
 class Keeping:

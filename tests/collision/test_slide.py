@@ -231,7 +231,7 @@ def test_slides_along_contacts_in_corridors() -> None:
 
 
 def test_a_slide_has_no_first_contact() -> None:
-    with pytest.raises(UnsupportedError, match="ask is_free for parts"):
+    with pytest.raises(UnsupportedError, match="call is_free for parts"):
         MotionChecker(TEE).first_contact(START, turning())  # type: ignore[arg-type]
 
 

@@ -1,4 +1,4 @@
-"""Questions about a scene: margins, bottlenecks, fits, orientations at a position."""
+"""Analysis of a scene: margins, bottlenecks, blocking obstacles, fits of a part in a hole."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Which single obstacles, taken away, open a way: each is decided exactly, and few have to be."""
+"""Single obstacles whose removal opens a path: each is decided exactly, and few have to be."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from cfree.scene.scene import Scene, required, with_obstacles
 @checked
 @dataclass(frozen=True)
 class Blocker:
-    """An obstacle without which there is a way.
+    """An obstacle without which there is a path.
 
     Parameters
     ----------
@@ -40,36 +40,36 @@ def blockers(
     clearance: Number | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> tuple[Blocker, ...]:
-    """The obstacles that separate start and goal, each of them: without any one of these there is a path.
+    """Find each single obstacle whose removal opens a path from start to goal.
 
     Parameters
     ----------
     scene : Scene
     start, goal : Pose or (x, y, theta), optional
-        Those of the scene unless given.
+        By default those of the scene.
     clearance : number, optional
-        As of `plan`: what the path has to keep.
+        Distance that the path must keep, as in `plan`.
     progress : callable, optional
-        Called with the share that is done, from 0 to 1.
+        Called with the completed share, from 0 to 1.
 
     Returns
     -------
     tuple of Blocker
-        In the order of the scene. Empty if no single obstacle, taken away, opens a way: bounds and workspace are none.
+        In the order of the scene. Empty if the removal of no single obstacle opens a path. Bounds and workspace do not
+        count as obstacles.
 
     Raises
     ------
     ValueError
-        If there is a path as it is.
+        If there is a path with all obstacles.
     UndecidedError
-        Of a clearance that is too near to the largest, with all obstacles or without one.
+        If the clearance is too near to the largest, with all obstacles or without one.
 
     Notes
     -----
-    A surface that separates is made of poses of contact with some obstacles, and with these it stays one, whatever
-    else is taken away, or put back. So if it separates "closed", only an obstacle whose contacts are on it can be one
-    to return; and only one on the surfaces found so far, all of them, has to be decided. If paths are left that touch,
-    "interior", each obstacle is.
+    A separating surface consists of contacts with some obstacles, and remains one as long as these remain. So if the
+    proof is "closed", only obstacles with contacts on it can be returned, and only those on all surfaces found so far
+    have to be decided. If it is "interior", because paths in contact may remain, every obstacle has to be decided.
 
     Examples
     --------
@@ -83,22 +83,22 @@ def blockers(
     answer = Planner(scene).plan(start, goal, clearance=clearance, improve=0)
     if isinstance(answer, Path):
         raise ValueError("start and goal are joined: nothing is in the way")
-    possible, found = _possible(answer, range(len(scene.obstacles))), list[Blocker]()
+    possible, result = _possible(answer, range(len(scene.obstacles))), list[Blocker]()
     for done, k in enumerate(todo := sorted(possible)):
         if progress is not None:
             progress(done / len(todo))
         if k in possible:
             answer = Planner(_without(scene, k)).plan(start, goal, clearance=clearance)
             if isinstance(answer, Path):
-                found.append(Blocker(k, answer))
+                result.append(Blocker(k, answer))
             else:  # its surfaces name obstacles by their numbers in a scene with one less
                 numbers = [i for i in range(len(scene.obstacles)) if i != k]
-                possible &= _possible(answer, numbers) | {blocker.obstacle for blocker in found}
-    return tuple(found)
+                possible &= _possible(answer, numbers) | {blocker.obstacle for blocker in result}
+    return tuple(result)
 
 
 def _possible(proof: Separated, numbers: range | list[int]) -> set[int]:
-    """Obstacles without which it may be no proof, by their numbers in the whole scene."""
+    """Return the obstacles without which the proof may fail, by their numbers in the whole scene."""
     return {numbers[i] for i in proof.obstacles if i >= 0} if proof.of == "closed" else set(numbers)
 
 

@@ -1,8 +1,8 @@
-"""Where does free space open when the robot gets a little smaller? A search by samples on the closed surfaces.
+"""Bottlenecks, where free space opens if the robot gets a little smaller: a search by samples on the closed surfaces.
 
-A sample of the smaller robot's boundary has the same contact, t and theta on the larger one's: there it bounds a cell,
-or it is covered. There is a bottleneck where neighbours bound different cells, or where covered samples connect two of
-these.
+A sample of the smaller robot's boundary has the same contact, t and theta on the larger robot's. There it bounds a
+cell, or it is covered. There is a bottleneck where neighbours bound different cells, or where covered samples connect
+two of these.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from cfree.scene.scene import default_name
 if TYPE_CHECKING:
     from cfree.free.space import FreeSpace
 
-COARSE, FINE = 3, 25  # samples along each side of a trapezoid: of all, and of those at a bottleneck
-MOST = 100  # samples of a bottleneck that are pushed
-NUDGE = 1e-9  # of the robot's size: off what a sample touches
+COARSE, FINE = 3, 25  # samples along each side of a trapezoid: on all, and on those at a bottleneck
+MOST = 100  # most samples of a bottleneck that are pushed
+NUDGE = 1e-9  # first push of a sample off its contact, in robot sizes
 COVERED = -1
 
 
@@ -39,9 +39,9 @@ class Bottleneck:
     pose : Pose or (x, y, theta)
         Near the middle of it.
     obstacles : (int, int)
-        What it is between; -1 is the bounds, -2 the workspace.
+        The two obstacles that it is between; -1 is the bounds, -2 the workspace.
     names : (str, str), optional
-        The same in words, with size and place.
+        Their names in words, with size and place.
     """
 
     pose: Pose
@@ -58,7 +58,7 @@ class Bottleneck:
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Points on faces: a grid of n * n on each, row by row along theta, and neighbours among them, both ways."""
+    """Points on faces: a grid of n * n on each, row by row along theta, and pairs of neighbours, both ways."""
 
     face: Ints
     t: Floats
@@ -68,11 +68,12 @@ class Samples:
 
 
 def bottlenecks(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) -> tuple[Bottleneck, ...]:
-    """Pinches on a way from start to goal, apart for the larger robot and joined for the smaller; () if not found.
+    """Find bottlenecks between start and goal, separated for the larger robot and joined for the smaller.
 
     Notes
     -----
-    Nothing is proved: samples may miss a bottleneck. It is found only if both robots have the same vertices.
+    Nothing is proved: samples may miss a bottleneck. The result is () if none is found, or if the robots have different
+    numbers of vertices.
     """
     if len(larger.boundary.features.robot.vertices) != len(smaller.boundary.features.robot.vertices):
         return ()
@@ -80,10 +81,10 @@ def bottlenecks(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) 
     samples = sampled(smaller, smaller.faces(int(smaller.locate(start))), COARSE)
     label = labels(larger, smaller, samples)
     group = _groups(label, samples)
-    checker, found = MotionChecker(smaller.boundary.scene), []
+    checker, result = MotionChecker(smaller.boundary.scene), []
     for number in _route(label, group, samples, cells):
-        at = np.flatnonzero(group == number)
-        faces = np.unique(samples.face[np.concatenate([at, samples.other[np.isin(samples.one, at)]])])
+        members = np.flatnonzero(group == number)
+        faces = np.unique(samples.face[np.concatenate([members, samples.other[np.isin(samples.one, members)]])])
         closer = sampled(smaller, faces, FINE)
         its_label = labels(larger, smaller, closer)
         its_group = _groups(its_label, closer)
@@ -91,12 +92,12 @@ def bottlenecks(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) 
         chosen = np.flatnonzero(np.isin(its_group, route) if route else its_group >= 0)
         some = chosen[:: -(-len(chosen) // MOST) or 1].astype(np.int32)
         bottleneck = _narrowest(smaller, closer, some, checker)
-        found += [] if bottleneck is None else [bottleneck]
-    return tuple(found)
+        result += [] if bottleneck is None else [bottleneck]
+    return tuple(result)
 
 
 def sampled(space: FreeSpace, faces: Ints, n: int) -> Samples:
-    """Samples on some faces of a space's surfaces."""
+    """Return samples on some faces of a space's surfaces."""
     surfaces, table, cells = space.surfaces, space.surfaces.trapezoids, space.complex
     share = (np.arange(n) + 0.5) / n
     face = np.repeat(faces, n * n).astype(np.int32)
@@ -108,7 +109,7 @@ def sampled(space: FreeSpace, faces: Ints, n: int) -> Samples:
     place = np.arange(n * n).reshape(n, n)
     steps = ((place[:-1], place[1:]), (place[:, :-1], place[:, 1:]))
     inner = np.concatenate([np.column_stack([p.ravel(), q.ravel()]) for p, q in steps])
-    # all samples along a coedge are neighbours of all along its twin
+    # every sample along a coedge is a neighbour of every sample along its twin
     at_side = np.stack([place[:, 0], place[-1], place[:, -1], place[0]])
     coedge = np.flatnonzero((first[cells.face] >= 0) & (first[cells.face[cells.twin]] >= 0))
     mine, theirs = (first[cells.face[h]][:, None] + at_side[cells.side[h]] for h in (coedge, cells.twin[coedge]))
@@ -119,7 +120,7 @@ def sampled(space: FreeSpace, faces: Ints, n: int) -> Samples:
 
 
 def labels(larger: FreeSpace, smaller: FreeSpace, samples: Samples) -> Ints:
-    """The cell of the larger robot that each sample bounds, or COVERED."""
+    """Return the cell of the larger robot that each sample bounds, or COVERED."""
     ours, theirs = smaller.surfaces, larger.surfaces
     patch = ours.trapezoids.patch[samples.face]
     contacts = [np.stack([b.contact_kind, b.contact_robot, b.contact_obstacle], axis=1) for b in (ours, theirs)]
@@ -134,13 +135,13 @@ def labels(larger: FreeSpace, smaller: FreeSpace, samples: Samples) -> Ints:
     sample, trapezoid, theta, t = sample[there], trapezoid[there], theta[there], t[there]
     lower, upper = theirs.limits(trapezoid, theta)
     within = (lower <= t) & (t <= upper)
-    found = np.full(len(patch), COVERED, np.int32)
-    found[sample[within]] = larger.cell_of[larger.component[trapezoid[within]]]
-    return found
+    label = np.full(len(patch), COVERED, np.int32)
+    label[sample[within]] = larger.cell_of[larger.component[trapezoid[within]]]
+    return label
 
 
 def _groups(label: Ints, samples: Samples) -> Ints:
-    """Candidates, by number: what is covered and connected; and samples beside ones that bound another cell."""
+    """Number the candidates: connected covered samples, and samples beside ones that bound another cell."""
     covered = label == COVERED
     number = np.where(covered, np.arange(len(label)), -1).astype(np.int32)
     both = covered[samples.one] & covered[samples.other]
@@ -159,7 +160,7 @@ def _groups(label: Ints, samples: Samples) -> Ints:
 
 
 def _route(label: Ints, group: Ints, samples: Samples, cells: list[int]) -> list[int]:
-    """Candidates on the shortest way from one cell to another."""
+    """Return the candidates on the shortest route from one cell to another."""
     links = np.column_stack([group[samples.one], label[samples.other]])
     links = np.concatenate([links, np.column_stack([group, label])])
     around: dict[tuple[str, int], list[tuple[str, int]]] = defaultdict(list)
@@ -182,7 +183,7 @@ def _route(label: Ints, group: Ints, samples: Samples, cells: list[int]) -> list
 
 
 def _narrowest(space: FreeSpace, samples: Samples, chosen: Ints, checker: MotionChecker) -> Bottleneck | None:
-    """Where a sample pushed into the free side comes to a stop first, halfway."""
+    """Return the bottleneck halfway along the shortest push of a sample into the free side, up to a contact."""
     surfaces, theta = space.surfaces, samples.theta[chosen]
     patch = surfaces.trapezoids.patch[samples.face[chosen]]
     xy = surfaces.evaluate(patch, samples.t[chosen], theta)

@@ -1,8 +1,8 @@
-"""How a part fits into a hole: all orientations at which it does, exact fits included.
+"""Fits of a part in a hole: all orientations at which it fits, exact fits included.
 
-The part is a robot whose workspace is the hole. At an orientation at which it fits the free positions are a closed and
-bounded set; a pose on its rim is on a trapezoid of the boundary or on an isolated part. So the orientations are those
-of all trapezoids and isolated parts: closed intervals, united by the exact order of their ends.
+The part is a robot whose workspace is the hole. At an orientation at which it fits, the free positions are a closed and
+bounded set. A pose on the rim of this set is on a trapezoid of the boundary or on an isolated part. So the orientations
+are those of all trapezoids and isolated parts: closed intervals, united by the exact order of their ends.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Fit:
     place : (x, y, theta)
         A position at one of them, rounded.
     pose : Pose or None
-        The same, exactly, and free; None if it is not rational: at a single orientation with an irrational tangent.
+        The same position as an exact free pose; None at a single orientation with an irrational half-angle tangent.
     """
 
     orientations: AngleInterval
@@ -43,14 +43,14 @@ class Fit:
 
 
 def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
-    """All orientations at which a part fits into a hole, touching allowed, each interval with a position.
+    """Return all orientations at which a part fits into a hole, touching allowed, with a position for each interval.
 
     Parameters
     ----------
     part : shape or sequence of shapes
-        As the robot of a `Scene`: it is turned about the origin, then moved.
+        Like the robot of a `Scene`: it is turned about the origin, then moved.
     hole : shape
-        One polygon, all of which is free: the part has to be inside. Holes in it are forbidden.
+        One polygon that must contain the part. Holes in this polygon are forbidden.
 
     Returns
     -------
@@ -64,12 +64,12 @@ def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
 
     Notes
     -----
-    That of `boundary`, and about a millisecond for each critical angle that doubles do not order. At a given
-    orientation the part may fit in several places; `free_space` tells which of them are connected.
+    Time is that of `boundary`, plus about a millisecond for each critical angle that doubles do not order. At one
+    orientation the part may fit in several places; `free_space` decides which of them are connected.
 
     Examples
     --------
-    A square into itself, and into one a hundredth wider:
+    A square fits into itself, and into one a hundredth wider:
 
     >>> import math
     >>> square, wider = ([(0, 0), (c, 0), (c, c), (0, c)] for c in (1, "1.01"))
@@ -95,24 +95,24 @@ class _Run:
 
 
 class Orientations:
-    """Those at which some position is free, where positions are bounded."""
+    """Orientations with a free position in a scene with bounded positions."""
 
-    def __init__(self, of: Boundary) -> None:
-        of.require_complete()
-        self.boundary = of
-        self._from, self._to, _, self._last = of.core.angle_ranks()
+    def __init__(self, boundary: Boundary) -> None:
+        boundary.require_complete()
+        self.boundary = boundary
+        self._from, self._to, _, self._last = boundary.core.angle_ranks()
 
     def fits(self) -> tuple[Fit, ...]:
-        found = [Fit(self._interval(run), *self._place(run.widest)) for run in self._runs()]
-        return tuple(sorted(found, key=lambda fit: fit.orientations.theta))
+        result = [Fit(self._interval(run), *self._place(run.widest)) for run in self._runs()]
+        return tuple(sorted(result, key=lambda fit: fit.orientations.theta))
 
     def _row(self, k: int) -> tuple[Trapezoids, int]:
-        """A trapezoid, or an isolated part: its columns, and its row in them."""
+        """Return the columns of a trapezoid or an isolated part, and its row in them."""
         faces = len(self.boundary.trapezoids)
         return (self.boundary.trapezoids, k) if k < faces else (self.boundary.isolated, k - faces)
 
     def _runs(self) -> list[_Run]:
-        """Unions of intervals that meet, in the order of their ranks."""
+        """Return unions of intervals that meet, in the order of their ranks."""
         tables = self.boundary.trapezoids, self.boundary.isolated
         width = np.concatenate([table.to_lo - table.from_hi for table in tables])
         first, last = self._from, self._to
@@ -139,7 +139,7 @@ class Orientations:
         return AlgebraicAngle(int(table.chart[row]), critical_angle(self.boundary, table, row, last))
 
     def _place(self, k: int) -> tuple[tuple[float, float, float], Pose | None]:
-        """A position at an angle of a trapezoid or an isolated part: in the midst of the slice if that is free."""
+        """Return a position at an angle of a trapezoid or isolated part: the middle of the slice if that is free."""
         table, row = self._row(k)
         exact = self._pose(table, row, k)
         if exact is None:
@@ -154,7 +154,7 @@ class Orientations:
         return (float(pose.x), float(pose.y), pose.theta), pose
 
     def _pose(self, table: Trapezoids, row: int, k: int) -> Pose | None:
-        """Of a trapezoid or an isolated part; None if it is at one orientation whose tangent is irrational."""
+        """Return a pose on a trapezoid or isolated part; None if its only orientation has an irrational tangent."""
         core, is_isolated = self.boundary.core, table is self.boundary.isolated
         if self._from[k] == self._to[k]:
             end = _core.isolated_end(core, row)

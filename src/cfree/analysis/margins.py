@@ -1,7 +1,7 @@
-"""How much is missing, or to spare: the smallest inset of the robot that joins two poses, its largest scale and margin.
+"""Margins of the robot between two poses: the smallest inset that joins them, the largest scale and clearance.
 
-All are found by bisection over decisions, each of them exact: are start and goal in one cell of a scene with another
-robot? So both ends of an interval are proved, each for the polygons that were decided.
+All are found by bisection over exact decisions: start and goal are in one cell of a scene with another robot, or not.
+So both ends of an interval are proved, each for the polygons that were decided.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from cfree.scene.dilation import FARTHEST_OUT, grown
 from cfree.scene.scene import Scene, required, with_robot
 
 Progress = Callable[[float], object]
-BITS = 16  # of the numbers that are tried
+BITS = 16  # bits of the numbers that are tried
 BITS_OF_INSET = 48
 FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
 
 
 @dataclass(frozen=True)
 class Interval:
-    """Two numbers with a proof for each: the one looked for is between them."""
+    """Two numbers with a proof for each: the number sought is between them."""
 
     lo: float
     hi: float
@@ -44,11 +44,11 @@ class NearestMiss:
     Attributes
     ----------
     lo, hi : float
-        With an inset of `lo` there is still no path that keeps a distance, with one of `hi` there is; `lo` is 0 if no
+        With an inset of `lo` there is still no path that keeps a distance, with one of `hi` there is. `lo` is 0 if no
         inset that was tried is too small.
     bottlenecks : tuple of Bottleneck
-        Where space opens between the two, in order from start to goal. Empty if that was not found: an inset is an
-        exact decision, its place is a search by samples.
+        Places where space opens between the two, in order from start to goal. May be empty: an inset is decided
+        exactly, but its places are searched by samples.
     """
 
     lo: float
@@ -71,31 +71,31 @@ def nearest_miss(
     tolerance: float = 0.01,
     progress: Progress | None = None,
 ) -> NearestMiss | None:
-    """How far the robot is from getting through: the smallest inset that joins two separated poses, and where.
+    """Find the smallest inset of the robot that joins two separated poses, and the places where space opens.
 
     Parameters
     ----------
     scene : Scene
     start, goal : Pose or (x, y, theta), optional
-        Those of the scene unless given.
+        By default those of the scene.
     tolerance : float
-        How far apart the ends of the interval may be, relative to them.
+        Greatest width of the interval, relative to its ends.
     progress : callable, optional
-        Called with the share that is done, from 0 to 1.
+        Called with the completed share, from 0 to 1.
 
     Returns
     -------
-    NearestMiss, or None if no inset joins them before nothing is left of the robot
+    NearestMiss, or None if no inset that leaves something of the robot joins them
 
     Raises
     ------
     ValueError
-        If a path that keeps a distance joins them as it is, or the tolerance is not positive.
+        If a path that keeps a distance joins them without an inset, or the tolerance is not positive.
 
     Notes
     -----
     All edges move inwards by the inset, corners are mitred; parts that are too thin vanish.
-    About a dozen times the time of the scene's free space.
+    It takes about a dozen times as long as the scene's free space.
 
     Examples
     --------
@@ -145,24 +145,24 @@ def max_scale(
     tolerance: float = 0.01,
     progress: Progress | None = None,
 ) -> Interval:
-    """How large the robot may be: the factor about its reference point up to which a motion exists.
+    """Find the largest scale of the robot about its reference point at which a motion exists.
 
     Parameters
     ----------
     scene, start, goal, tolerance, progress
-        As of `nearest_miss`.
+        As in `nearest_miss`.
 
     Returns
     -------
     Interval
-        Scaled by `lo` a path that keeps a distance joins them, by `hi` none does, or one is forbidden; the scale of an
-        exact fit, which a path that touches may pass, is between the two. `hi` is infinite if a robot 2**63 times as
-        large gets there, `lo` is 0 if none 2**63 times smaller does.
+        At scale `lo` a path that keeps a distance joins them; at `hi` none does, or an end pose is forbidden. The scale
+        of an exact fit, which a path that touches may pass, is between the two. `hi` is infinite if a path exists for a
+        robot 2**63 times as large, `lo` is 0 if none exists for one 2**63 times smaller.
 
     Notes
     -----
-    If every point of the robot sees its reference point a smaller one is inside it, and all scales below `lo` do. Else
-    some may not.
+    If the robot is star-shaped about its reference point, a smaller one is inside it, and a path exists at all scales
+    below `lo`. Else it may not exist at some of them.
 
     Examples
     --------
@@ -193,19 +193,19 @@ def max_margin(
     tolerance: float = 0.01,
     progress: Progress | None = None,
 ) -> Interval:
-    """How far from everything a motion can stay: the largest uniform clearance to obstacles and workspace.
+    """Find the largest clearance from obstacles and workspace that a whole motion can keep.
 
     Parameters
     ----------
     scene, start, goal, tolerance, progress
-        As of `nearest_miss`.
+        As in `nearest_miss`.
 
     Returns
     -------
     Interval
-        Some path has a clearance of `lo` all along, start and goal included; none has `hi`. A disc is decided by a
-        polygon of 16 sides around it, 2 % too wide at the corners; this is in the interval. `hi` is infinite if
-        nothing is in the way.
+        Some path has a clearance of `lo` all along, start and goal included; none has `hi`. The decision replaces a
+        disc by a polygon of 16 sides around it, 2 % too wide at the corners; the interval includes this. `hi` is
+        infinite if nothing is in the way.
 
     Raises
     ------
@@ -214,7 +214,7 @@ def max_margin(
 
     Notes
     -----
-    The robot grows by Minkowski sums of its convex pieces with the polygon, in fractions: it has many vertices then.
+    The robot grows by Minkowski sums of its convex pieces with the polygon, in fractions, and then has many vertices.
 
     Examples
     --------
@@ -242,7 +242,7 @@ def max_margin(
 
 
 def _deepest(smaller_robot: Callable[[Fraction], list[Polygon]], size: Fraction) -> Fraction:
-    """The largest inset that leaves something of a robot, but for 2**-BITS_OF_INSET of its size; 0 if none does."""
+    """Return the largest inset that leaves something of a robot, within 2**-BITS_OF_INSET of its size; 0 for none."""
     lo, hi = Fraction(0), size
     for _ in range(BITS_OF_INSET):
         middle = (lo + hi) / 2
@@ -260,7 +260,7 @@ def _space(scene: Scene) -> FreeSpace:
 
 
 def _bracket(holds: Callable[[Fraction], bool], first: Fraction) -> tuple[Fraction, Fraction]:
-    """A number where something holds and a larger one where it does not, from steps that grow; 0 for none."""
+    """Return a number where something holds and a larger one where it does not, from growing steps; 0 for none."""
     step = 1
     if holds(first):
         lo = first
@@ -282,7 +282,7 @@ def _bracket(holds: Callable[[Fraction], bool], first: Fraction) -> tuple[Fracti
 def _bisected(
     holds: Callable[[Fraction], bool], lo: Fraction, hi: Fraction, tolerance: float, progress: Progress | None
 ) -> tuple[Fraction, Fraction]:
-    """What holds at `lo` and not at `hi`: the same for numbers close together."""
+    """Return close numbers with the property of `lo` and `hi`: something holds at the first, not at the second."""
     whole = math.log(hi / lo)
     while hi > lo * (1 + Fraction(tolerance)):
         if progress is not None:
@@ -295,7 +295,7 @@ def _bisected(
 
 
 def _rounded(value: float) -> Fraction:
-    """A number of few digits."""
+    """Round to a number of few bits."""
     grid = Fraction(2) ** (math.frexp(value)[1] - BITS)
     return round(Fraction(value) / grid) * grid
 

@@ -1,4 +1,4 @@
-"""Is a pose free, is a motion free, how far is it to the obstacles?"""
+"""Exact collision checks of poses and motions; distances from obstacles."""
 
 from typing import TYPE_CHECKING
 

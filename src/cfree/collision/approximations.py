@@ -1,4 +1,4 @@
-"""Polygons for the round shapes of a scene, each as near as it has to be."""
+"""Polygons for the round shapes of a scene, each as fine as a decision needs."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from cfree.polygons.polygon import Polygon
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import AnyShape, Scene, polygons_for, shapes_of, size_of, with_polygons
 
-FIRST, FINEST = 256, 4096  # parts of a shape's size: the first error, and the least one that is started with
-OF_ROBOT = 8  # or part of the robot's size, if that is less
-TOLERANCE = 2.0**-14  # of the robot's size, unless given
-FINER = 4  # of an error: twice as many edges
+FIRST, FINEST = 256, 4096  # parts of a shape's size: its first error, and the least first error
+OF_ROBOT = 8  # part of the robot's size, which is the first error if that is less
+TOLERANCE = 2.0**-14  # the default, in robot sizes
+FINER = 4  # divisor of an error in a step: twice as many edges
 
 
 class Approximations:
-    """Errors of a scene's shapes, which become less where it matters.
+    """Errors of the polygons for a scene's shapes, reduced where a decision needs it.
 
     Parameters
     ----------
@@ -42,22 +42,21 @@ class Approximations:
         self.reached = max(self.errors)
 
     def scene(self, *, outward: bool) -> Scene:
-        """With polygons around what is forbidden, or inside of it."""
+        """Return the scene with polygons around everything that is forbidden, or inside it."""
         return with_polygons(self.exact, self.errors, outward=outward)
 
     def refine(self, poses: NDArray[np.float64], others: Iterable[int] = ()) -> bool:
-        """Divide the errors of what may overlap at these poses; False if they are as small as they may be.
+        """Divide the errors of shapes that may overlap at these poses; False if no error can become smaller.
 
-        Of two shapes that overlap the error of the one that has the larger becomes less, or that of both; then those of
-        other obstacles become as small. What overlaps is looked up in doubles: it is about where to look closer, and
-        decides nothing.
+        Of two shapes that overlap, the larger error is divided, or both are. Then the errors of the other obstacles
+        become as small. Overlaps are looked up in doubles: they only choose the shapes to refine, and decide nothing.
 
         Parameters
         ----------
         poses : (n, 3) array
             Rows x, y, theta.
         others : iterable of int
-            Obstacles of the scene of polygons, by number: -2 is the workspace.
+            More obstacles to refine, numbered as in the scene of polygons; -2 is the workspace.
         """
         pairs = self._overlapping(poses)
         concerned = {k for pair in pairs for k in pair} or set(range(len(self.shapes)))
@@ -79,7 +78,7 @@ class Approximations:
         return self.errors != before
 
     def _owner(self, number: int) -> int:
-        """The shape that an obstacle's polygon is for."""
+        """Return the shape that an obstacle's polygon replaces."""
         if number == WORKSPACE:
             return len(self.shapes) - 1
         counts = [
@@ -89,13 +88,13 @@ class Approximations:
         return len(self.exact.robot) + int(np.searchsorted(np.cumsum(counts), number, side="right"))
 
     def _overlapping(self, poses: NDArray[np.float64]) -> set[tuple[int, int]]:
-        """Which two shapes, one of them round, polygons around them, overlap at one of the poses."""
+        """Return pairs of shapes, one of them round, whose outer polygons overlap at one of the poses."""
         parts, count = len(self.exact.robot), len(self.exact.robot) + len(self.exact.obstacles)
         geometries = [
             shapely.union_all([polygon.to_shapely() for polygon in _polygons_for(shape, error, k < count)])
             for k, (shape, error) in enumerate(zip(self.shapes, self.errors, strict=True))
         ]
-        tree, found = shapely.STRtree(geometries[parts:count]), set[tuple[int, int]]()
+        tree, pairs = shapely.STRtree(geometries[parts:count]), set[tuple[int, int]]()
         for x, y, theta in poses:
             motion = [np.cos(theta), -np.sin(theta), np.sin(theta), np.cos(theta), x, y]
             for k, geometry in enumerate(geometries[:parts]):
@@ -103,12 +102,12 @@ class Approximations:
                 met = [parts + int(j) for j in tree.query(placed, predicate="intersects")]
                 if len(geometries) > count and not geometries[count].contains_properly(placed):
                     met.append(count)
-                found |= {(k, j) for j in met if self.errors[k] or self.errors[j]}
-        return found
+                pairs |= {(k, j) for j in met if self.errors[k] or self.errors[j]}
+        return pairs
 
 
 def _polygons_for(shape: AnyShape, error: float, outward: bool) -> tuple[Polygon, ...]:
-    """None where none can be proved: where to look closer decides nothing."""
+    """Return polygons for a shape, or none where none can be proved; their choice decides nothing."""
     with suppress(UndecidedError):
         return polygons_for(shape, error, outward)
     return ()

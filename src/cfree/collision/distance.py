@@ -1,4 +1,4 @@
-"""Distances of the placed robot from obstacles and workspace, in double precision, and between which edges they are."""
+"""Distances of the placed robot from obstacles and workspace, and the closest edges, in double precision."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ class EdgeDistances:
         Ends of the robot's edges at rest.
     robot_names : list of (polygon, edge)
     radius : float
-        Of the robot about its reference point.
+        Radius of the robot about its reference point.
     segments : (w, 2, 2) float64
-        Ends of the others.
+        Ends of the edges of obstacles and workspace.
     names : list of (obstacle, edge)
         -2 stands for the workspace.
     """
@@ -44,7 +44,7 @@ class EdgeDistances:
         self.robot, self.robot_names = _edges(list(enumerate(scene.robot)))
         self.radius = robot_radius(scene)
         self.segments, self.names = _edges(shapes)
-        # a power of two near their size, so that squares of tiny and of huge numbers are doubles
+        # a power of two near their size, so that squares of tiny and huge numbers stay in range
         self._unit = 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])
 
     @cached_property
@@ -59,18 +59,18 @@ class EdgeDistances:
         return shapely.STRtree(shapely.linestrings(self.segments / self._unit))
 
     def placed(self, rows: Floats) -> Floats:
-        """The robot's edges, (n, e, 2, 2), at rows x, y, theta."""
+        """Return the robot's edges, (n, e, 2, 2), at rows x, y, theta."""
         return self.at(Poses(rows[:, :2], rows[:, 2]))
 
     def at(self, poses: Poses) -> Floats:
-        """The robot's edges, (n, e, 2, 2), at some poses."""
+        """Return the robot's edges, (n, e, 2, 2), at some poses."""
         return poses.apply(self.robot.reshape(-1, 2)).reshape(len(poses), *self.robot.shape)
 
     def nearest(self, placed: Floats, within: float = math.inf) -> tuple[Floats, Ints, Ints]:
-        """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); and between which two edges they are.
+        """Return the least distances (n,) of the robot's edges, placed (n, e, 2, 2), and the two closest edges.
 
-        The robot's inside must be free of edges, and there must be one at least. Distances of more than `within` are
-        infinite.
+        No edge of an obstacle may be inside the robot, and there must be at least one. Distances of more than `within`
+        are infinite.
         """
         import shapely
 
@@ -86,7 +86,7 @@ class EdgeDistances:
         return table[rows, edge], edge, other[rows, edge]
 
     def between(self, edge: Floats, other: int) -> Floats:
-        """The closest points, (2, 2), of an edge (2, 2) of the placed robot and of an edge of `segments`."""
+        """Return the closest points, (2, 2), of an edge (2, 2) of the placed robot and of an edge of `segments`."""
         import shapely
 
         pair = (shapely.linestrings(ends / self._unit) for ends in (edge, self.segments[other]))
@@ -94,6 +94,6 @@ class EdgeDistances:
 
 
 def _edges(shapes: list[tuple[int, Polygon]]) -> tuple[Floats, list[Name]]:
-    """Ends of all edges, (n, 2, 2), and their names."""
+    """Return the ends of all edges, (n, 2, 2), and their names."""
     ends = [np.stack((shape.vertices, shape.vertices[shape.next]), axis=1) for _, shape in shapes]
     return np.concatenate([np.empty((0, 2, 2)), *ends]), [(k, i) for k, shape in shapes for i in range(len(shape))]

@@ -1,23 +1,23 @@
 """Motions of the robot: translations, rotations about a pole of at most half a turn, and slides; exact.
 
-Every displacement of the plane is one of these two (Chasles). A pure rotation moves on the helix of its pole (the
-paper's Lemma 1 and Remark 2), a translation on a straight line of the configuration space.
+Every displacement of the plane is a translation or a rotation (Chasles). A pure rotation moves on the helix of its
+pole (the paper's Lemma 1 and Remark 2), a translation on a straight line of the configuration space.
 
-A motion has a parameter u in [0, 1] in which all of it is rational. Of a translation it is the share of the vector. Of
-a rotation half the angle turned at u is the angle of (1 - u) (L, 0) + u (q, p), where tau = p / q belongs to the whole
-and L is the length of (q, p) without its fraction: nearly, but not exactly, the share of the angle.
+A motion has a parameter u in [0, 1] in which all of it is rational. For a translation, u is the share of the vector.
+For a rotation, half the angle turned at u is the angle of (1 - u) (L, 0) + u (q, p). Here tau = p / q belongs to the
+whole, and L is the length of (q, p), rounded down. So u is nearly, but not exactly, the share of the angle.
 
-Translations, rotations and slides answer the same questions, so that who asks need not tell them apart:
+Translations, rotations and slides share one interface, so callers need not distinguish them:
 
-    kind                            "translation", "rotation" or "slide"
-    pole, vector                    the point that stays in place; if there is none, how far the reference point moves
-    tau, turn                       half-angle tangent and angle of the whole, 0 of translations
-    contacts                        the two that a slide keeps; () of other motions
-    numbers                         what it is made of, exactly, by the names of files
-    apply, at, sample               poses: the last one, the one at u, several at shares of the length or angle
-    until, between, reversed        motions: parts, and the way back
-    share, parameter                the share of the length or angle that is done at u, and the other way round
-    length, reach                   how far the reference point moves from a pose, and how far other points
+    kind                            "translation", "rotation" or "slide".
+    pole, vector                    The point that stays in place; if there is none, the reference point's displacement.
+    tau, turn                       Half-angle tangent and angle of the whole, 0 for translations.
+    contacts                        The two that a slide keeps; () for other motions.
+    numbers                         The exact numbers that define it, by their names in files.
+    apply, at, sample               Poses: the last one, the one at u, several at shares of the length or angle.
+    until, between, reversed        Motions: parts, and the way back.
+    share, parameter                The share of the length or angle done at u, and its inverse.
+    length, reach                   Distances that the reference point, and other points, move from a pose.
 """
 
 from __future__ import annotations
@@ -81,39 +81,39 @@ class Translation:
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """The vector by its name."""
+        """The vector, by its name in files."""
         return {"vector": self.vector}
 
     @checked
     def apply(self, pose: PoseLike) -> Pose:
-        """Where a pose ends, exactly."""
+        """Return the pose at the end, exactly."""
         pose = to_pose(pose, "pose")
         return self.displacement @ pose
 
     @checked
     def at(self, pose: PoseLike, u: Number) -> Pose:
-        """Where a pose is at the parameter u in [0, 1], exactly."""
+        """Return the pose at the parameter u in [0, 1], exactly."""
         pose = to_pose(pose, "pose")
         return self.until(u).apply(pose)
 
     @checked
     def until(self, u: Number) -> Translation:
-        """The motion as far as u."""
+        """Return the part of the motion from 0 to u."""
         return self.between(0, u)
 
     @checked
     def between(self, u: Number, v: Number) -> Translation:
-        """The part of the motion from u to v."""
+        """Return the part of the motion from u to v."""
         share = to_fraction(v) - to_fraction(u)
         return Translation((share * self.vector[0], share * self.vector[1]))
 
     def reversed(self) -> Translation:
-        """The way back."""
+        """Return the motion back."""
         return Translation((-self.vector[0], -self.vector[1]))
 
     @checked
     def sample(self, pose: PoseLike, shares: ArrayLike) -> Poses:
-        """Poses at shares of the length, (n,), in double precision."""
+        """Return poses at shares of the length, (n,), in double precision."""
         pose = to_pose(pose, "pose")
         s = np.asarray(shares, dtype=np.float64)
         start, vector = np.array([float(pose.x), float(pose.y)]), np.array([float(v) for v in self.vector])
@@ -121,22 +121,22 @@ class Translation:
 
     @checked
     def share(self, u: Number) -> float:
-        """The share of the length that is done at u: the same."""
+        """Return the share of the length done at u, which is u."""
         return float(to_fraction(u))
 
     @checked
     def parameter(self, share: float) -> Fraction:
-        """Where a share of the length is done."""
+        """Return the parameter at which a share of the length is done."""
         return Fraction(share)
 
     @checked
     def length(self, pose: PoseLike) -> float:
-        """How far the reference point moves, from any pose."""
+        """Return the path length of the reference point, which is the same from any pose."""
         return math.hypot(*map(float, self.vector))
 
     @checked
     def reach(self, pose: PoseLike, points: ArrayLike) -> float:
-        """How far the farthest of some points of the robot moves: all move as far."""
+        """Return the path length of some points of the robot: all move equally far."""
         return self.length(pose)
 
 
@@ -150,7 +150,7 @@ class Rotation:
         In the world.
     angle : float in radians, or "-90deg", or {"tau": "p/q"}
         Counter-clockwise if positive. {"tau": "inf"} is half a turn counter-clockwise, {"tau": "-inf"} clockwise.
-        What has no rational tangent of its half is replaced as `Pose` does.
+        An angle with an irrational half-angle tangent is replaced as in `Pose`.
 
     Attributes
     ----------
@@ -158,7 +158,7 @@ class Rotation:
         Tangent of half the angle; None is half a turn.
     clockwise : bool
     angle_error : float, radians
-        Bound on what the angle differs from the one given.
+        Bound on the difference from the angle passed in.
 
     Raises
     ------
@@ -203,7 +203,7 @@ class Rotation:
 
     @property
     def turn(self) -> float:
-        """The same, as of every motion."""
+        """The signed angle, by the name that all motions share."""
         return self.angle
 
     @property
@@ -222,25 +222,25 @@ class Rotation:
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """Pole and half-angle tangent by their names; of half a turn "inf" or "-inf"."""
+        """Pole and half-angle tangent, by their names in files; "inf" or "-inf" for half a turn."""
         tau = ("-inf" if self.clockwise else "inf") if self.tau is None else self.tau
         return {"pole": self.pole, "tau": tau}
 
     @checked
     def apply(self, pose: PoseLike) -> Pose:
-        """Where a pose ends, exactly."""
+        """Return the pose at the end, exactly."""
         pose = to_pose(pose, "pose")
         return self.displacement @ pose
 
     @checked
     def at(self, pose: PoseLike, u: Number) -> Pose:
-        """Where a pose is at the parameter u in [0, 1], exactly."""
+        """Return the pose at the parameter u in [0, 1], exactly."""
         pose = to_pose(pose, "pose")
         return self.until(u).apply(pose)
 
     @checked
     def until(self, u: Number) -> Rotation:
-        """The motion as far as u."""
+        """Return the part of the motion from 0 to u."""
         share, (q, p) = to_fraction(u), self.half
         cosine, sine = (1 - share) * self.first + share * q, share * p
         if cosine:
@@ -249,31 +249,31 @@ class Rotation:
 
     @checked
     def between(self, u: Number, v: Number) -> Rotation:
-        """The part of the motion from u to v."""
+        """Return the part of the motion from u to v."""
         (q0, p0), (q1, p1) = self.until(u).half, self.until(v).half
         q, p = q0 * q1 + p0 * p1, q0 * p1 - p0 * q1  # the second half angle less the first
         return Rotation(self.pole, {"tau": Fraction(p, q) if q else "-inf" if p < 0 else "inf"})
 
     @property
     def first(self) -> int:
-        """The L of the parameter."""
+        """The number L that defines the parameter."""
         q, p = self.half
         return math.isqrt(q * q + p * p)
 
     def reversed(self) -> Rotation:
-        """The way back."""
+        """Return the motion back."""
         if self.tau is None:
             return Rotation(self.pole, {"tau": "inf" if self.clockwise else "-inf"})
         return Rotation(self.pole, {"tau": -self.tau})
 
     @checked
     def sample(self, pose: PoseLike, shares: ArrayLike) -> Poses:
-        """Poses at shares of the angle, (n,), in double precision, as precise near a pole as far away from it."""
+        """Return poses at shares of the angle, (n,), in double precision, equally precise near a pole and far away."""
         pose = to_pose(pose, "pose")
         s, half = np.asarray(shares, dtype=np.float64), 0.5 * self.turn
         end = self.apply(pose)
         x, y = float(end.x - pose.x), float(end.y - pose.y)
-        # the chord of a share: shorter by the ratio of sines, and back by half of what is left of the angle
+        # the chord of a share: shorter by the ratio of sines, turned back by half of the remaining angle
         scale = np.sin(s * half) / math.sin(half) if half else s
         c, n = scale * np.cos((s - 1) * half), scale * np.sin((s - 1) * half)
         xy = np.stack((float(pose.x) + c * x - n * y, float(pose.y) + n * x + c * y), axis=1)
@@ -281,12 +281,12 @@ class Rotation:
 
     @checked
     def share(self, u: Number) -> float:
-        """The share of the angle that is turned at u."""
+        """Return the share of the angle turned at u."""
         return self.until(u).turn / self.turn if self.turn else 0.0
 
     @checked
     def parameter(self, share: float) -> Fraction:
-        """Where a share of the angle is turned, but for rounding."""
+        """Return the parameter at which a share of the angle is turned, up to rounding."""
         (q, p), half = self.half, share * self.turn / 2
         c, s = math.cos(half), math.sin(half)
         # (1 - u) (L, 0) + u (q, p) has that direction
@@ -295,13 +295,13 @@ class Rotation:
 
     @checked
     def length(self, pose: PoseLike) -> float:
-        """How far the reference point moves from a pose."""
+        """Return the path length of the reference point from a pose."""
         pose = to_pose(pose, "pose")
         return math.hypot(float(pose.x - self.pole[0]), float(pose.y - self.pole[1])) * abs(self.turn)
 
     @checked
     def reach(self, pose: PoseLike, points: ArrayLike) -> float:
-        """How far the farthest of some points of the robot, (..., 2), moves."""
+        """Return the path length of the farthest moving one of some points of the robot, (..., 2)."""
         pose = to_pose(pose, "pose")
         arms = pose.apply(np.asarray(points, np.float64).reshape(-1, 2)) - [float(c) for c in self.pole]
         return float(np.hypot(*arms.T).max()) * abs(self.turn)
@@ -312,7 +312,7 @@ Motion = Translation | Rotation | Slide
 
 @checked
 def motion_between(a: PoseLike, b: PoseLike) -> Translation | Rotation:
-    """The translation from one pose to another, or the rotation by at most half a turn: Chasles.
+    """Return the translation from one pose to another, or the rotation by at most half a turn (Chasles).
 
     Examples
     --------
@@ -333,12 +333,12 @@ def motion_between(a: PoseLike, b: PoseLike) -> Translation | Rotation:
 
 @checked
 def rotations(pole: tuple[Number, Number], angle: Number) -> tuple[Rotation, ...]:
-    """A turn of any size about a pole, as rotations of at most half a turn each, all of one direction.
+    """Divide a turn of any size about a pole into rotations of at most half a turn each, all in one direction.
 
     Parameters
     ----------
     angle : number in radians or "400deg"
-        Half turns come first. Within an ulp of a multiple of pi/2 radians mean it.
+        Half turns come first. Radians within an ulp of a multiple of pi/2 mean that multiple.
 
     Raises
     ------
@@ -363,7 +363,7 @@ def rotations(pole: tuple[Number, Number], angle: Number) -> tuple[Rotation, ...
 
 
 def _without_halves(angle: Number, halves: int) -> Fraction | None:
-    """Half-angle tangent of an angle less some half turns."""
+    """Return the half-angle tangent of an angle less some half turns."""
     tau = Pose(0, 0, angle).tau
     if halves % 2 == 0:
         return tau
@@ -371,7 +371,7 @@ def _without_halves(angle: Number, halves: int) -> Fraction | None:
 
 
 def _size(angle: Number) -> tuple[bool, float]:
-    """Is an angle negative, and its size in radians?"""
+    """Return the sign of an angle, True if negative, and its size in radians."""
     value, unit = number_and_unit(angle)
     size = to_fraction(value)
     return size < 0, math.radians(float(abs(size))) if unit == "deg" else float(abs(size))

@@ -1,6 +1,6 @@
-"""Is a whole motion free? Decided exactly, in closed form and without steps: docs/theory/motions.md.
+"""Exact collision checks of whole motions, in closed form and without steps: docs/theory/motions.md.
 
-The core decides; here motions become integers, and its answers objects.
+The core decides; this module converts motions to integers and its answers to objects.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ PLAIN_MOTIONS = frozenset({Translation, Rotation})  # kinds of motions that the 
 
 @dataclass(frozen=True)
 class FirstContact:
-    """Where a motion becomes forbidden.
+    """The place where a motion becomes forbidden.
 
     Attributes
     ----------
@@ -43,8 +43,8 @@ class FirstContact:
     obstacle : int
         The obstacle; -1 stands for the bounds, -2 for the workspace.
     contact : VertexEdge or EdgeVertex, optional
-        The contact that is entered, in the numbering of the two polygons, the workspace's for -2. None for a pose
-        that is forbidden from the beginning, for bounds, and where a diagonal of the convex pieces parts them last.
+        The contact that is entered, in the numbering of the two polygons, the workspace's for -2. None if the first
+        pose is forbidden, for bounds, and if a diagonal of the convex pieces is the last to separate them.
     """
 
     at: Surd
@@ -64,7 +64,7 @@ class MotionChecker(Value):
     Notes
     -----
     The scene is prepared once, in O((n + m) log(n + m)) time and a few times as much as `Polygon.pieces` takes. A check
-    looks at the obstacles near the motion only, in doubles with proven bounds; pairs of convex pieces of p and q edges
+    reads only the obstacles near the motion, in doubles with proven bounds. Pairs of convex pieces of p and q edges
     that touch on the way are decided in exact integers, in O((p q)^2) time.
 
     Examples
@@ -92,7 +92,7 @@ class MotionChecker(Value):
 
     @property
     def units(self) -> tuple[int, int]:
-        """The core's integers are coordinates times the first, its doubles those halved as often as the second says."""
+        """Units of the core: its integers are coordinates times the first, its doubles these over 2 to the second."""
         return self.features.scale, self.features.core.shift
 
     def is_free(self, pose: PoseLike, motion: Motion) -> bool:
@@ -124,32 +124,32 @@ class MotionChecker(Value):
 
     @checked
     def joins(self, poses: Sequence[Pose]) -> bool:
-        """Are the motions from each of these poses to the next free, as of `motion_between`?"""
+        """True if the motions of `motion_between` from each of these poses to the next are free."""
         return all(self.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
 
     @checked
     def first_free(self, ways: Iterable[Sequence[Pose]]) -> Sequence[Pose] | None:
-        """The first of some ways, each given by poses, that is free."""
+        """Return the first free one of some paths, each a sequence of poses."""
         return next(filter(self.joins, ways), None)
 
     @checked
     def first_contact(self, pose: PoseLike, motion: Motion) -> FirstContact | None:
-        """Where a motion becomes forbidden for the first time; None if it is free.
+        """Return the place where a motion first becomes forbidden; None if it is free.
 
         Raises
         ------
         UnsupportedError
-            For slides: where they end is known by `is_free` of parts of them only.
+            If the motion is a slide: call `is_free` for parts of it.
         """
         pose = to_pose(pose, "pose")
         if isinstance(motion, Slide):
-            raise UnsupportedError("a slide has no first contact; ask is_free for parts of it, as of Slide.between")
+            raise UnsupportedError("a slide has no first contact; call is_free for parts of it, from Slide.between")
         if (outside := self._outside(pose)) is not None:
             return FirstContact(Surd(0), outside[0], outside[1], None)
-        found = self.core.first_collision(*self._integers(pose, motion))
-        if found is None:
+        collision = self.core.first_collision(*self._integers(pose, motion))
+        if collision is None:
             return None
-        polynomial, robot_piece, obstacle_piece, kind, i, j = found
+        polynomial, robot_piece, obstacle_piece, kind, i, j = collision
         robot, obstacles = self.features.robot, self.features.obstacles
         part, obstacle = _polygon(robot, robot_piece), _polygon(obstacles, obstacle_piece)
         contact: VertexEdge | EdgeVertex | None = None
@@ -162,9 +162,9 @@ class MotionChecker(Value):
         return FirstContact(_crossing(polynomial) if kind else Surd(0), part, obstacle, contact)
 
     def _outside(self, pose: Pose) -> tuple[int, int] | None:
-        """Robot polygon, and -1 or -2, if the first pose is outside the bounds or beyond the workspace's frame.
+        """Return a robot polygon and -1 or -2 if the first pose is outside the bounds or beyond the workspace's frame.
 
-        Later poses have to pass what is around the bounds and the workspace.
+        Later poses can only leave through the frames around the bounds and the workspace.
         """
         if self._scene.bounds is not None:
             x0, y0, x1, y1 = self._scene.bounds
@@ -179,7 +179,7 @@ class MotionChecker(Value):
         return None
 
     def _slide_integers(self, pose: Pose, slide: Slide) -> list[int]:
-        """What the core calls a slide: polynomials in u."""
+        """Return a slide in the core's form: polynomials in u."""
         scale, q, p = self.features.scale, slide.tau.denominator, slide.tau.numerator
         x = [scale * (pose.x * d + c) for c, d in zip(slide.x, slide.d, strict=True)]
         y = [scale * (pose.y * d + c) for c, d in zip(slide.y, slide.d, strict=True)]
@@ -188,7 +188,7 @@ class MotionChecker(Value):
         return [*pose.rotation, q, p, *(int(c * whole) for c in terms)]
 
     def _integers(self, pose: Pose, motion: Translation | Rotation) -> tuple[bool, tuple[int, ...]]:
-        """What the core calls a motion."""
+        """Return a motion in the core's form."""
         vx, vy = motion.pole or motion.vector
         unit = math.lcm(pose.x.denominator, pose.y.denominator, vx.denominator, vy.denominator)
         scale = unit * self.features.scale
@@ -198,7 +198,7 @@ class MotionChecker(Value):
 
 
 def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
-    """True if every pose of a motion is free, decided exactly. The scene keeps what is prepared for it.
+    """True if every pose of a motion is free, decided exactly. The scene caches its preparation.
 
     Examples
     --------
@@ -235,7 +235,7 @@ def _prepared(scene: Scene) -> _core.MotionChecker:
 
 @checked
 def first_contact(scene: Scene, pose: PoseLike, motion: Motion) -> FirstContact | None:
-    """Where a motion becomes forbidden for the first time; None if it is free.
+    """Return the place where a motion first becomes forbidden; None if it is free.
 
     Examples
     --------
@@ -252,7 +252,7 @@ def first_contact(scene: Scene, pose: PoseLike, motion: Motion) -> FirstContact 
 
 
 def _crossing(polynomial: list[int]) -> Surd:
-    """Where a quadratic (or linear) polynomial, its constant first, grows through zero."""
+    """Return the zero at which a quadratic (or linear) polynomial, its constant first, is increasing."""
     c, b, a = (*polynomial, 0)[:3]
     if a == 0:
         return Surd(Fraction(-c, b))
@@ -266,7 +266,7 @@ def _polygon(shape: ShapeFeatures, piece: int) -> int:
 
 
 def _extent(shape: ShapeFeatures) -> tuple[Fraction, Fraction, Fraction, Fraction]:
-    """The outer rim of the frame around the workspace, which is around everything."""
-    points = [p for p, of in zip(shape.vertices, shape.core.layer, strict=False) if of == BODY]
+    """Return the outer rim of the frame around the workspace, which encloses everything."""
+    points = [p for p, layer in zip(shape.vertices, shape.core.layer, strict=False) if layer == BODY]
     xs, ys = ([Fraction(c, shape.scale) for c in axis] for axis in zip(*points, strict=True))
     return min(xs), min(ys), max(xs), max(ys)

@@ -1,4 +1,4 @@
-"""Is the robot, where it stands, nearer to something than a distance? Exact, by squares of rationals."""
+"""Exact test, by squares of rationals, that the robot at a pose keeps a distance from everything."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-ROUNDING = 2.0**-40  # relative to the coordinates: more than that of the boxes
+ROUNDING = 2.0**-40  # relative to the coordinates: exceeds the rounding of the boxes
 
 
 @checked
 def require_distance(scene: Scene, pose: Pose, distance: Fraction, name: str = "pose") -> None:
-    """See that the robot keeps a distance from obstacles and workspace at a free pose, exactly.
+    """Check, exactly, that the robot keeps a distance from obstacles and workspace at a free pose.
 
     Raises
     ------
@@ -39,9 +39,9 @@ def require_distance(scene: Scene, pose: Pose, distance: Fraction, name: str = "
     cfree.errors.InvalidPoseError: start: 4.24264 away from obstacle 0, 5 x 5 at (6.5, 6.5), and the clearance \
 is 5; move it, or give a clearance of less than 4.24264
     """
-    found = min(_nearer(scene, pose, distance), default=None)
-    if found is not None:
-        square, obstacle = found
+    nearest = min(_nearer(scene, pose, distance), default=None)
+    if nearest is not None:
+        square, obstacle = nearest
         away = f"{float(square) ** 0.5:.6g}"
         remedy = f"move it, or give a clearance of less than {away}" if square else "it touches; move it"
         raise InvalidPoseError(
@@ -50,9 +50,9 @@ is 5; move it, or give a clearance of less than 4.24264
 
 
 def _nearer(scene: Scene, pose: Pose, distance: Fraction) -> Iterator[tuple[Fraction, int]]:
-    """Squares of distances that are less than it, between a vertex of one and an edge of the other, and the obstacle.
+    """Yield squared distances between a vertex and an edge that are less than a distance, and the obstacles.
 
-    Nothing overlaps: so the least distance is one of these.
+    Nothing overlaps, so the least distance from an obstacle is one of these.
     """
     shapes = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
     for part in scene.robot:
@@ -70,13 +70,13 @@ def _nearer(scene: Scene, pose: Pose, distance: Fraction) -> Iterator[tuple[Frac
 
 
 def _boxes(vertices: Floats, after: Ints) -> Floats:
-    """Of the edges that begin at each vertex: (n, 4), xmin, ymin, xmax, ymax."""
+    """Return boxes (n, 4), xmin, ymin, xmax, ymax, of the edges that begin at each vertex."""
     ends = vertices, vertices[after]
     return np.concatenate([np.minimum(*ends), np.maximum(*ends)], axis=1)
 
 
 def _close(some: Floats, others: Floats, room: float) -> Iterator[tuple[int, int]]:
-    """Pairs of edges whose boxes are not farther from each other."""
+    """Yield pairs of edges whose boxes are at most `room` apart."""
     low, high = some[:, :2].min(axis=0) - room, some[:, 2:].max(axis=0) + room
     for j in np.flatnonzero(((others[:, 2:] >= low) & (others[:, :2] <= high)).all(axis=1)).tolist():
         near = (some[:, 2:] >= others[j, :2] - room) & (some[:, :2] <= others[j, 2:] + room)
@@ -84,7 +84,7 @@ def _close(some: Floats, others: Floats, room: float) -> Iterator[tuple[int, int
 
 
 def square_distance(point: ExactPoint, a: ExactPoint, b: ExactPoint) -> Fraction:
-    """Of a point from a segment.
+    """Return the squared distance of a point from a segment.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Forbidden poses, explained: what overlaps what, and a free pose near by."""
+"""Explanations of forbidden poses: the parts that overlap, and a free pose near by."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from cfree.scene.scene import Scene, box_of, robot_radius
 if TYPE_CHECKING:
     from cfree.exact.pose import Floats
 
-DIRECTIONS, GROWTH = 32, 1.5  # of the places looked at, on circles whose radii grow so
-NEAREST, FARTHEST = 1e-6, 10.0  # these radii, in lengths of the robot
-ROUNDS, TRIES, CLOSER, HALVINGS = 60, 64, 0.85, 45  # of the search for a nearer one
-SAMPLES, MISSES, ENOUGH = 40_000, 3, 0.99  # before that, as many around the pose until so often nothing is gained
-DIGITS, ROUGHLY = 18, 0.01  # digits of its numbers, fewer if they do; how much farther it may be for fewer
-NOTHING = 1e-9  # of an offset: none
+DIRECTIONS, GROWTH = 32, 1.5  # directions in which places are tried on circles, and ratio of successive radii
+NEAREST, FARTHEST = 1e-6, 10.0  # least and greatest radius, in lengths of the robot
+ROUNDS, TRIES, CLOSER, HALVINGS = 60, 64, 0.85, 45  # of the search for a nearer pose
+SAMPLES, MISSES, ENOUGH = 40_000, 3, 0.99  # random poses in each round before that; rounds without a gain that end it
+DIGITS, ROUGHLY = 18, 0.01  # most digits of its numbers; how much farther it may be to have fewer
+NOTHING = 1e-9  # smaller parts of an offset count as 0
 TURNS = (0.0, 1.0, -1.0, 5.0, -5.0, 15.0, -15.0, 45.0, -45.0, 90.0, -90.0, 180.0)  # degrees
 
 
@@ -41,20 +41,20 @@ class ForbiddenPoseError(InvalidPoseError):
 
 @checked
 def require_free(scene: Scene | PoseChecker, pose: PoseLike, name: str = "pose") -> None:
-    """See that a pose is free, exactly.
+    """Check, exactly, that a pose is free.
 
     Parameters
     ----------
     scene : Scene or PoseChecker
     pose : Pose or (x, y, theta)
     name : str, optional
-        What the message calls it.
+        Name of the pose in the message.
 
     Raises
     ------
     ForbiddenPoseError
-        If it is forbidden. The message names a part of the robot and what it overlaps, and a free pose near by, which
-        is the error's `free`, if one was found.
+        If it is forbidden. The message names a part of the robot, the obstacle that it overlaps, and a free pose near
+        by, which is the error's `free`, if one was found.
 
     Examples
     --------
@@ -78,13 +78,13 @@ robot part 0 overlaps obstacle 0, 1 x 9 at (2.5, 4.5); (0.96, 2, 0 deg) is free 
 
 @checked
 def free_nearby(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
-    """A free pose that is near another one, of few digits; not the nearest.
+    """Return a free pose near another one, with few digits; not the nearest.
 
     Returns
     -------
     Pose or None
-        Of thousands of poses on circles around it, from a millionth to ten times the robot's length away and turned by
-        up to half a turn, the nearest that is free, exactly; None if none is. Always the same.
+        The nearest of thousands of poses around it that is free, exactly; None if none is. The poses are on circles, a
+        millionth to ten times the robot's length away, turned by up to half a turn. The result is always the same.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def free_nearby(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
 
 @checked
 def nearest_free(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
-    """The nearest free pose that a search finds, the pose itself if it is free.
+    """Search for the nearest free pose; return the pose itself if it is free.
 
     Parameters
     ----------
@@ -109,12 +109,13 @@ def nearest_free(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
     Returns
     -------
     Pose or None
-        Free, exactly, and always the same. How near it is counts the way of the reference point, plus the turning times
-        the robot's length. That no other one is nearer is not proved. None if none is found.
+        Free, exactly, and always the same; None if none is found. The distance minimised is that of the reference
+        point plus the angle turned times the robot's length. It is not proved that no other pose is nearer.
 
     Notes
     -----
-    `free_nearby` begins; random poses about the best one, closer and closer, and a bisection on the way to it go on.
+    The search begins with `free_nearby`, goes on with random poses closer and closer to the best one, and ends with a
+    bisection between it and the pose.
 
     Examples
     --------
@@ -130,23 +131,23 @@ def nearest_free(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
     length, (low, high) = _length(checker), _extent(checker.scene)
     x, y = np.clip((float(pose.x), float(pose.y)), low, high).tolist()
     inside = Pose(x, y, {"tau": pose.tau})
-    found = inside if checker.is_free(inside) else _on_circles(checker, inside, _reach(checker.scene, inside) / length)
-    if found is None:
+    near = inside if checker.is_free(inside) else _on_circles(checker, inside, _reach(checker.scene, inside) / length)
+    if near is None:
         return None
     here = np.array([float(pose.x), float(pose.y), pose.theta])
-    offset = _closer(checker, here, _offset(pose, found, length), length)
+    offset = _closer(checker, here, _offset(pose, near, length), length)
     most = _way(offset) + ROUGHLY * min(_way(offset), length)
     for digits in range(DIGITS):
-        places = [near for turn in (0.0, offset[2]) for near in _rounded(pose, (*offset[:2], turn), length, digits)]
-        ways = [(_way(_offset(pose, near, length)), k) for k, near in enumerate(places)]
+        places = [place for turn in (0.0, offset[2]) for place in _rounded(pose, (*offset[:2], turn), length, digits)]
+        ways = [(_way(_offset(pose, place, length)), k) for k, place in enumerate(places)]
         for way, k in sorted(ways):
             if way <= most and checker.is_free(places[k]):
                 return places[k]
-    return found
+    return near
 
 
 def _closer(checker: PoseChecker, here: Floats, first: Floats, length: float) -> Floats:
-    """A shorter offset x, y, length times turn to a free pose, in doubles."""
+    """Return a shorter offset x, y, length times turn to a free pose, in doubles."""
     rng, best = np.random.default_rng(0), first
 
     def free(offsets: Floats) -> Floats:
@@ -155,16 +156,16 @@ def _closer(checker: PoseChecker, here: Floats, first: Floats, length: float) ->
 
     misses = 0
     while misses < MISSES:
-        found = free(_ball(rng, _way(best)))
-        nearest = min(found, key=_way, default=best)
+        offsets = free(_ball(rng, _way(best)))
+        nearest = min(offsets, key=_way, default=best)
         misses = 0 if _way(nearest) < ENOUGH * _way(best) else misses + 1
         best = nearest
     for k in range(ROUNDS):
         about = best + rng.normal(size=(TRIES, 3)) * (_way(best) * CLOSER**k)
         about[::2, 2] = best[2] * (k % 2)  # half of them without turning, or turned as the best
         about = np.concatenate([about, best * rng.uniform(size=(TRIES // 4, 1))])
-        found = free(about[[_way(row) < _way(best) for row in about]])
-        best = min(found, key=_way, default=best)
+        offsets = free(about[[_way(row) < _way(best) for row in about]])
+        best = min(offsets, key=_way, default=best)
     low, high = 0.0, 1.0
     for _ in range(HALVINGS):
         middle = (low + high) / 2
@@ -173,13 +174,13 @@ def _closer(checker: PoseChecker, here: Floats, first: Floats, length: float) ->
 
 
 def _ball(rng: np.random.Generator, way: float) -> Floats:
-    """Random offsets that are a shorter way than one."""
+    """Return random offsets shorter than a limit."""
     rows = rng.uniform(-way, way, size=(SAMPLES, 3))
     return rows[np.hypot(rows[:, 0], rows[:, 1]) + np.abs(rows[:, 2]) < way]
 
 
 def _rounded(pose: Pose, offset: Sequence[float], length: float, digits: int) -> Iterator[Pose]:
-    """The pose moved by about an offset, to places and by an angle of so many digits: each number down, and up."""
+    """Yield the pose moved by an offset whose numbers are rounded to some digits, each of x and y down and up."""
     size = max(abs(offset[0]), abs(offset[1]), 1e-300)
     unit = Fraction(10) ** (math.floor(math.log10(size)) - digits)
     degrees = math.degrees(offset[2] / length)
@@ -202,12 +203,12 @@ def _way(offset: Floats) -> float:
 
 
 def _length(checker: PoseChecker) -> float:
-    """The longer side of the box around the robot's largest part."""
+    """Return the longer side of the box around the robot's largest part."""
     return max(float(np.ptp(part.vertices, axis=0).max()) for part in checker.scene.robot)
 
 
 def _extent(scene: Scene) -> tuple[Floats, Floats]:
-    """Corners of the box that the reference point has to be in, or that is about all there is."""
+    """Return the corners of the bounds, or else of the box around the workspace, or else of the whole plane."""
     if scene.bounds:
         box = tuple(map(float, scene.bounds))
     elif scene.workspace:
@@ -218,7 +219,7 @@ def _extent(scene: Scene) -> tuple[Floats, Floats]:
 
 
 def _reach(scene: Scene, pose: Pose) -> float:
-    """Distance from a pose beyond which there is nothing of a scene, or more."""
+    """Return a bound of the distance from a pose beyond which a scene has nothing."""
     shapes = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
     boxes = np.array([box_of(shape) for shape in shapes]).reshape(-1, 2)
     room = np.array(scene.bounds, dtype=np.float64).reshape(-1, 2) if scene.bounds else boxes
@@ -227,7 +228,7 @@ def _reach(scene: Scene, pose: Pose) -> float:
 
 
 def _on_circles(checker: PoseChecker, pose: Pose, farthest: float) -> Pose | None:
-    """The nearest free one of many poses on circles, the largest of so many lengths of the robot."""
+    """Return the nearest free one of many poses on circles, whose radii are at most `farthest` robot lengths."""
     length = _length(checker)
     offsets = [_circle(NEAREST * length * GROWTH**k, length) for k in range(_circles(farthest))]
     turns = np.array([(0.0, 0.0, turn, 0.0) for turn in TURNS[1:]])
@@ -239,9 +240,9 @@ def _on_circles(checker: PoseChecker, pose: Pose, farthest: float) -> Pose | Non
         turn, digits = table[k, 2:].tolist()
         x, y = (round(c, int(digits)) for c in places[k].tolist()) if digits else (pose.x, pose.y)
         tilt = Pose(0, 0, f"{turn:g}deg")
-        found = Pose(x, y, {"tau": (tilt @ Pose(0, 0, {"tau": pose.tau})).tau})
-        if checker.is_free(found):
-            return found
+        near = Pose(x, y, {"tau": (tilt @ Pose(0, 0, {"tau": pose.tau})).tau})
+        if checker.is_free(near):
+            return near
     return None
 
 
@@ -250,7 +251,7 @@ def _circles(farthest: float) -> int:
 
 
 def _circle(radius: float, length: float) -> Floats:
-    """Rows x, y, degrees, and the digits that a coordinate of that size needs."""
+    """Return rows x, y, degrees, and the number of digits that a coordinate of that size needs."""
     phi = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
     digits = max(1, 1 - math.floor(math.log10(radius)))
     turns = [turn for turn in TURNS if math.radians(abs(turn)) * length <= 4 * radius]
@@ -259,13 +260,13 @@ def _circle(radius: float, length: float) -> Floats:
 
 
 def _overlap(scene: Scene, pose: Pose) -> str:
-    found = MotionChecker(scene).first_contact(pose, Translation((0, 0)))
-    assert found is not None  # both are exact
-    if found.obstacle == BOUNDS:
+    contact = MotionChecker(scene).first_contact(pose, Translation((0, 0)))
+    assert contact is not None  # both are exact
+    if contact.obstacle == BOUNDS:
         return "the reference point is outside the bounds"
-    if found.obstacle == WORKSPACE:
-        return f"robot part {found.robot} is not inside the workspace"
-    return f"robot part {found.robot} overlaps {placed(scene, found.obstacle)}"
+    if contact.obstacle == WORKSPACE:
+        return f"robot part {contact.robot} is not inside the workspace"
+    return f"robot part {contact.robot} overlaps {placed(scene, contact.obstacle)}"
 
 
 def _shown(pose: Pose) -> str:

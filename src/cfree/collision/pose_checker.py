@@ -1,8 +1,8 @@
 """Collision checks of poses, one or millions, each decided exactly.
 
-The core compares convex pieces in doubles with a proven error bound, and says which poses that leaves uncertain: those
-in contact, or within about 1e-13 of the size of the scene. These are decided in integers, one by one. A single pose
-goes to the core as it is given.
+The core compares convex pieces in doubles with a proven error bound, and marks the poses that this leaves uncertain:
+those in contact, or within about 1e-13 of the size of the scene. These are decided in integers, one by one. A single
+pose is passed to the core unchanged.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from cfree.scene.scene import Scene
 from cfree.value import Value, kept
 
 FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
-BLOCK = 1 << 22  # poses between two looks at Ctrl-C
+BLOCK = 1 << 22  # poses between two checks for Ctrl-C
 FARTHEST = 1e300  # coordinates beyond are as far as this
 
 Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | float]
@@ -56,20 +56,20 @@ def is_free(
     Parameters
     ----------
     scene : Scene or PoseChecker
-        Either keeps what has been prepared for it.
+        Either caches its preparation.
     poses : Pose or (x, y, theta), Poses, sequence of the former, or (n, 3) float64
-        Columns x, y, theta in radians. Row k means the exact pose ``Poses(...)[k]``: x and y are the numbers that the
-        doubles are, theta is replaced by the rational half-angle tangent that `Pose` takes for it.
+        Columns x, y, theta in radians. Row k means the exact pose ``Poses(...)[k]``: the doubles x and y are taken
+        exactly, theta is replaced by the rational half-angle tangent that `Pose` takes for it.
     threads : int, optional
         All cores by default. The result does not depend on it.
     tolerance : float, optional
-        Of a scene with round shapes, as in `plan`.
+        As in `plan`; for scenes with round shapes only.
 
     Returns
     -------
     bool, or (n,) bool
         One for each pose. In a scene with round shapes (n,) object: None where polygons within the tolerance do not
-        tell, because the shapes touch, or all but do.
+        decide, because the shapes touch or nearly touch.
 
     Raises
     ------
@@ -79,9 +79,9 @@ def is_free(
     Notes
     -----
     A pose is free if no interior of a convex piece of the robot meets one of the obstacles' pieces (or the
-    complement of the workspace), and the reference point is in the bounds. Preparing takes time about linear in the
-    vertices, once for a scene, which keeps what is prepared. A pose takes time in the number of pieces near by: a
-    single one, in doubles or as a `Pose`, about a microsecond. An uncertain pose (see above) takes a few more.
+    complement of the workspace), and the reference point is in the bounds. A scene is prepared once, in time about
+    linear in the vertices, and caches the result. A pose takes time in the number of pieces near by: a single one, in
+    doubles or as a `Pose`, about a microsecond. A pose in contact or nearly so takes a few more.
 
     Examples
     --------
@@ -112,8 +112,8 @@ def _is_free(
     tolerance: float | None,
 ) -> bool | NDArray[np.bool_]:
     if isinstance(scene, Scene) and scene.curved:
-        found: NDArray[np.bool_] = _among_curves(scene, poses, threads, tolerance)
-        return found
+        free: NDArray[np.bool_] = _among_curves(scene, poses, threads, tolerance)
+        return free
     if tolerance is not None:
         raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
     checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
@@ -121,18 +121,18 @@ def _is_free(
 
 
 def _is_count(threads: int | None) -> bool:
-    """True if there is nothing wrong with the number of threads, of which one pose needs no more than this one."""
+    """True if the number of threads is valid; one pose needs only the current thread."""
     return threads is None or (type(threads) is int and threads > 0)
 
 
 def _of_one(core: _core.PoseChecker, poses: Any) -> bool | NDArray[np.bool_] | None:
-    """Return the verdict of one `Pose`, of one in doubles, or of a table of one row; None for anything else."""
+    """Return the verdict for one `Pose`, for one in doubles, or for a table of one row; None for anything else."""
     free: Any = core.is_free(for_core(poses))
     return np.array(free) if type(free) is list else free
 
 
 def _among_curves(scene: Scene, poses: Any, threads: int | None, tolerance: float | None) -> Any:
-    """True where a pose is free among polygons around the shapes, False where it is not among those inside of them."""
+    """Return True where a pose is free among outer polygons, False where it is forbidden by inner ones, else None."""
     from cfree.collision.approximations import Approximations
 
     near = Approximations(scene, tolerance)
@@ -143,23 +143,23 @@ def _among_curves(scene: Scene, poses: Any, threads: int | None, tolerance: floa
         table = np.array([[float(row.x), float(row.y), row.theta] for row in rows])
     else:
         rows = table = _table(rows)
-    found, unknown = np.full(len(rows), None, dtype=object), np.arange(len(rows))
+    verdicts, unknown = np.full(len(rows), None, dtype=object), np.arange(len(rows))
     while len(unknown):
         for outward in (True, False):
-            asked = [rows[k] for k in unknown] if isinstance(rows, list) else rows[unknown]
+            undecided = [rows[k] for k in unknown] if isinstance(rows, list) else rows[unknown]
             try:
                 checker = PoseChecker(near.scene(outward=outward))
-            except UndecidedError:  # no polygons: nothing is known
+            except UndecidedError:  # no polygons, so no verdict
                 continue
-            free = checker.is_free(asked, threads=threads)
-            found[unknown[free == outward]] = outward
+            free = checker.is_free(undecided, threads=threads)
+            verdicts[unknown[free == outward]] = outward
             unknown = unknown[free != outward]
             if not len(unknown):
                 break
         else:
             if not near.refine(table[unknown]):
                 break
-    return found[0] if pose is not None else found
+    return verdicts[0] if pose is not None else verdicts
 
 
 @checked
@@ -221,7 +221,7 @@ class PoseChecker(Value):
 
     @checked
     def verdicts(self, table: Floats, threads: int | None = None) -> NDArray[np.uint8]:
-        """FORBIDDEN or FREE where doubles say so with certainty, else UNCERTAIN; rows x, y and theta in [0, 2 pi)."""
+        """Return FORBIDDEN or FREE where doubles are certain, else UNCERTAIN; rows x, y and theta in [0, 2 pi)."""
         verdicts = np.empty(len(table), np.uint8)
         for k in range(0, len(table), BLOCK):
             rows = slice(k, k + BLOCK)
@@ -230,19 +230,20 @@ class PoseChecker(Value):
 
     @checked
     def sweep_is_free(self, start: ArrayLike, by: ArrayLike) -> bool:
-        """Are all poses free while x, y and theta change evenly? Certainly if True; False may mean too close to tell.
+        """True if all poses are certainly free while x, y and theta change evenly; False may mean too close to decide.
 
         Parameters
         ----------
         start : (x, y, theta)
             In radians.
         by : (dx, dy, dtheta)
-            What is added on the way.
+            The whole change.
 
         Notes
         -----
-        No rotation about a pole and no translation, if something of both changes: the motion is halved until the robot,
-        grown by as much as it moves in a part, keeps its distance. What touches is never told to be free.
+        If position and angle both change, this is neither a translation nor a rotation about a pole. The motion is
+        halved until the robot, grown by as much as it moves in a part, keeps its distance. Contact never counts as
+        free.
 
         Examples
         --------
@@ -256,7 +257,7 @@ class PoseChecker(Value):
 
     def _is_free_exactly(self, pose: Pose) -> bool:
         free: Any = self.core.is_free(pose)
-        if free is None:  # on a limit, or all but so
+        if free is None:  # on a limit, or nearly so
             x0, y0, x1, y1 = self.limits
             is_within = x0 <= pose.x <= x1 and y0 <= pose.y <= y1
             free = is_within and self.core.is_free(pose, is_within)
@@ -290,12 +291,12 @@ def rows_of(poses: Any) -> Floats | list[Pose]:
 
 
 def _is_table(rows: Sequence[Any]) -> bool:
-    """Are these rows of plain numbers, which are poses in double precision?"""
+    """True if these are rows of plain numbers, which are poses in double precision."""
     return all(isinstance(row, Sequence | np.ndarray) and all(isinstance(c, int | float) for c in row) for row in rows)
 
 
 def _table(poses: Any) -> Floats:
-    """Rows x, y, theta of finite numbers, theta in [0, 2 pi)."""
+    """Return rows x, y, theta of finite numbers, theta in [0, 2 pi)."""
     if isinstance(poses, Poses):
         return np.column_stack([poses.xy, poses.theta])
     table = np.ascontiguousarray(poses, dtype=np.float64)
@@ -308,9 +309,9 @@ def _table(poses: Any) -> Floats:
 
 
 def limits_of(scene: Scene) -> Limits:
-    """Where the reference point may be: in the bounds, and no further outside the workspace than the robot reaches.
+    """Return limits of the reference point: the bounds, and the workspace's box widened by the robot's reach.
 
-    The core knows only a frame around the workspace: twice as thick as the robot reaches.
+    The core has only a frame around the workspace, twice as thick as the robot's reach.
     """
     x0, y0, x1, y1 = scene.bounds or (-math.inf, -math.inf, math.inf, math.inf)
     if scene.workspace is None:
@@ -321,6 +322,6 @@ def limits_of(scene: Scene) -> Limits:
 
 
 def _least_double(value: Fraction | float) -> float:
-    """The least double that is not below."""
+    """Return the least double that is not below a number."""
     double = float(value)
     return double if double >= value else math.nextafter(double, math.inf)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from flint import fmpq_poly
 
 DEGREE = 4
-PARTS = 16  # for which speeds are bounded
+PARTS = 16  # parts of a slide for which speeds are bounded
 Floats = NDArray[np.float64]
 Terms = tuple[Fraction, ...]  # of a polynomial, the constant first
 Feature = tuple[int, int]  # polygon, and vertex; an edge by the vertex where it begins
@@ -35,7 +35,7 @@ Feature = tuple[int, int]  # polygon, and vertex; an edge by the vertex where it
 @checked
 @dataclass(frozen=True)
 class Touch:
-    """Which features touch.
+    """Two features that touch.
 
     Attributes
     ----------
@@ -58,18 +58,18 @@ class Slide:
     Parameters
     ----------
     contacts : pair of Touch
-        For people; `cfree.verify` checks that they are kept, and nothing else uses them.
+        For information; `cfree.verify` checks that they are kept, and nothing else uses them.
     x, y, d : sequences of numbers
-        Coefficients of polynomials in t, the constant first, five at most: when the robot has turned by 2 atan(t), the
-        reference point is (x(t), y(t)) / d(t) from where it was. In the world, in the scene's unit of length.
+        Coefficients of polynomials in t, the constant first, five at most. When the robot has turned by 2 atan(t), the
+        reference point has moved by (x(t), y(t)) / d(t). In the world, in the scene's unit of length.
     tau : number
         Tangent of half the whole angle.
 
     Raises
     ------
     InvalidPoseError
-        If it does not begin where the robot is, has too many coefficients, or the Bernstein coefficients of d for
-        t from 0 to tau are not all of one sign.
+        If it does not begin at the robot's position, has too many coefficients, or the Bernstein coefficients of d
+        for t from 0 to tau are not all of one sign.
 
     Examples
     --------
@@ -93,15 +93,16 @@ class Slide:
         self, contacts: tuple[Touch, Touch], x: Iterable[Number], y: Iterable[Number], d: Iterable[Number], tau: Number
     ) -> None:
         first, last = contacts
-        given = {name: _terms(name, values) for name, values in (("x", x), ("y", y), ("d", d))}
+        all_terms = {name: _terms(name, values) for name, values in (("x", x), ("y", y), ("d", d))}
         end = to_rational("tau", tau)
-        if given["x"][0] or given["y"][0]:
-            raise InvalidPoseError(f"x begins with {given['x'][0]}, y with {given['y'][0]}; both have to begin with 0")
-        begin = given["d"][0] or Fraction(1)
-        given = {name: tuple(c / begin for c in terms) for name, terms in given.items()}
-        if min(control_points(given["d"], end)) <= 0:
+        x0, y0 = all_terms["x"][0], all_terms["y"][0]
+        if x0 or y0:
+            raise InvalidPoseError(f"x begins with {x0}, y with {y0}; both have to begin with 0")
+        begin = all_terms["d"][0] or Fraction(1)
+        all_terms = {name: tuple(c / begin for c in terms) for name, terms in all_terms.items()}
+        if min(control_points(all_terms["d"], end)) <= 0:
             raise InvalidPoseError(f"d may be zero for t between 0 and {end}; end before, or in several slides")
-        for name, terms in given.items():
+        for name, terms in all_terms.items():
             object.__setattr__(self, name, terms)
         object.__setattr__(self, "contacts", (first, last))
         object.__setattr__(self, "tau", end)
@@ -113,23 +114,23 @@ class Slide:
 
     @property
     def vector(self) -> ExactPoint:
-        """How far the reference point is in the end from where it was."""
+        """The whole displacement of the reference point."""
         return self.moved(self.tau)
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """Coefficients and half-angle tangent by their names."""
+        """Coefficients and half-angle tangent, by their names in files."""
         return {"x": self.x, "y": self.y, "d": self.d, "tau": self.tau}
 
     @checked
     def apply(self, pose: PoseLike) -> Pose:
-        """Where a pose ends, exactly."""
+        """Return the pose at the end, exactly."""
         pose = to_pose(pose, "pose")
         return self.at(pose, 1)
 
     @checked
     def at(self, pose: PoseLike, u: Number) -> Pose:
-        """Where a pose is at the parameter u in [0, 1], exactly."""
+        """Return the pose at the parameter u in [0, 1], exactly."""
         pose = to_pose(pose, "pose")
         t = to_fraction(u) * self.tau
         dx, dy = self.moved(t)
@@ -137,18 +138,18 @@ class Slide:
 
     @checked
     def moved(self, t: Fraction) -> ExactPoint:
-        """How far the reference point is from where it was."""
+        """Return the displacement of the reference point after a turn by 2 atan(t)."""
         x, y, d = (_value(terms, t) for terms in (self.x, self.y, self.d))
         return x / d, y / d
 
     @checked
     def until(self, u: Number) -> Slide:
-        """The motion as far as u."""
+        """Return the part of the motion from 0 to u."""
         return Slide(self.contacts, self.x, self.y, self.d, to_fraction(u) * self.tau)
 
     @checked
     def between(self, u: Number, v: Number) -> Slide:
-        """The part of the motion from u to v, backwards if v is less."""
+        """Return the part of the motion from u to v, backwards if v is less."""
         first, last = to_fraction(u) * self.tau, to_fraction(v) * self.tau
         x, y, d = (_beyond(terms, first) for terms in (self.x, self.y, self.d))
         dx, dy = (_poly((c,)) for c in self.moved(first))
@@ -156,12 +157,12 @@ class Slide:
         return Slide(self.contacts, terms_of(x - dx * d), terms_of(y - dy * d), terms_of(d), tau)
 
     def reversed(self) -> Slide:
-        """The way back."""
+        """Return the motion back."""
         return self.between(1, 0)
 
     @checked
     def sample(self, pose: PoseLike, shares: ArrayLike) -> Poses:
-        """Poses at shares of the angle, (n,), in double precision."""
+        """Return poses at shares of the angle, (n,), in double precision."""
         pose = to_pose(pose, "pose")
         s = np.asarray(shares, dtype=np.float64)
         x, y, d = _values(self, np.tan(0.5 * self.turn * s))
@@ -169,19 +170,19 @@ class Slide:
 
     @checked
     def share(self, u: Number) -> float:
-        """The share of the angle that is turned at u."""
+        """Return the share of the angle turned at u."""
         return self.until(u).turn / self.turn if self.turn else 0.0
 
     @checked
     def parameter(self, share: float) -> Fraction:
-        """Where a share of the angle is turned, but for rounding."""
+        """Return the parameter at which a share of the angle is turned, up to rounding."""
         return Fraction(min(math.tan(share * self.turn / 2) / float(self.tau), 1.0)) if self.tau else Fraction(0)
 
     @checked
     def length(self, pose: PoseLike) -> float:
-        """How far the reference point moves, from any pose.
+        """Return the path length of the reference point, which is the same from any pose.
 
-        By quadrature: but for rounding, or a thousandth where it turns back.
+        Quadrature makes it exact up to rounding, or to a thousandth where the point turns back.
         """
         nodes, weights = np.polynomial.legendre.leggauss(64)
         half = 0.5 * self.turn
@@ -192,7 +193,7 @@ class Slide:
 
     @checked
     def reach(self, pose: PoseLike, points: ArrayLike) -> float:
-        """Bound, but for rounding: no one of some points of the robot, (..., 2), moves farther, from any pose."""
+        """Return a bound, up to rounding, of the path lengths of some points of the robot, (..., 2), from any pose."""
         x, y = np.asarray(points, np.float64).reshape(-1, 2).T
         radius = float(np.hypot(x, y).max())
         parts = [self.between(Fraction(k, PARTS), Fraction(k + 1, PARTS)) for k in range(PARTS)]
@@ -200,7 +201,7 @@ class Slide:
 
 
 def _speed(slide: Slide) -> float:
-    """Bound of the reference point's way by half the angle turned.
+    """Return a bound of the reference point's path length per half angle turned.
 
     Notes
     -----
@@ -218,7 +219,7 @@ def _speed(slide: Slide) -> float:
 
 
 def control_points(terms: Terms, tau: Fraction) -> list[Fraction]:
-    """Bernstein coefficients of a polynomial for t from 0 to tau: it is between the least and the largest of them.
+    """Return the Bernstein coefficients of a polynomial for t from 0 to tau, between which its values are.
 
     Examples
     --------
@@ -231,12 +232,12 @@ def control_points(terms: Terms, tau: Fraction) -> list[Fraction]:
 
 
 def terms_of(poly: fmpq_poly) -> Terms:
-    """Coefficients of a polynomial."""
+    """Return the coefficients of a polynomial."""
     return tuple(Fraction(int(c.p), int(c.q)) for c in poly.coeffs()) or (Fraction(0),)
 
 
 def _terms(name: str, values: Iterable[Number]) -> Terms:
-    """As many coefficients as there may be."""
+    """Return the coefficients of a polynomial of degree 4, filled up with zeros."""
     try:
         terms = [to_fraction(value) for value in values]
     except (TypeError, ValueError) as error:
@@ -256,13 +257,13 @@ def _value(terms: Terms, t: Fraction) -> Fraction:
 
 
 def _values(slide: Slide, t: Floats, derivative: int = 0) -> Floats:
-    """x, y, d or their derivatives, (3, n), in doubles."""
+    """Return x, y, d or their derivatives, (3, n), in doubles."""
     rows = np.array([[float(c) for c in terms] for terms in (slide.x, slide.y, slide.d)])
     return np.asarray(polynomial.polyval(t, polynomial.polyder(rows.T, derivative)), np.float64)
 
 
 def _beyond(terms: Terms, s: Fraction) -> fmpq_poly:
-    """A polynomial of (r + s) / (1 - r s), times the power of the denominator that makes it one of r."""
+    """Return a polynomial at (r + s) / (1 - r s), times the power of the denominator that makes it one in r."""
     above, below = _poly((s, Fraction(1))), _poly((Fraction(1), -s))
     parts = (_poly((c,)) * above**k * below ** (DEGREE - k) for k, c in enumerate(terms))
     return sum(parts, _poly(()))

@@ -1,7 +1,7 @@
 """The boundary of the forbidden space: every contact patch, trimmed by all obstacles.
 
-`boundary` is the driver: features of the scene, patches and pillars in the core, trapezoids out. C_forb is open:
-touching is allowed, and the boundary itself is free.
+`boundary` is the driver: it computes the features of the scene, then patches and pillars in the core, which give
+trapezoids. C_forb is open: touching is allowed, and the boundary itself is free.
 """
 
 from __future__ import annotations
@@ -53,9 +53,9 @@ def boundary(
     max_seconds : float, optional
         Stop trimming after that many seconds: the result is then marked as incomplete.
     max_memory : float, optional
-        The same once this process has used so many bytes, looked at ten times a second.
+        Stop in the same way once this process has used that many bytes, checked ten times a second.
     progress : callable, optional
-        Called with the share that is done, from 0 to 1, a few times a second.
+        Called with the completed share, from 0 to 1, a few times a second.
 
     Returns
     -------
@@ -116,13 +116,13 @@ def _computed(
         raise InvariantError(str(error), state=scene) from error
     if progress is not None:
         progress(1.0)
-    found = boundary_of(scene, features, core)
-    found.stats.seconds.update(features=prepared - start, total=time.perf_counter() - start)
-    return found
+    result = boundary_of(scene, features, core)
+    result.stats.seconds.update(features=prepared - start, total=time.perf_counter() - start)
+    return result
 
 
 def boundary_of(scene: Scene, features: SceneFeatures, core: _core.Boundary) -> Boundary:
-    """What the core has computed."""
+    """Wrap a boundary that the core has computed."""
     seconds = {phase: getattr(core.tally, f"{phase}_seconds") for phase in PHASES}
     seconds["total"] = sum(seconds[phase] for phase in PHASES[:3])
     counts = {name: getattr(core.tally, name) for name in COUNTS}
@@ -144,7 +144,7 @@ def _restored(
 
 
 def memory_used() -> int:
-    """The most memory this process has used so far, in bytes."""
+    """Return the most memory that this process has used so far, in bytes."""
     import resource
 
     used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -160,11 +160,10 @@ class Boundary(BoundaryRecord, Shown):
     trapezoids : Trapezoids
         The trimmed patches, as arrays.
     isolated : IsolatedParts
-        Free poses that no trapezoid reaches: curves, segments at one orientation, and points, where the robot fits
-        exactly.
+        Exact fits that no trapezoid reaches: curves, segments at one orientation, and points.
     stats : Stats
     trimmed : (P,) bool
-        Which patches have been trimmed: all of them, unless a limit of time or memory stopped the computation.
+        True for patches that have been trimmed: all of them, unless a limit of time or memory stopped the computation.
     patch_kind : (P,) uint8
         1 v-e, 2 e-v, 3 bounds; see `PatchKind`.
     ruled : (P, 8) float64
@@ -181,37 +180,37 @@ class Boundary(BoundaryRecord, Shown):
 
     @cached_property
     def complex(self) -> CellComplex:
-        """The trapezoids glued into closed surfaces; computed when first asked for."""
+        """The trapezoids glued into closed surfaces; computed at first use."""
         self.require_complete()
         return glue(self)
 
     @cached_property
     def checker(self) -> PoseChecker:
-        """The scene prepared for `cfree.is_free`; when first asked for."""
+        """The scene prepared for `cfree.is_free`; computed at first use."""
         return PoseChecker(self.scene, self.features)
 
     @cached_property
     def regularized(self) -> Boundary:
         """The boundary of the interior of the closure of the forbidden space: without parts of no width.
 
-        Isolated parts are left out, and slits between bounds and a wall; computed again when first asked for.
+        It has no isolated parts, and no slits between bounds and a wall; computed at first use.
         """
         self.require_complete()
         return _computed(self.scene, True, os.cpu_count() or 1)
 
     @checked
     def isolated_part(self, k: int) -> IsolatedPart:
-        """Isolated part k with its curves and angles named."""
+        """Return isolated part k with its curves and angles named."""
         return IsolatedPart.of(self, range(len(self.isolated))[k])
 
     @checked
     def trapezoid(self, k: int) -> Trapezoid:
-        """Trapezoid k with its curves and angles named."""
+        """Return trapezoid k with its curves and angles named."""
         return Trapezoid.of(self, range(len(self.trapezoids))[k])
 
     @checked
     def slice(self, theta: Angle) -> Slice:
-        """The contact segments at one orientation.
+        """Return the contact segments at one orientation.
 
         Parameters
         ----------
@@ -231,7 +230,7 @@ class Boundary(BoundaryRecord, Shown):
 
     @checked
     def mesh(self, error: float, *, angle_scale: float | None = None, off_surface: bool = False) -> Mesh:
-        """Closed triangle meshes within a stated distance of the boundary.
+        """Return closed triangle meshes within a stated distance of the boundary.
 
         Parameters
         ----------
@@ -239,10 +238,10 @@ class Boundary(BoundaryRecord, Shown):
             Greatest distance of a point of a triangle to the boundary, and of a point of the boundary to the triangles,
             in the scene's unit of length.
         angle_scale : float, optional
-            Length per radian, w below; the robot's radius about its reference point if not given.
+            Length per radian, w below; by default the robot's radius about its reference point.
         off_surface : bool
-            Whether vertices within e-v faces may be a third of the error off the boundary: up to 3 % fewer triangles on
-            large ones.
+            Allow vertices within e-v faces to be a third of the error off the boundary: up to 3 % fewer triangles on
+            large faces.
 
         Returns
         -------
@@ -259,7 +258,7 @@ class Boundary(BoundaryRecord, Shown):
         -----
         Distances are measured by dx^2 + dy^2 + w^2 dtheta^2. The bound is proved in docs/theory/meshes.md for exact
         arithmetic; points are computed in doubles. It does not hold for trapezoids between angles less than 1e-9
-        radians apart: triangles of these are within 1e-9 (2 r + w) of them, r the robot's radius, and they may reach
+        radians apart. Their triangles are within 1e-9 (2 r + w) of them, r the robot's radius, and they may reach
         beyond their triangles. Time is about linear in the triangles. Isolated parts have none.
 
         Examples
@@ -276,7 +275,7 @@ class Boundary(BoundaryRecord, Shown):
 
 
 def regularize_by(threads: int, boundary: Boundary) -> None:
-    """Find `regularized` with so many threads, unless it is there."""
+    """Compute `Boundary.regularized` with a number of threads, unless it is there."""
     boundary.require_complete()
     if "regularized" not in boundary.__dict__:
         boundary.regularized = _computed(boundary.scene, True, threads)

@@ -1,9 +1,9 @@
 """The boundary as a cell complex: trapezoids glued into closed surfaces.
 
-Faces are trapezoids. The boundary of a face is a loop of coedges, counter-clockwise in its (t, theta), that is, seen
-from the free side. A coedge has a *twin* on the face across it; where more than two faces meet at an edge, twins are
-those between which space is free. So every component is a closed surface without boundary, and a side without a
-partner is an error.
+Faces are trapezoids. The boundary of a face is a loop of coedges, counter-clockwise in its (t, theta), which is the
+view from the free side. A coedge has a *twin* on the face across it; where more than two faces meet at an edge, space
+is free between twins. So every component is a closed surface without boundary, and a side without a partner is an
+error.
 """
 
 from __future__ import annotations
@@ -38,20 +38,20 @@ class CellComplex(Value):
     face, twin : (H,) int32
         The face of a coedge, and the coedge across it, which runs the other way.
     side : (H,) uint8
-        On which side of the trapezoid it is: 0 the wall at its first angle, 1 the upper curve, 2 the wall at its last
-        angle, 3 the lower curve.
+        Its side of the trapezoid: 0 the wall at the first angle, 1 the upper curve, 2 the wall at the last angle,
+        3 the lower curve.
     vertex : (H,) int32
-        The vertex where it starts. Surfaces that only touch in a point have a vertex there each.
+        The vertex where it starts. Surfaces that touch only in a point have a vertex there each.
     edge : (H,) int32
         The geometric edge it runs along; coedges of several pairs of twins may share one.
     component : (F,) int32
         The closed surface a face belongs to.
     x, y, theta : (V,) float64
-        Where the vertices are, rounded; theta in [-pi/2, 3 pi/2].
+        Coordinates of the vertices, rounded; theta in [-pi/2, 3 pi/2].
     near : (V, 2) float64
-        x and y from the frame of the boundary's features, in scenes that are far away with more digits.
+        x and y from the frame of the boundary's features, with more digits in scenes that are far away.
     vertices, edges, components : int
-        How many there are; H / 2 pairs of twins.
+        Their numbers; there are H / 2 pairs of twins.
     """
 
     first: Ints
@@ -94,18 +94,18 @@ class CellComplex(Value):
 
     @checked
     def loop(self, face: int) -> range:
-        """Coedges around a face, counter-clockwise from the lower end of its first wall."""
+        """Return the coedges around a face, counter-clockwise from the lower end of its first wall."""
         return range(int(self.first[face]), int(self.first[face + 1]))
 
     @checked
     def before(self, coedge: int) -> int:
-        """The coedge before one in its loop."""
+        """Return the previous coedge in the loop."""
         loop = self.loop(int(self.face[coedge]))
         return coedge - 1 if coedge > loop.start else loop.stop - 1
 
     @checked
     def around_vertex(self, coedge: int) -> Iterator[int]:
-        """Coedges that start where this one does, counter-clockwise, seen from the free side.
+        """Yield the coedges that start at the same vertex, counter-clockwise as seen from the free side.
 
         Examples
         --------
@@ -125,13 +125,13 @@ class CellComplex(Value):
 
     @checked
     def at_edge(self, edge: int) -> Ints:
-        """Coedges along a geometric edge."""
+        """Return the coedges along a geometric edge."""
         order, start = self._by_edge
         return order[start[edge] : start[edge + 1]]
 
     @checked
     def neighbours(self, face: int) -> Ints:
-        """Faces across the coedges of a face, in the order of its loop."""
+        """Return the faces across the coedges of a face, in the order of its loop."""
         loop = self.loop(face)
         return self.face[self.twin[loop.start : loop.stop]]
 
@@ -142,7 +142,7 @@ class CellComplex(Value):
 
 
 def glue(boundary: BoundaryRecord) -> CellComplex:
-    """Match the sides of all trapezoids, exactly, by what they are.
+    """Match the sides of all trapezoids, exactly, by the names of their ends.
 
     Raises
     ------

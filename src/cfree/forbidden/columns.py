@@ -1,4 +1,4 @@
-"""The trimmed patches as columns, and the free parts that have no width."""
+"""The trimmed patches and the exact fits, as columns."""
 
 from __future__ import annotations
 
@@ -18,21 +18,24 @@ CURVE, SEGMENT, POINT = 1, 2, 3
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Trapezoids(Value):
-    """What is left of the patches, as columns of equal length T.
+    """The live parts of the patches, as columns of equal length T.
 
     In its patch's domain (t, theta) a trapezoid lies between two critical angles and two curves. Curves and angles are
-    named by the features that define them, packed as ``kind << 61 | robot feature << 31 | obstacle feature``; see
-    `Boundary.trapezoid` for readable objects and ``docs/boundary-format.md`` for the meaning of every column.
+    named by the features that define them, packed as ``kind << 61 | robot feature << 31 | obstacle feature``.
+    `Boundary.trapezoid` returns readable objects; ``docs/boundary-format.md`` defines every column.
 
     Attributes
     ----------
     patch : (T,) int32
     chart : (T,) uint8, 0 or 1
-    lower, upper : (T,) uint64, curves
-    from_first, from_second, to_first, to_second : (T,) uint64, what defines the two angles
-    from_lo, from_hi, to_lo, to_hi : (T,) float64, isolating intervals of tau in the chart
+    lower, upper : (T,) uint64
+        Names of the two curves.
+    from_first, from_second, to_first, to_second : (T,) uint64
+        Names of the two angles.
+    from_lo, from_hi, to_lo, to_hi : (T,) float64
+        Isolating intervals of tau in the chart.
     from_place, to_place : (T,) uint8
-        0: the only root in the interval. Where doubles cannot hold two roots apart: its number among those there.
+        0: the only root in the interval. If doubles cannot separate roots: its number among those there.
     """
 
     patch: Ints
@@ -73,7 +76,7 @@ class Trapezoids(Value):
 
     @property
     def lower_kind(self) -> NDArray[np.uint8]:
-        """1: a v-e surface bounds it below, 2: an e-v surface, 3: a v-v helix."""
+        """Kind of the lower curve: 1 on a v-e surface, 2 on an e-v surface, 3 a v-v helix."""
         return (self.lower >> np.uint64(61)).astype(np.uint8)
 
     @property
@@ -83,17 +86,17 @@ class Trapezoids(Value):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class IsolatedParts(Trapezoids):
-    """Free poses around which no others are free but on a curve, or none: where the robot fits exactly.
+    """Exact fits that are on no trapezoid: free curves, segments and points.
 
-    The same columns as `Trapezoids`, of trapezoids without width, and who names their curves and angles. No two of
-    them overlap, and none lies on a trapezoid of the boundary, though it may end on one.
+    They have the same columns as `Trapezoids`, of trapezoids without width, and the patches that name their curves and
+    angles. No two of them overlap, and none lies on a trapezoid of the boundary, though it may end on one.
 
     Attributes
     ----------
     lower_patch, upper_patch, from_patch, to_patch : (T,) int32
-        The patch on whose surface `lower`, `upper`, or an angle, is named.
+        The patch on whose surface the name of `lower`, `upper` or an angle is meant.
     first_t, last_t : (T,) float64
-        Its ends: t on the surface of `lower_patch` at `theta_from`, and on that of `upper_patch` at `theta_to`.
+        Its two ends: t on the surface of `lower_patch` at `theta_from`, and on that of `upper_patch` at `theta_to`.
     """
 
     lower_patch: Ints
@@ -105,14 +108,14 @@ class IsolatedParts(Trapezoids):
 
     @property
     def kind(self) -> NDArray[np.uint8]:
-        """1: a curve over an interval of orientations; 2: a segment at one orientation; 3: a point."""
+        """Kinds: 1 a curve over an interval of orientations, 2 a segment at one orientation, 3 a point."""
         turns = (self.from_first != self.to_first) | (self.from_second != self.to_second) | (self.from_lo != self.to_lo)
         turns |= (self.from_place != self.to_place) | (self.from_patch != self.to_patch)
         is_point = (self.lower == self.upper) & (self.lower_patch == self.upper_patch)
         return np.where(turns, CURVE, np.where(is_point, POINT, SEGMENT)).astype(np.uint8)
 
     def rows(self, which: slice) -> IsolatedParts:
-        """Some of the parts."""
+        """Return some of the parts."""
         return IsolatedParts(*(getattr(self, name)[which] for name in ISOLATED_COLUMNS))
 
 

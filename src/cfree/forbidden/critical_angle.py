@@ -1,4 +1,4 @@
-"""Critical angles of a boundary as exact numbers: tau in the chart of what begins or ends there."""
+"""Critical angles of a boundary as exact numbers: tau in the chart of the row that begins or ends there."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from cfree.forbidden.record import BoundaryRecord
 
 
 def critical_angle(boundary: BoundaryRecord, table: Trapezoids, k: int, last: bool) -> Root:
-    """The first or last angle of a row of its trapezoids or isolated parts."""
+    """Return the first or last angle of a row of its trapezoids or isolated parts."""
     end = "to" if last else "from"
     first, second, lo, hi, place = (
         getattr(table, f"{end}_{name}")[k].item() for name in ("first", "second", "lo", "hi", "place")

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 STEP = math.radians(2)
-SAME = 1e-9  # radians; for the eye only
+SAME = 1e-9  # radians; for pictures only
 
 
 def isolated_lines(boundary: BoundaryRecord) -> list[Floats]:
-    """Lines of all isolated parts, (k, 3) each: x, y and theta in degrees, in [0, 360].
+    """Return lines of all isolated parts, (k, 3) each: x, y and theta in degrees, in [0, 360].
 
     A curve across theta = 0 is cut there.
     """
@@ -40,28 +40,28 @@ def isolated_lines(boundary: BoundaryRecord) -> list[Floats]:
 
 
 def isolated_at(boundary: BoundaryRecord, theta: float) -> list[Floats]:
-    """What of the isolated parts is at one orientation: points (1, 2) of curves, segments and points (2, 2)."""
-    parts, found = boundary.isolated, []
+    """Return the isolated parts at one orientation: points (1, 2) of curves, segments and points (2, 2)."""
+    parts, lines = boundary.isolated, []
     for k, (kind, first, last) in enumerate(zip(parts.kind, parts.theta_from, parts.theta_to, strict=True)):
         turned = first + (theta - first + SAME) % math.tau - SAME
         if turned > last + SAME:
             continue
         if kind == CURVE:
-            found.append(_on_curve(boundary, k, np.array([turned])))
+            lines.append(_on_curve(boundary, k, np.array([turned])))
         else:
             patch, t = [parts.lower_patch[k], parts.upper_patch[k]], [parts.first_t[k], parts.last_t[k]]
-            found.append(boundary.evaluate(patch, t, [turned, turned]))
-    return found
+            lines.append(boundary.evaluate(patch, t, [turned, turned]))
+    return lines
 
 
 def _on_curve(boundary: BoundaryRecord, k: int, theta: Floats) -> Floats:
-    """Points of the isolated curve k, (n, 2): where the curve that names it meets its patch's line."""
+    """Return points of the isolated curve k, (n, 2), where the curve that names it meets its patch's line."""
     chart = np.full(len(theta), boundary.isolated.chart[k])
     t = boundary.slicer.isolated_curve(k, np.ascontiguousarray(tau_in(chart, theta)))
     return boundary.evaluate(np.full(len(theta), boundary.isolated.lower_patch[k]), t, theta)
 
 
 def _raised(xy: Floats, theta: Floats) -> Floats:
-    """x, y and degrees in [0, 360]: what is below 0 is raised by a turn."""
+    """Return x, y and degrees in [0, 360]: lines below 0 are raised by a turn."""
     turn = 360.0 if theta.mean() < -SAME else 0.0
     return np.column_stack((xy, np.degrees(theta) + turn))

@@ -9,7 +9,7 @@ from cfree.palette import BOUND, EDGE_VERTEX, VERTEX_EDGE
 
 
 class PatchKind(IntEnum):
-    """Whose contacts a patch holds; those of the reference point with the bounds are a kind of their own."""
+    """Kind of contact on a patch; contacts of the reference point with the bounds are a kind of their own."""
 
     VERTEX_EDGE = Kind.VERTEX_EDGE
     EDGE_VERTEX = Kind.EDGE_VERTEX

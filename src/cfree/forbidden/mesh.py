@@ -1,10 +1,10 @@
 """Triangle meshes of the boundary with a proved bound of their error.
 
 Every closed surface of the boundary becomes a closed mesh: faces of the cell complex share the points on their common
-edges. Angles become heights: z = angle_scale * theta, theta from -pi/2 to 3 pi/2, where the charts end; there the
-mesh is cut, and `Mesh.seam` lists which vertices at the bottom and at the top are one pose.
+edges. Angles become heights: z = angle_scale * theta. Theta goes from -pi/2 to 3 pi/2, where the charts end. There the
+mesh is cut, and `Mesh.seam` lists the pairs of vertices at the bottom and at the top that are one pose.
 
-The bound and the choice of the points are in docs/theory/meshes.md; the work is done in `mesh.cpp`.
+docs/theory/meshes.md has the bound and the choice of the points; `mesh.cpp` computes the mesh.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ Ints = NDArray[np.int32]
 MOST_TRIANGLES = 10_000_000
 """Larger meshes are refused: they would take some gigabytes."""
 ROUNDING = 1e-10
-"""Errors must be above this part of the largest coordinate near the obstacles: places are computed in doubles."""
+"""Least error as a part of the largest coordinate near the obstacles: places are computed in doubles."""
 FINEST = 1e-15
-"""And above this part of all coordinates, to which they are rounded in the end."""
+"""Least error as a part of all coordinates, to which the vertices are rounded in the end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,15 +54,15 @@ class Mesh(Value, Shown):
     seam : (k, 2) int32
         Vertices at theta = -pi/2 and at 3 pi/2 that are the same pose.
     error : float
-        No point of a triangle is farther from the boundary, and no point of the boundary from the triangles: a bound of
-        the Hausdorff distance, up to rounding. Trapezoids between angles less than 1e-9 radians apart are an exception:
-        docs/theory/meshes.md, "Thin trapezoids".
+        A bound of the Hausdorff distance, up to rounding: no point of a triangle is farther from the boundary, and no
+        point of the boundary farther from the triangles. Trapezoids between angles less than 1e-9 radians apart are an
+        exception: docs/theory/meshes.md, "Thin trapezoids".
     angle_scale : float
         Length per radian.
     least : float
-        Triangles that the best known density asks for on the e-v patches.
+        Number of triangles on the e-v patches at the best known density.
     paint : (m, 4) uint8, optional
-        Colours instead of those of kinds; see `cfree.plot.painted`.
+        Colours that replace those of the kinds; see `cfree.plot.painted`.
     """
 
     vertices: Floats
@@ -84,8 +84,8 @@ class Mesh(Value, Shown):
     def ratio(self) -> float:
         """Triangles on e-v patches, as a multiple of the best known density's; NaN if there is no such patch.
 
-        It says something only together with `error`: the density (sqrt(3)/8) sqrt(-K) / error of Atariah, Rote and
-        Wintraecken holds for small ones, and patches of few triangles need more for their rims: 1.2 to 1.5 at a
+        It has a meaning only together with `error`. The density (sqrt(3)/8) sqrt(-K) / error of Atariah, Rote and
+        Wintraecken holds for small errors. Patches of few triangles need more for their rims: 1.2 to 1.5 at a
         thousandth of the robot's radius. Vertices on the surface can reach 1.033. (They write sqrt(3)/4 for the graph
         of a x^2 + 2 b x y + c y^2, where sqrt(-K) is twice sqrt(b^2 - a c).)
         """
@@ -93,13 +93,13 @@ class Mesh(Value, Shown):
 
     @property
     def normals(self) -> Floats:
-        """Unit normals of the triangles, (m, 3), to the free side; 0 for triangles without area."""
+        """Unit normals of the triangles, (m, 3), towards the free side; 0 for triangles without area."""
         a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
         return unit_vectors(np.cross(b - a, c - a))
 
     @property
     def colours(self) -> NDArray[np.uint8]:
-        """Red, green, blue and 255 of each triangle, (m, 4), by kind, or as painted."""
+        """Red, green, blue and 255 of each triangle, (m, 4), by kind, or from `paint`."""
         if self.paint is not None:
             return self.paint
         table = np.zeros((4, 4), dtype=np.uint8)
@@ -111,7 +111,7 @@ class Mesh(Value, Shown):
 def triangulated(
     boundary: BoundaryRecord, cells: CellComplex, error: float, angle_scale: float | None, off_surface: bool
 ) -> Mesh:
-    """The mesh of `Boundary.mesh`."""
+    """Return the mesh of `Boundary.mesh`."""
     scale = robot_radius(boundary.scene) if angle_scale is None else angle_scale
     if not 0 < error < math.inf:
         raise ValueError(f"error: {error}; give a length above 0, such as {robot_radius(boundary.scene) / 100:.1g}")
@@ -126,19 +126,19 @@ def triangulated(
     if expected > MOST_TRIANGLES:
         raise UnsupportedError(_too_many(error, coarsest, expected))
     try:
-        found = _core.mesh(boundary.core_complex, error, scale, off_surface)
+        mesh = _core.mesh(boundary.core_complex, error, scale, off_surface)
     except RuntimeError as fault:
         raise InvariantError(f"mesh with error {error}: {fault}", state=boundary.scene) from fault
-    patch = boundary.trapezoids.patch[found.face]
+    patch = boundary.trapezoids.patch[mesh.face]
     kind = boundary.patch_kind[patch]
-    return Mesh(found.xyz, found.corners, found.face, patch, kind, found.seam, error, scale, found.least)
+    return Mesh(mesh.xyz, mesh.corners, mesh.face, patch, kind, mesh.seam, error, scale, mesh.least)
 
 
 def _too_many(error: float, coarsest: float, expected: float) -> str:
     size = f"a mesh with error {error:g} would have about {expected:.2g} triangles, more than {MOST_TRIANGLES:,}"
     if coarsest >= MOST_TRIANGLES:
         return f"{size}, and at least {coarsest:.2g} with any error; mesh a smaller scene"
-    # what accuracy adds grows at most as 1 / error, and at least as its root
+    # the triangles added by accuracy grow at most as 1 / error, and at least as its root
     larger = error * ((expected - coarsest) / (MOST_TRIANGLES - coarsest)) ** 2
     digit = 10.0 ** math.floor(math.log10(larger))
     return f"{size}; an error of {math.ceil(larger / digit) * digit:g} is possible"

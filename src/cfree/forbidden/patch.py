@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A vertex, or an edge, in the user's own counting.
+    """A vertex, or an edge, in the user's own numbering.
 
     Attributes
     ----------
@@ -36,11 +36,11 @@ class Place:
     ring : int
         0 the outer ring, k + 1 the hole k.
     index : int
-        Vertex of the `Polygon`, counted over all its rings; of an edge, the one where t = 0.
+        Vertex of the `Polygon`, counted over all its rings; for an edge, the vertex where t = 0.
     end : int or None
-        Of an edge, the vertex where t = 1. Edges of the workspace run against its rings: forbidden is on their left.
+        For an edge, the vertex where t = 1. Edges of the workspace run against its rings: forbidden is on their left.
         A critical angle may be named by a diagonal of a convex piece: then the two are not neighbours. -1 is a corner
-        of the finite frame that stands for what is outside the bounds or the workspace.
+        of the finite frame that stands for everything outside the bounds or the workspace.
     """
 
     polygon: int
@@ -61,7 +61,7 @@ class Contact:
 
 @dataclass(frozen=True, slots=True)
 class CriticalAngle:
-    """An orientation named by what defines it.
+    """An orientation named by the features that define it.
 
     Attributes
     ----------
@@ -71,9 +71,9 @@ class CriticalAngle:
     features : tuple of Contact
         None, one or two of them.
     interval : (float, float)
-        An interval of tau, in the chart, that holds it.
+        An interval of tau, in the chart, that contains it.
     place : int
-        0: it is the only root there; else its number among the roots that doubles cannot hold apart.
+        0: it is the only root there; else its number among the roots that doubles cannot separate.
     theta : float, radians
     """
 
@@ -122,9 +122,9 @@ class IsolatedPart:
     patch : int
         A contact that holds along it.
     lower, upper : Contact
-        The curves on the patch that bound it: of a curve the curve itself, of a segment its two ends.
+        The curves on the patch that bound it: for a curve the curve itself, for a segment its two ends.
     start, stop : CriticalAngle
-        Equal but for a curve.
+        Equal for a segment and a point.
     ends : ((float, float, float), (float, float, float))
         (x, y, theta) of its two ends, rounded; equal for a point.
     """
@@ -171,7 +171,7 @@ def _angle(boundary: BoundaryRecord, columns: Trapezoids, end: str, k: int) -> C
 
 
 def contact(boundary: BoundaryRecord, code: int) -> Contact:
-    """The contact that a packed pair of features names."""
+    """Return the contact that a packed pair of features names."""
     kind, i, j = unpacked(code)
     kind = Kind(kind)
     robot_edge = kind in (Kind.EDGE_VERTEX, Kind.EDGE_EDGE)
@@ -200,7 +200,7 @@ def obstacle_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Pla
 
 
 def _owner(shape: ShapeFeatures, feature: int, is_edge: bool) -> tuple[int, int, int | None]:
-    """Polygon, vertex and, of an edge, the vertex it leads to."""
+    """Return polygon, vertex and, for an edge, the vertex where it ends."""
     start, end = (int(shape.v[feature]), int(shape.w[feature])) if is_edge else (feature, feature)
     owners = shape.owner_vertex
     if max(start, end) >= len(owners):
@@ -225,7 +225,7 @@ class Patch:
     phi_min, phi_range : float, radians
         Orientations of the contact before trimming: phi_min to phi_min + phi_range (paper, eq. 6).
     trapezoids : range
-        What is left of it.
+        Its live parts.
     """
 
     index: int
@@ -239,16 +239,16 @@ class Patch:
 
     @property
     def is_live(self) -> bool:
-        """Whether anything of it is on the boundary of the forbidden space."""
+        """True if any part of it is on the boundary of the forbidden space."""
         return len(self.trapezoids) > 0
 
     def surface(self, t: ArrayLike, phi: ArrayLike) -> NDArray[np.float64]:
-        """Points S(t, phi) = (x, y, phi) of the contact surface, eqs. (5) and (8), as a call of `Surface`."""
+        """Return points S(t, phi) = (x, y, phi) of the contact surface, eqs. (5) and (8), like a call of `Surface`."""
         return evaluate(self._ruled, t, phi)
 
 
 class Patches(Value, Sequence[Patch]):
-    """Patches of a boundary, made when asked for."""
+    """Patches of a boundary, each made when it is read."""
 
     def __init__(self, boundary: BoundaryRecord) -> None:
         self._boundary = boundary

@@ -1,6 +1,6 @@
-"""What the boundary of the forbidden space is made of: its scene, features and columns, and poses on it.
+"""Contents of the boundary of the forbidden space: scene, features and columns; and poses on it.
 
-`cfree.forbidden.boundary` computes it; slices, meshes and the cell complex take it.
+`cfree.forbidden.boundary` computes it; slices, meshes and the cell complex are made from it.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ from cfree.words import counted
 
 @dataclass(frozen=True, slots=True)
 class Stats:
-    """What was computed: counts, who decided, seconds per phase.
+    """Statistics of the computation: counts, ways of deciding, seconds per phase.
 
     Attributes
     ----------
     patches, live_patches : int
-        Patches before trimming, and the ones of which something is left: contact patches and the sides of the bounds.
+        Patches before trimming, and those with live parts: contact patches and the sides of the bounds.
     trapezoids : int
     pairs : int
         Pairs of a patch and a pillar near it.
     decided_by_identity, decided_by_filter, decided_by_intervals, decided_exactly : int
-        Signs and orders, by the rung that decided them: equal features; doubles with an error bound; intervals in
-        twice their precision; exact integers.
+        Numbers of signs and orders, by the method that decided them: equal features; doubles with an error bound;
+        intervals in twice their precision; exact integers.
     seconds : dict of str to float
-        By phase: features, trim, collect, isolated, and total, of all. `exact` is the part of `trim` that
+        Times by phase: features, trim, collect, isolated, and their total. `exact` is the part of `trim` that
         exact integers took, summed over threads. Empty for a boundary read from a file.
     """
 
@@ -57,7 +57,7 @@ class Stats:
 
 
 class PatchCounts(NamedTuple):
-    """Counts of live patches and of all: those of contacts, and the sides of the bounds."""
+    """Counts of contact patches and of sides of the bounds, each live and in all."""
 
     live_contacts: int
     contacts: int
@@ -101,7 +101,7 @@ class BoundaryRecord(Value):
 
     @classmethod
     def _of(cls, scene: Scene, features: SceneFeatures, core: _core.Boundary, stats: Stats) -> Self:
-        """What the core has; arrays are views of its memory."""
+        """Wrap a boundary of the core; arrays are views of its memory."""
         patches, parts = core.patches, core.isolated
         contacts = patches.kind, patches.robot, patches.obstacle
         trapezoids = Trapezoids(*(getattr(core.trapezoids, name) for name in COLUMNS))
@@ -114,7 +114,7 @@ class BoundaryRecord(Value):
 
     @cached_property
     def core(self) -> _core.Boundary:
-        """The same as the core has it: slices, surfaces and cells share it."""
+        """The core's own boundary, shared by slices, surfaces and cells."""
         patches = _core.Patches(self.contact_kind, self.contact_robot, self.contact_obstacle)
         trapezoids = _core.Trapezoids(*(getattr(self.trapezoids, name) for name in COLUMNS))
         parts = _core.Trapezoids(*(getattr(self.isolated, name) for name in COLUMNS))
@@ -125,17 +125,17 @@ class BoundaryRecord(Value):
 
     @property
     def shared(self) -> Self:
-        """The same with arrays that are views of the core's memory."""
+        """The same boundary with arrays that are views of the core's memory."""
         return self._of(self.scene, self.features, self.core, self.stats)
 
     @cached_property
     def core_complex(self) -> _core.CellComplex:
-        """The trapezoids glued; `cfree.forbidden.cell_complex` tells how."""
+        """The trapezoids glued in the core; see `cfree.forbidden.cell_complex`."""
         return _glued(self, os.cpu_count() or 1)
 
     @property
     def _content(self) -> tuple[Any, ...]:
-        """Without what it took to compute it."""
+        """The contents without statistics."""
         patches = self.contact_kind, self.contact_robot, self.contact_obstacle
         return self.scene, *patches, self.trapezoids, self.isolated, self.trimmed
 
@@ -164,7 +164,7 @@ class BoundaryRecord(Value):
 
     @property
     def complete(self) -> bool:
-        """Whether every patch has been trimmed. What is not complete answers no question about what is free."""
+        """True if every patch has been trimmed. An incomplete boundary raises on every query about free space."""
         return bool(self.trimmed.all())
 
     def require_complete(self) -> None:
@@ -180,7 +180,7 @@ class BoundaryRecord(Value):
 
     @cached_property
     def patch_start(self) -> NDArray[np.int64]:
-        """Trapezoids of patch k are ``patch_start[k]`` up to ``patch_start[k + 1]``."""
+        """First trapezoid of each patch: those of patch k are ``patch_start[k]`` up to ``patch_start[k + 1]``."""
         return np.searchsorted(self.trapezoids.patch, np.arange(len(self.contact_kind) + 1))
 
     @cached_property
@@ -193,7 +193,7 @@ class BoundaryRecord(Value):
 
     @cached_property
     def ruled_near(self) -> Floats:
-        """The same rows in the features' frame; see `evaluate_near`."""
+        """The rows of `ruled` in the features' frame; see `evaluate_near`."""
         a, b = self.features.robot, self.features.obstacles
         on_edge = self.contact_kind == Kind.VERTEX_EDGE
         i, j = self.contact_robot, self.contact_obstacle
@@ -205,7 +205,7 @@ class BoundaryRecord(Value):
 
     @cached_property
     def phi_min(self) -> Floats:
-        """(P,) radians in [0, 2 pi): where each patch begins (paper, 3.1.1 and 3.2.1)."""
+        """The first orientation of each patch, (P,) radians in [0, 2 pi) (paper, 3.1.1 and 3.2.1)."""
         a, b = self.features.robot, self.features.obstacles
         on_edge = self.contact_kind == Kind.VERTEX_EDGE
         f = np.where(on_edge, self.contact_obstacle, b.previous[self.contact_obstacle])
@@ -216,7 +216,7 @@ class BoundaryRecord(Value):
 
     @cached_property
     def phi_range(self) -> Floats:
-        """(P,) radians: pi - rho_i, pi - omega_j, or 2 pi for bounds."""
+        """The angle range of each patch, (P,) radians: pi - rho_i, pi - omega_j, or 2 pi for bounds."""
         at_robot = self.features.robot.turning[self.contact_robot]
         at_obstacle = self.features.obstacles.turning[self.contact_obstacle]
         turning = np.where(self.contact_kind == Kind.VERTEX_EDGE, at_robot, at_obstacle)
@@ -224,7 +224,7 @@ class BoundaryRecord(Value):
 
     @checked
     def evaluate(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
-        """Reference point S(t, theta) on patches, eqs. (5) and (8).
+        """Return reference points S(t, theta) on patches, eqs. (5) and (8).
 
         Parameters
         ----------
@@ -240,7 +240,7 @@ class BoundaryRecord(Value):
 
     @checked
     def evaluate_near(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
-        """The same from the features' frame, which keeps areas and has all digits in scenes that are far away."""
+        """Return the same points from the features' frame: areas are equal, and far scenes lose no digits."""
         s, t, theta = self.ruled_near[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
         ax, ay = s[..., 4] + t * s[..., 6], s[..., 5] + t * s[..., 7]
         c, n = np.cos(theta), np.sin(theta)
@@ -249,7 +249,7 @@ class BoundaryRecord(Value):
 
     @checked
     def limits(self, trapezoid: ArrayLike, theta: ArrayLike) -> tuple[Floats, Floats]:
-        """Limits of t of trapezoids at orientations within them.
+        """Return the limits of t of trapezoids at orientations within them.
 
         Parameters
         ----------
@@ -265,12 +265,12 @@ class BoundaryRecord(Value):
 
     @cached_property
     def slicer(self) -> _core.Slicer:
-        """What slices and limits are asked of."""
+        """The core's object that computes slices and limits."""
         return _core.Slicer(self.core)
 
 
 def glue_by(threads: int, boundary: BoundaryRecord) -> None:
-    """Find `core_complex` with so many threads, unless it is there."""
+    """Compute `core_complex` with a number of threads, unless it is there."""
     if "core_complex" not in boundary.__dict__:
         boundary.core_complex = _glued(boundary, threads)
 

@@ -1,4 +1,4 @@
-"""The forbidden region of the reference point at one orientation, looked up in a built boundary."""
+"""Slices: the forbidden positions of the reference point at one orientation, read from a boundary."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Slice(Value, Shown):
     boundary : Boundary
     theta : float, radians
     segments : (k, 2, 2) float64
-        Where the reference point touches, from one end to the other, forbidden on the left.
+        Positions of the reference point in contact, from one end to the other; the forbidden side is on the left.
     patches, trapezoids : (k,) int32
-        Whose segments they are.
+        The patch and the trapezoid of each segment.
     """
 
     def __init__(self, boundary: BoundaryRecord, theta: Angle) -> None:
@@ -61,13 +61,13 @@ class Slice(Value, Shown):
     def forbidden(self) -> BaseGeometry:
         """Forbidden positions of the reference point as a valid shapely polygon or multipolygon.
 
-        With `bounds` or `workspace` the forbidden region has no end: it is given up to ``features.rim``, a rectangle
+        With `bounds` or `workspace` the forbidden region is unbounded: it is cut off at ``features.rim``, a rectangle
         around everything.
 
         Notes
         -----
-        The segments are chained by the names of their end points; coordinates are doubles. Thin parts of the free
-        region (a slot as wide as the robot) are not seen.
+        The segments are chained by the names of their end points; coordinates are doubles. Thin free
+        parts (a slot as wide as the robot) are missing.
         """
         import shapely
 
@@ -78,7 +78,7 @@ class Slice(Value, Shown):
         parts: dict[int, list[NDArray[np.float64]]] = {}
         for k, around in enumerate(shell.tolist()):
             if around < 0 and rim is None:
-                continue  # nothing around it: a sliver of rounding
+                continue  # no ring encloses it: a sliver of rounding
             holes = parts.setdefault(around, [])
             if around != k:
                 holes.append(rings[k])

@@ -1,1 +1,1 @@
-"""The free space: its cells, and which of them a pose is in."""
+"""The free space: its cells, and location of poses in them."""

@@ -1,4 +1,4 @@
-"""A pose of a cell with much room around it: discs inscribed in slices."""
+"""Poses of a cell with much room around them: discs inscribed in slices."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ PRECISION = 1e-3  # of a disc's radius, relative to its slice's extent
 
 @checked
 def largest_disc(cell: Cell) -> tuple[Pose, float] | None:
-    """A pose in a cell, and the radius of a disc in which it may be put at that orientation without a collision.
+    """Return a pose in a cell, and the radius of a collision-free disc of positions around it at its orientation.
 
     Returns
     -------
     (Pose, float) or None
-        The largest found at nine orientations of the cell; None if it is too narrow there for one of more than
-        rounding. Of an unbounded cell the largest near the obstacles; infinite if there are none.
+        The largest disc at nine orientations of the cell; None if the cell is too narrow there for a disc larger than
+        rounding. In an unbounded cell, the largest near the obstacles; infinite if there are none.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def largest_disc(cell: Cell) -> tuple[Pose, float] | None:
 
 
 def _around(region: shapely.Geometry) -> tuple[float, float, float, float]:
-    """A rectangle around a region, wider by a quarter."""
+    """Return a rectangle around a region, wider by a quarter on each side."""
     x0, y0, x1, y1 = region.bounds
     margin = max(x1 - x0, y1 - y0) / 4
     return x0 - margin, y0 - margin, x1 + margin, y1 + margin

@@ -1,7 +1,7 @@
-"""Cells of the free space: what the closed surfaces of a boundary bound, and which cell a pose is in.
+"""Cells of the free space, bounded by the closed surfaces of a boundary; location of poses in them.
 
 Cells are the components of the interior of C_free. The components of `Boundary.complex` are closed surfaces; each has
-an inside, and which are inside which is found by rays, exactly. docs/theory/cells.md has the proofs.
+an inside, and rays decide, exactly, how they are nested. docs/theory/cells.md has the proofs.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from cfree.value import Shown, Value
 from cfree.words import counted
 
 FORBIDDEN, NO_CELL = -1, -2
-BLOCK = 1 << 16  # poses between two looks at Ctrl-C
+BLOCK = 1 << 16  # poses between two checks for Ctrl-C
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,15 +45,15 @@ class Cell(Value, Shown):
     index : int
         Its number in `FreeSpace.cells`.
     components : tuple of int
-        The closed surfaces that bound it: of a bounded cell, first the one around it, then those of the islands in it.
+        The closed surfaces that bound it: for a bounded cell, first the one around it, then those of the islands in it.
     bounded : bool
-        Whether positions in it are: always with `bounds` or `workspace`, else for all cells but one.
+        True if its positions are bounded: always with `bounds` or `workspace`, else for all cells but one.
     caged : bool
-        Whether obstacles alone enclose it: it is bounded, and no face of its boundary belongs to `bounds` or
+        True if obstacles alone enclose it: it is bounded, and no face of its boundary belongs to `bounds` or
         `workspace`. A face that they have in common with an obstacle belongs to one of the two.
     turns : int
-        The loops in it go round in theta by the multiples of this number of full turns: 0 if the robot always has to
-        come back the way it turned, 1 if it can turn round and be where it was.
+        Total turns of the loops in it, in theta, are the multiples of this number of full turns. It is 0 if the robot
+        always has to turn back, and 1 if it can turn all the way round and return to its pose.
     theta_range : (float, float), radians
         The orientations in it, from the first in [0, 2 pi) to the last: more than a turn apart if it winds up without
         closing. (0, 2 pi) if `turns` is not 0.
@@ -69,29 +69,29 @@ class Cell(Value, Shown):
 
     @property
     def full_turn(self) -> bool:
-        """Whether it contains a loop that goes round once in theta."""
+        """True if it contains a loop that goes round once in theta."""
         return self.turns == 1
 
     @property
     def volume(self) -> float:
-        """In length^2 radians, infinite if unbounded; see `FreeSpace.volumes`."""
+        """The volume in length^2 radians, infinite if unbounded; see `FreeSpace.volumes`."""
         return float(self.free_space.volumes[self.index])
 
 
 @dataclass(frozen=True)
 class Nearby:
-    """What is at a pose.
+    """Trapezoids at a pose, and beside it.
 
     Attributes
     ----------
     on : list of int
-        The trapezoids that hold it, ends included.
+        The trapezoids that contain it, ends included.
     end : list of int
-        Of each of them: -1 if it begins at the pose's orientation, 1 if it ends there, else 0.
+        For each of them: -1 if it begins at the pose's orientation, 1 if it ends there, else 0.
     crossed : list of int
         The trapezoids that the ray from it towards -x crosses just after its orientation.
     generic : bool
-        Whether none of these begins or ends at its orientation.
+        True if none of these begins or ends at its orientation.
     """
 
     on: list[int]
@@ -107,20 +107,20 @@ class FreeSpace(Value, Shown):
     ----------
     boundary : Boundary
     surfaces : Boundary
-        The one whose closed surfaces bound the cells: `boundary`, or where `bounds` may leave slits of no width, which
-        are not in the interior, ``boundary.regularized``.
+        The boundary whose closed surfaces bound the cells: `boundary`, or ``boundary.regularized`` if `bounds` may
+        leave slits of no width, which are not in the interior.
     component : (F,) int32
-        Of each trapezoid of `surfaces`: its closed surface.
+        The closed surface of each trapezoid of `surfaces`.
     parent : (C,) int32
-        Of each closed surface: the next around it, or -1.
+        The next closed surface around each closed surface, or -1.
     free_inside : (C,) bool
-        Whether space is free just inside it: it is then the outer boundary of a cell, else of an island.
+        True if space is free just inside a closed surface: it is then the outer boundary of a cell, else of an island.
     cell_of : (C,) int32
-        The cell it bounds.
+        The cell that a closed surface bounds.
     turns : (C,) int32
-        How often its loops go round in theta: the greatest common divisor.
+        Greatest common divisor of the full turns of its loops in theta.
     lift : (F,) int32
-        Full turns to add to the orientations of a trapezoid, so that they go on from its neighbours' if `turns` is 0.
+        Full turns to add to the orientations of a trapezoid, so that they continue its neighbours' if `turns` is 0.
     cells : tuple of Cell
         An unbounded one comes first.
     """
@@ -172,15 +172,15 @@ class FreeSpace(Value, Shown):
         caged = self.core.caged(self.surfaces.features.obstacles.owner_polygon).view(np.bool_)
         ranges = self._theta_ranges()
         cells = []
-        for k, of in enumerate(members):
+        for k, components in enumerate(members):
             bounded = k != self.outside
-            turns = int(np.gcd.reduce(self.turns[of])) if bounded else 1
-            theta = ranges[of[0]] if bounded and turns == 0 else (0.0, math.tau)
-            cells.append(Cell(k, tuple(of), bounded, bool(caged[k]), turns, theta, self))
+            turns = int(np.gcd.reduce(self.turns[components])) if bounded else 1
+            theta = ranges[components[0]] if bounded and turns == 0 else (0.0, math.tau)
+            cells.append(Cell(k, tuple(components), bounded, bool(caged[k]), turns, theta, self))
         return tuple(cells)
 
     def _theta_ranges(self) -> list[tuple[float, float]]:
-        """Of each closed surface that does not go round in theta."""
+        """Return the orientations of each closed surface; only for those that do not go round in theta."""
         table, component, turn = self.surfaces.trapezoids, self.component, math.tau * self.lift
         low, high = np.full(len(self.parent), np.inf), np.full(len(self.parent), -np.inf)
         np.minimum.at(low, component, table.theta_from + turn)
@@ -190,28 +190,28 @@ class FreeSpace(Value, Shown):
 
     @checked
     def faces(self, cell: int) -> Ints:
-        """Trapezoids of `surfaces` that bound a cell."""
+        """Return the trapezoids of `surfaces` that bound a cell."""
         return np.flatnonzero(self.cell_of[self.component] == range(len(self))[cell]).astype(np.int32)
 
     @property
     def volumes(self) -> Floats:
-        """(cells,) volumes, in length^2 radians (times a length per radian: length^3); infinite if unbounded.
+        """Volumes (cells,) in length^2 radians (times a length per radian: length^3); infinite if unbounded.
 
         Notes
         -----
-        By the divergence theorem, exact along t, over theta by quadrature; `volume_errors` estimates the error. It is
-        relative to the volume of the closed surfaces, not to what they leave over.
+        The divergence theorem is integrated exactly along t, and over theta by quadrature; `volume_errors` estimates
+        the error. It is relative to the volumes inside the closed surfaces, not to their difference.
         """
         return self._volumes[0]
 
     @property
     def volume_errors(self) -> Floats:
-        """(cells,) estimates of the errors of `volumes`, in the same unit; infinite if unbounded.
+        """Estimates of the errors of `volumes`, (cells,), in the same unit; infinite if unbounded.
 
         Notes
         -----
-        What quadrature leaves out is bounded by the integrand's size on ellipses in the complex plane. What rounding
-        does is estimated by counting operations, to first order, so that the sum is no bound: docs/theory/volumes.md.
+        The quadrature error is bounded by the integrand's size on ellipses in the complex plane. The rounding error is
+        estimated by counting operations, to first order, so the sum is no bound: docs/theory/volumes.md.
 
         Examples
         --------
@@ -229,7 +229,7 @@ class FreeSpace(Value, Shown):
 
     @checked
     def areas(self, *, angle_scale: float = 1.0) -> Floats:
-        """(cells,) areas of the cells' boundaries, in length^2.
+        """Return the areas of the cells' boundaries, (cells,), in length^2.
 
         Parameters
         ----------
@@ -238,7 +238,7 @@ class FreeSpace(Value, Shown):
 
         Notes
         -----
-        Sums of `cfree.geometry.trapezoid_areas` of `surfaces`: with a measured error, about 1e-12 of all.
+        Sums of `cfree.geometry.trapezoid_areas` of `surfaces`; the measured error is about 1e-12 of the total.
         """
         from cfree.geometry.area import trapezoid_areas
 
@@ -250,25 +250,25 @@ class FreeSpace(Value, Shown):
     @overload
     def locate(self, poses: Poses | Iterable[PoseLike], *, threads: int | None = None) -> Ints: ...
     def locate(self, poses: OnePose | Poses | Iterable[PoseLike], *, threads: int | None = None) -> int | Ints:
-        """Cell of each pose, exactly.
+        """Locate poses: return the cell of each one, exactly.
 
         Parameters
         ----------
         poses : Pose or (x, y, theta), Poses, or sequence of the former
-            The doubles of `Poses` are taken as they are: the orientation is that of the rounded tangent of its half.
+            The doubles of `Poses` are taken exactly: the orientation is that of the rounded half-angle tangent.
         threads : int, optional
             All cores by default. The result does not depend on it.
 
         Returns
         -------
         int, or (n,) int32
-            Number of the cell; -1 if forbidden. A pose on the boundary is free: the first cell that a face through it
-            bounds. -2 if it is free and on no face: an exact fit, which is in the closure of no cell.
+            Number of the cell; -1 if forbidden. A pose on the boundary is free: its cell is the first that a face
+            through it bounds. -2 if it is free, in no cell and on no face: an exact fit, in the closure of no cell.
 
         Notes
         -----
-        Time per free pose is about proportional to the faces at its height to the left of it, at its orientation; a
-        forbidden one is mostly recognised as by `is_free`. Some microseconds each.
+        Time per free pose is about proportional to the faces at its height to the left of it, at its orientation.
+        Forbidden poses are mostly recognised as by `is_free`. Each pose takes some microseconds.
         """
         if type(poses) in PLAIN and (threads is None or (type(threads) is int and threads > 0)):
             cell = self.core.locate_one(self.boundary.checker.core, for_core(poses))
@@ -285,20 +285,20 @@ class FreeSpace(Value, Shown):
         if not isinstance(poses, Poses):
             many = [to_pose(pose, f"poses[{k}]") for k, pose in enumerate(poses)]  # type: ignore[arg-type]
             return np.array([self._locate(pose) for pose in many], np.int32)
-        found = np.full(len(poses), FORBIDDEN, np.int32)
+        cells = np.full(len(poses), FORBIDDEN, np.int32)
         for k in range(0, len(poses), BLOCK):
             xy, theta = poses.xy[k : k + BLOCK], poses.theta[k : k + BLOCK]
-            # the tangents' rounding is within what verdicts allow for, so that "forbidden" is certain
+            # verdicts allow for the tangents' rounding, so that "forbidden" is certain
             verdicts = self.boundary.checker.verdicts(np.column_stack([xy, theta]), threads)
-            asked = np.flatnonzero(verdicts != CERTAINLY_FORBIDDEN)
-            chart, tau = chart_of(theta[asked])
-            cell = self.core.locate(xy[asked], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
+            possible = np.flatnonzero(verdicts != CERTAINLY_FORBIDDEN)
+            chart, tau = chart_of(theta[possible])
+            cell = self.core.locate(xy[possible], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
             for m in np.flatnonzero(cell == FORBIDDEN).tolist():
-                x, y = xy[asked[m]].tolist()
+                x, y = xy[possible[m]].tolist()
                 if self.boundary.checker.is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
                     cell[m] = NO_CELL
-            found[k + asked] = cell
-        return found
+            cells[k + possible] = cell
+        return cells
 
     def _locate(self, pose: Pose) -> int:
         if not self.boundary.checker.is_free(pose):
@@ -308,40 +308,40 @@ class FreeSpace(Value, Shown):
 
     @checked
     def nearby(self, pose: PoseLike) -> Nearby:
-        """The trapezoids of `surfaces` that hold a pose, and those that a ray from it crosses; exactly."""
+        """Return the trapezoids of `surfaces` that contain a pose, and those that a ray from it crosses; exactly."""
         pose = to_pose(pose, "pose")
         return Nearby(*self.core.nearby(*self.boundary.features.in_chart(pose)))
 
     @checked
     def common_cell(self, start: PoseLike, goal: PoseLike) -> int | None:
-        """The first cell that both are in or on the boundary of; None if there is none."""
+        """Return the first cell whose closure contains both poses; None if there is none."""
         first, second = (self._cells_at(to_pose(pose, name)) for pose, name in ((start, "start"), (goal, "goal")))
         return min(first & second, default=None)
 
     def _cells_at(self, pose: Pose) -> set[int]:
-        """The cell that a pose is in, or those on whose boundary it is."""
+        """Return the cells whose closure contains a pose."""
         if not self.boundary.checker.is_free(pose):
             return set()
         return set(self.core.cells_at(*self.boundary.features.in_chart(pose))) - {FORBIDDEN}
 
     @checked
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:
-        """An interval of tau, in its chart, no wider than 2**-bits, around the first or last angle of a trapezoid."""
+        """Return an interval of tau, in its chart, at most 2**-bits wide, around an end angle of a trapezoid."""
         low, p, high, q = self.core.angle(face, last, bits)
         return Fraction(low, 1 << p), Fraction(high, 1 << q)
 
     @checked
     def reachable(self, start: PoseLike) -> Cell:
-        """The cell that a start is in or on the boundary of: what the robot can reach from there.
+        """Return the cell whose closure contains a start: the poses that the robot can reach from there.
 
-        Every pose of a cell can be reached from every other without touching anything on the way. By sliding through a
-        passage just as wide as the robot it may get further; a start on the boundary of several cells gets the first.
+        Every pose of a cell can be reached from every other without contact. By sliding through a passage exactly as
+        wide as the robot, more may be reachable. For a start on the boundary of several cells it is the first.
 
         Raises
         ------
         InvalidPoseError
-            If the start is forbidden, with what overlaps what and a free pose near by; or if it fits exactly, and so is
-            in the closure of no cell.
+            If the start is forbidden; the message names the parts that overlap, and a free pose near by. Also if the
+            start is an exact fit in the closure of no cell.
 
         Examples
         --------
@@ -364,12 +364,12 @@ class FreeSpace(Value, Shown):
 
 @checked
 def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
-    """Cells of the free space of a boundary.
+    """Compute the cells of the free space of a boundary.
 
     Parameters
     ----------
     boundary : Boundary
-        Complete.
+        Must be complete.
     threads : int, optional
         All cores by default. The result does not depend on it.
 
@@ -414,7 +414,7 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
 def built_space(
     scene: Scene, features: SceneFeatures, core: _core.Boundary, surfaces: _core.CellComplex, cells: _core.FreeSpace
 ) -> FreeSpace:
-    """What the core has built: the boundary, the surfaces that bound its cells, and these."""
+    """Wrap a free space that the core has built: the boundary, the surfaces that bound the cells, and the cells."""
     boundary = boundary_of(scene, features, core)
     if _core.may_have_slits(features.core):
         boundary.regularized = boundary_of(scene, features, surfaces.boundary)
@@ -429,7 +429,7 @@ def _of_core(boundary: Boundary, core: _core.FreeSpace) -> FreeSpace:
 
 
 def bounding_surfaces(boundary: Boundary, threads: int | None = None) -> Boundary:
-    """The boundary of the interior of the free space."""
+    """Return the boundary of the interior of the free space."""
     if not _core.may_have_slits(boundary.features.core):
         return boundary
     regularize_by(threads or os.cpu_count() or 1, boundary)

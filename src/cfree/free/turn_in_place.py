@@ -1,9 +1,9 @@
-"""Which orientations are free at a fixed position: in closed form, exact fits included.
+"""Free orientations at a fixed position, in closed form, exact fits included.
 
-Turned about a fixed point P, a point a of the robot is at P + R a. Whether it is beyond the line of an obstacle's edge,
-and whether a vertex of an obstacle is beyond the line of an edge of the robot, is the sign of A + B cos + C sin. Two
-convex polygons are apart where for an edge of one all vertices of the other are beyond its line or on it: where these
-are at most 0. See docs/theory/motions.md, "Turning in place".
+Turned about a fixed point P, a point a of the robot is at P + R a. The sign of A + B cos + C sin decides if a vertex of
+the robot is beyond the line of an obstacle's edge. The same form decides it for a vertex of an obstacle and an edge of
+the robot. Two convex polygons are apart if for an edge of one all vertices of the other are on its line or beyond it:
+if these forms are at most 0. See docs/theory/motions.md, "Turning in place".
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from cfree.scene.scene import Scene
 def turn_in_place(
     scene: Scene | Boundary, pose: PoseLike, pole: tuple[Number, Number] | None = None
 ) -> tuple[AngleInterval, ...]:
-    """All free orientations of the robot turned about a point that stays in place.
+    """Return all free orientations of the robot turned about a point that stays in place.
 
     Parameters
     ----------
@@ -35,13 +35,13 @@ def turn_in_place(
     pose : Pose or (x, y, theta)
         Its orientation does not matter if the pole is its reference point, and it need not be free.
     pole : pair of numbers, optional
-        The point that stays in place, in the world; the reference point unless given.
+        The point that stays in place, in the world; by default the reference point.
 
     Returns
     -------
     tuple of AngleInterval
-        Orientations theta of the robot: disjoint closed intervals in counter-clockwise order, single orientations among
-        them. Empty if none is free, one without ends if all are.
+        Orientations theta of the robot: disjoint closed intervals in counter-clockwise order, some of them single
+        orientations. Empty if none is free; one interval without ends if all are.
 
     Notes
     -----
@@ -50,7 +50,7 @@ def turn_in_place(
 
     Examples
     --------
-    A rod of length 10 and width 2 between walls 4 above and 4 below; then with its side on the upper wall:
+    A rod of length 10 and width 2 is between walls 4 above and 4 below; then its side is on the upper wall:
 
     >>> walls = [[(-20, 4), (20, 4), (20, 5), (-20, 5)], [(-20, -5), (20, -5), (20, -4), (-20, -4)]]
     >>> scene = Scene(robot=[(-5, -1), (5, -1), (5, 1), (-5, 1)], obstacles=walls)
@@ -86,7 +86,7 @@ def turn_in_place(
 
 
 def _pieces(shape: ShapeFeatures, unit: int, origin: Point) -> list[list[Point]]:
-    """Convex pieces in integers, seen from a point."""
+    """Return the convex pieces in integers, relative to a point."""
     factor, (x, y) = unit // shape.scale, origin
     points = [(factor * p - x, factor * q - y) for p, q in shape.vertices]
     layers = zip(shape.pieces, shape.core.piece_layer, strict=True)
@@ -94,7 +94,7 @@ def _pieces(shape: ShapeFeatures, unit: int, origin: Point) -> list[list[Point]]
 
 
 def _limit_forms(limits: tuple[Fraction | float, ...], unit: int, pole: Point, of_pole: Point) -> list[Form]:
-    """At most 0 where the reference point, at the pole minus R of_pole, is within the limits."""
+    """Return forms at most 0 where the reference point, at the pole minus R of_pole, is within the limits."""
     (x, y), (ax, ay) = pole, of_pole
     forms = []
     for k, (p, B, C) in enumerate(((x, ax, -ay), (y, ay, ax)) * 2):
@@ -105,7 +105,7 @@ def _limit_forms(limits: tuple[Fraction | float, ...], unit: int, pole: Point, o
 
 
 def _apart(robot: list[Point], obstacle: list[Point]) -> Arcs:
-    """Where the interiors of two convex polygons, the robot's turned about the origin, have no point in common."""
+    """Return the angles at which the interiors of two convex polygons, the robot's turned, have no common point."""
     families = []
     for (x, y), (z, w) in pairwise([*obstacle, obstacle[0]]):
         ex, ey = z - x, w - y

@@ -1,1 +1,1 @@
-"""Paths: motions one after the other, how far the robot goes on them, and how far it stays from everything."""
+"""Paths: sequences of motions, their lengths, and their clearance."""

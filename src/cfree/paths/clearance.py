@@ -18,7 +18,7 @@ from cfree.paths.travel import Travel
 from cfree.scene.scene import Scene
 from cfree.value import kept
 
-MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
+MOST_SAMPLES = 20_000  # samples that separate narrow places of a path
 
 
 @dataclass(frozen=True)
@@ -28,12 +28,12 @@ class Clearance:
     Attributes
     ----------
     least : float
-        Certified: no pose of the path has less. 0 if the path touches, or comes closer than the tolerance.
+        A certified lower bound over the whole path. 0 if the path touches, or comes closer than the tolerance.
     found : float
-        The distance at the pose found, correct but for rounding.
+        The distance at the closest pose found, correct up to rounding.
     motion : int
     share : float
-        Where: the share of that motion.
+        The share of that motion at which the pose is.
     robot : (polygon, edge)
     obstacle : (obstacle, edge)
         The two closest edges there; -2 stands for the workspace.
@@ -48,7 +48,7 @@ class Clearance:
 
 
 def rounded_down(bound: float, digits: int) -> str:
-    """A lower bound in so many digits, 6 at most, that is still one.
+    """Round a lower bound down to a number of digits, 6 at most.
 
     Examples
     --------
@@ -60,20 +60,20 @@ def rounded_down(bound: float, digits: int) -> str:
 
 @checked
 def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clearance | None:
-    """The least distance of a path from obstacles and workspace, with a certified lower bound.
+    """Return the least distance of a path from obstacles and workspace, with a certified lower bound.
 
     Parameters
     ----------
     path : Path
     scene : Scene
-        In which the path is free; bounds are no bodies and have no distance.
+        The path must be free in it. Bounds are no bodies and have no distance.
     tolerance : float, optional
-        How far `least` may be below the truth, if that does not take too many steps. Unless given, a thousandth of
-        the robot's radius, or a quarter of what is found where that is less.
+        Greatest difference of `least` from the true distance, if that does not take too many steps. By default a
+        thousandth of the robot's radius, or a quarter of the distance found if that is less.
 
     Returns
     -------
-    Clearance, or None if there is nothing to be near to
+    Clearance, or None if there are no obstacles and no workspace
 
     Raises
     ------
@@ -82,14 +82,14 @@ def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clear
 
     Notes
     -----
-    A translation is as far from everything as what the robot's edges and vertices sweep. Other motions are halved
-    until no part of them can hold a distance smaller, by more than the tolerance, than the least one found: a pose is
-    at most as much closer as the robot's farthest vertex travels. It takes as long as about (length / tolerance)
-    distances for one that keeps its distance from a wall, and mostly much less.
+    For a translation it is the distance of the area that the robot's edges and vertices sweep. Other motions are halved
+    until no part can have a distance that is smaller than the least one found by more than the tolerance. A distance
+    changes at most by the travel of the robot's farthest vertex. A motion at an even distance from a wall takes as long
+    as about (length / tolerance) distances; most take much less.
 
     Examples
     --------
-    >>> from cfree import Pose, Scene
+    >>> from cfree import Pose, Scene, Translation
     >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     >>> scene = Scene(robot=square, obstacles=[(2, "1.25"), (5, "1.25"), (5, 3), (2, 3)])
     >>> found = clearance(Path(Pose(0, 0), [Translation((7, 0))]), scene, tolerance=1e-3)
@@ -100,12 +100,12 @@ def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clear
 
 
 def distances_beside(path: Path, scene: Scene) -> EdgeDistances:
-    """What a free path keeps away from.
+    """Return the edges from which a path keeps its distance.
 
     Raises
     ------
     ValueError
-        If it is not free.
+        If the path is not free.
     """
     distances = kept(scene, EdgeDistances)
     if path.motions:
@@ -125,30 +125,30 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
         raise ValueError(f"tolerance {tolerance}: give a positive one")
     motions, poses = (path.motions, path.poses) if path.motions else ((STILL,), 2 * path.poses)
     core, robot = distances.core, distances.robot
-    found = core.least(poses, motions, robot, 1e-3 * distances.radius if tolerance is None else float(tolerance))
-    if tolerance is None and found[0] == 0 < found[1]:
-        found = core.least(poses, motions, robot, found[1] / 4)
-    least, there, motion, share, edge, other = found
+    result = core.least(poses, motions, robot, 1e-3 * distances.radius if tolerance is None else float(tolerance))
+    if tolerance is None and result[0] == 0 < result[1]:
+        result = core.least(poses, motions, robot, result[1] / 4)
+    least, there, motion, share, edge, other = result
     return Clearance(least, there, motion, share, distances.robot_names[edge], distances.names[other])
 
 
 @checked
 def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]:
-    """The narrowest places of a path: where its distance from obstacles is less than before and after.
+    """Return the narrowest places of a path, at which its distance from obstacles is less than before and after.
 
     Parameters
     ----------
     path : Path
-        Free in the scene.
+        Must be free in the scene.
     scene : Scene
     count : int
-        How many places at most.
+        Greatest number of places.
 
     Returns
     -------
     tuple of Clearance
-        The narrowest first, each with a certified lower bound for a part of the path around it, which ends where it is
-        twice as wide, or at the widest place before another part. Empty if there is nothing to be near to.
+        The narrowest first, each with a certified lower bound for a part of the path around it. A part ends where the
+        path is twice as wide, or at the widest place before another part. Empty without obstacles and workspace.
 
     Raises
     ------
@@ -157,13 +157,12 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
 
     Notes
     -----
-    Parts are told apart by samples, at each hundredth of the robot's radius that it travels; 20,000 at most. Where it
-    touches, a part ends at a distance of a hundredth of the radius.
+    Samples separate the parts, one at each hundredth of the robot's radius that it travels; 20,000 at most. Around a
+    contact, a part ends at a distance of a hundredth of the radius.
 
     Examples
     --------
-    >>> from cfree.exact.pose import Pose
-    >>> from cfree.scene.scene import Scene
+    >>> from cfree import Pose, Scene, Translation
     >>> gates = [[(x, -9), (x + 1, -9), (x + 1, -gap), (x, -gap)] for x, gap in ((3, 1), (9, 2), (15, 1.5))]
     >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=gates)
     >>> [(place.found, place.obstacle[0]) for place in narrowest(Path(Pose(0, 0), [Translation((20, 0))]), scene)]
@@ -179,21 +178,21 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
     distance, _, _ = distances.nearest(distances.placed(travel.at(steps)))
     around = np.concatenate(([np.inf], distance, [np.inf]))
     lows = np.where((distance <= around[:-2]) & (distance <= around[2:]), distance, np.inf)
-    found: list[Clearance] = []
+    places: list[Clearance] = []
     taken = np.zeros(len(steps), bool)
-    while len(found) < count and np.isfinite(lows).any():
+    while len(places) < count and np.isfinite(lows).any():
         k = int(lows.argmin())
         wide = np.flatnonzero(taken | (distance >= max(2 * distance[k], distances.radius / 100)))
         first, last = wide[wide < k].max(initial=0), wide[wide > k].min(initial=len(steps) - 1)
         first, last = first + int(distance[first : k + 1].argmax()), k + int(distance[k : last + 1].argmax())
         if place := _least_between(path, distances, *travel.places(steps[[first, last]])):
-            found.append(place)
+            places.append(place)
         taken[first : last + 1], lows[first : last + 1] = True, np.inf
-    return tuple(sorted(found, key=lambda place: place.found))
+    return tuple(sorted(places, key=lambda place: place.found))
 
 
 def _least_between(path: Path, distances: EdgeDistances, motion: Ints, share: Floats) -> Clearance | None:
-    """The least clearance between two places of a path; the place found is one of the whole path."""
+    """Return the least clearance between two places of a path; motion and share count in the whole path."""
     (i, j), (u, v) = motion.tolist(), map(Fraction, share.tolist())
     ends = [(u if k == i else Fraction(0), v if k == j else Fraction(1)) for k in range(i, j + 1)]
     start = path.motions[i].at(path.poses[i], u)

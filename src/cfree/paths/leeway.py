@@ -1,4 +1,4 @@
-"""Does a path keep its distance from everything, all the way? Exact."""
+"""Exact test that a path keeps its distance from everything."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:
-    """Is a path free for a robot larger by the square [-leeway, leeway]^2, in bounds as much smaller?
+    """True if a path is free for a robot larger by the square [-leeway, leeway]^2, in bounds smaller by as much.
 
-    Then no pose is forbidden at which each point of the robot is at most as far from its place on the path.
+    Then every pose at which each point of the robot is at most `leeway` from its place on the path is free.
 
     Examples
     --------
@@ -35,6 +35,6 @@ def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:
             return False
     try:
         larger = with_robot(scene, grown_by_square(scene, leeway) if leeway else scene.robot, bounds)
-    except UnsupportedError:  # coordinates beyond what is allowed
+    except UnsupportedError:  # coordinates out of range
         return False
     return path.is_free(MotionChecker(larger))

@@ -1,6 +1,7 @@
-"""Paths: motions one after the other, from an exact pose to an exact pose.
+"""Paths: sequences of motions from an exact pose to an exact pose.
 
-Between two motions the robot stands still, so every path is continuous. Files are described in `docs/answer-format.md`.
+Each motion begins at the end of the one before it, so every path is continuous. `docs/answer-format.md` describes the
+files.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from cfree.scene.scene import Scene
 from cfree.value import Answer, Shown
 from cfree.words import counted
 
-STILL = Translation((0, 0))  # of a path without motions
+STILL = Translation((0, 0))  # stands for the motion of a path that has none
 Objective = Literal["balanced", "short", "clear"]
 Floats = NDArray[np.float64]
 
@@ -34,11 +35,11 @@ Floats = NDArray[np.float64]
 @checked
 @dataclass(frozen=True, repr=False)
 class Path(Shown, Answer):
-    """A start and motions.
+    """A start pose and motions.
 
     A path is a sequence of its motions: it has a length, can be iterated over, and ``path[2]`` is a motion. A slice
-    such as ``path[2:5]`` is the part of the path from ``path.poses[2]`` to ``path.poses[5]``, again a path. A path is
-    always true, even without motions.
+    such as ``path[2:5]`` is a path from ``path.poses[2]`` to ``path.poses[5]``. A path is always true, even without
+    motions.
 
     Parameters
     ----------
@@ -46,22 +47,22 @@ class Path(Shown, Answer):
     motions : sequence of Translation, Rotation or Slide
         In world coordinates, applied one after the other.
     units : str, optional
-        Unit of length; nothing is computed from it.
+        Unit of length, for display only.
     frame : str, optional
         Name of the world's frame, for files.
     scene : Scene, optional
-        In which it is a path; None if it was read from a file.
+        The scene of the path; None if it was read from a file.
     stamp : Stamp, optional
-        What the file said of the scene.
+        The scene's stamp in the file.
     clearance : Fraction, optional
-        It is said to keep at least this distance from obstacles and workspace; 0 if nothing is said.
+        Distance that it claims to keep from obstacles and workspace; 0 without a claim.
     disc : tuple of exact points, optional
         A convex polygon around a disc of that radius, in the robot's frame: the path is free for the robot's Minkowski
         sum with it.
     curved : Scene, optional
-        With round shapes, if it is a path among these; `scene` has polygons around them.
+        The scene with round shapes, if it is a path among these; `scene` has polygons around them.
     moved : Moved, optional
-        Start and goal as they were asked for, if they were moved to free poses.
+        The requested start and goal, if they were moved to free poses.
     whole : Whole, optional
         The scene of which `scene` has only some obstacles, if a folder was asked.
 
@@ -153,7 +154,7 @@ class Path(Shown, Answer):
 
     @cached_property
     def poses(self) -> tuple[Pose, ...]:
-        """The start, and where each motion ends; exact."""
+        """The start, and the end of each motion; exact."""
         poses = [self.start]
         for motion in self.motions:
             poses.append(motion.apply(poses[-1]))
@@ -161,22 +162,22 @@ class Path(Shown, Answer):
 
     @property
     def goal(self) -> Pose:
-        """Where the last motion ends, exactly."""
+        """The end of the last motion, exact."""
         return self.poses[-1]
 
     @property
     def length(self) -> float:
-        """How far the reference point travels."""
+        """Path length of the reference point."""
         return math.fsum(motion.length(pose) for pose, motion in zip(self.poses, self.motions, strict=False))
 
     @property
     def turning(self) -> float:
-        """All angles turned, without signs, in radians."""
+        """Total rotation: the sum of all angles turned, without signs, in radians."""
         return math.fsum(abs(motion.turn) for motion in self.motions)
 
     @checked
     def at(self, position: Number) -> Pose:
-        """Exact pose at a position: k + u is the parameter u of motion k, whole numbers the poses between motions.
+        """Return the exact pose at a position: k + u is the parameter u of motion k, k alone is ``poses[k]``.
 
         Examples
         --------
@@ -192,14 +193,14 @@ class Path(Shown, Answer):
 
     @checked
     def after(self, distance: float, angle_scale: float = 1.0) -> Pose:
-        """A pose after a distance along the path: travel of the reference point, and turning times `angle_scale`.
+        """Return a pose at a distance along the path: travel of the reference point, plus turning times `angle_scale`.
 
-        It is an exact one of the path; the distance is that but for rounding.
+        It is exactly on the path; the distance is correct up to rounding.
 
         Raises
         ------
         ValueError
-            If the distance is negative, or more than the whole.
+            If the distance is negative, or longer than the path.
 
         Examples
         --------
@@ -219,14 +220,14 @@ class Path(Shown, Answer):
 
     @checked
     def sample(self, step: float, turn: float = math.radians(5)) -> Poses:
-        """Poses along the path, the ends of all motions among them.
+        """Return poses along the path, including the ends of all motions.
 
         Parameters
         ----------
         step : float
-            The reference point moves at most this far from one pose to the next.
+            Greatest path length of the reference point from one pose to the next.
         turn : float, radians
-            And the robot turns at most this much.
+            Greatest turn from one pose to the next.
 
         Returns
         -------
@@ -244,7 +245,7 @@ class Path(Shown, Answer):
 
     @checked
     def angles(self, step: float, turn: float = math.radians(5)) -> Floats:
-        """Theta of the same poses, counted on from the start's and not wrapped.
+        """Return theta of the poses of `sample`, continued from the start's and not wrapped.
 
         Examples
         --------
@@ -253,28 +254,28 @@ class Path(Shown, Answer):
         >>> np.degrees(path.angles(1, math.pi))
         array([  0., -90.,  90.])
         """
-        parts, counted = [np.array([self.start.theta])], self.start.theta
+        parts, before = [np.array([self.start.theta])], self.start.theta
         for k, (motion, shares) in enumerate(zip(self.motions, self.shares(step, turn), strict=True)):
             end = self.poses[k + 1].theta
-            end += math.tau * round((counted + motion.turn - end) / math.tau)
-            parts.append(np.append(counted + shares[:-1] * motion.turn, end))
-            counted = end
+            end += math.tau * round((before + motion.turn - end) / math.tau)
+            parts.append(np.append(before + shares[:-1] * motion.turn, end))
+            before = end
         return np.concatenate(parts)
 
     @checked
     def shares(self, step: float, turn: float = math.radians(5)) -> list[Floats]:
-        """For each motion the shares of it, above 0 and up to 1, at which `sample` takes poses."""
+        """Return for each motion its shares, above 0 and up to 1, at which `sample` takes poses."""
         if not (step > 0 and turn > 0):
             raise ValueError(f"step {step}, turn {turn}: give positive ones")
-        found = []
+        shares = []
         for pose, motion in zip(self.poses, self.motions, strict=False):
             count = max(1, math.ceil(motion.length(pose) / step), math.ceil(abs(motion.turn) / turn))
-            found.append(np.arange(1, count + 1) / count)
-        return found
+            shares.append(np.arange(1, count + 1) / count)
+        return shares
 
     @checked
     def is_free(self, checker: MotionChecker) -> bool:
-        """Is every pose on the path free? Exact.
+        """True if every pose on the path is free, decided exactly.
 
         Examples
         --------

@@ -1,7 +1,7 @@
-"""What a machine would rather not do, and where a path does it: go sideways or backward, turn on the spot.
+"""Preferences of a machine: cost factors of going sideways or backward and turning on the spot; costly motions.
 
-Forward is the x axis of the robot's frame, which turns with the robot. The way of the reference point counts; the robot
-sees it in one direction all along a motion.
+Forward is the x axis of the robot's frame, which turns with the robot. The travel of the reference point counts; in the
+robot's frame its direction is constant during a motion.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ from cfree.paths.path import Path
 from cfree.scene.scene import Scene, robot_radius
 
 Kind = Literal["sideways", "backward", "turning"]
-STEPS = 33  # poses of a motion
-ASKEW = math.sin(math.radians(10))  # less is not sideways, for a report
-LEAST = 0.01  # of the robot's radius, and radians: less is not reported
+STEPS = 33  # poses sampled on a motion
+ASKEW = math.sin(math.radians(10))  # least sine of the direction that a report calls sideways
+LEAST = 0.01  # least amount in a report, in robot radii or radians
 
 
 @checked
 @dataclass(frozen=True)
 class Preferences:
-    """How much dearer than going forward a machine finds what it would rather not do; 1: not at all.
+    """Cost factors of a machine's motions, relative to going forward; 1 is no preference.
 
     Parameters
     ----------
     sideways, backward : float, at least 1
-        What travel costs in these directions; in between as on an ellipse.
+        Cost of travel in these directions; in between as on an ellipse.
     turning : float, at least 1
-        What turning on the spot costs. A radian is as dear as travelling the robot's radius; on an arc at least as wide
-        as that this factor does not count.
+        Cost of turning on the spot. A radian costs as much as travelling the robot's radius; on an arc of at least that
+        radius this factor does not count.
 
     Raises
     ------
@@ -43,8 +43,8 @@ class Preferences:
 
     Notes
     -----
-    They decide which path is found, never whether there is one: where nothing else is found, a path does what is dear,
-    and `unwanted` says where.
+    They influence which path is found, never if there is one. If no other path is found, it has costly motions, and
+    `unwanted` lists them.
 
     Examples
     --------
@@ -63,17 +63,17 @@ class Preferences:
 
     @property
     def matter(self) -> bool:
-        """Is anything dearer?"""
+        """True if any factor is more than 1."""
         return max(self.factors) > 1
 
     @property
     def factors(self) -> tuple[float, float, float]:
-        """In the order of the parameters."""
+        """The factors in the order of the parameters."""
         return self.sideways, self.backward, self.turning
 
     @checked
     def cost(self, path: Path, scene: Scene) -> float:
-        """Of a path in a scene: its length, plus turning times the robot's radius, with these factors."""
+        """Return the cost of a path: its length plus its turning times the robot's radius, with these factors."""
         radius, cost = robot_radius(scene), 0.0
         if not self.matter:
             return path.length + radius * path.turning
@@ -91,7 +91,7 @@ NONE = Preferences()
 @checked
 @dataclass(frozen=True)
 class Unwanted:
-    """Some motions, one after the other, that do what a machine would rather not.
+    """A run of costly motions on a path.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class Unwanted:
 
     @checked
     def text(self, units: str = "") -> str:
-        """In words.
+        """Write it in words.
 
         Examples
         --------
@@ -124,20 +124,20 @@ class Unwanted:
 
 @checked
 def unwanted(path: Path, scene: Scene, preferences: Preferences) -> tuple[Unwanted, ...]:
-    """Where a path does what a machine would rather not: what it finds dearer than 1.
+    """Return the costly motions of a path: those with a cost factor of more than 1.
 
     Parameters
     ----------
     path : Path
     scene : Scene
-        Whose robot moves.
+        The scene of the robot that moves.
     preferences : Preferences
 
     Returns
     -------
     tuple of Unwanted
-        By kind, in the order of the path. Sideways: more than 10 degrees off ahead and back. Of one motion less than a
-        hundredth of the robot's radius, or of a radian, is left out.
+        By kind, in the order of the path. Sideways means more than 10 degrees off the forward and backward directions.
+        Amounts of less than a hundredth of the robot's radius, or of a radian, in one motion are left out.
 
     Examples
     --------
@@ -154,18 +154,18 @@ def unwanted(path: Path, scene: Scene, preferences: Preferences) -> tuple[Unwant
         amounts["sideways"].append(float((travel * np.abs(across))[np.abs(across) > ASKEW].sum()))
         amounts["backward"].append(float(-(travel * ahead)[ahead < -ASKEW].sum()))
         amounts["turning"].append(float(np.maximum(0.0, turn - travel / radius).sum()))
-    found = []
+    runs = []
     for (kind, values), factor in zip(amounts.items(), preferences.factors, strict=True):
         counts = np.array(values) > LEAST * (1.0 if kind == "turning" else radius)
         if factor == 1 or not counts.any():
             continue
         edges = np.flatnonzero(np.diff(np.concatenate([[False], counts, [False]])))
-        found += [Unwanted(kind, sum(values[i:j]), i, j - 1) for i, j in edges.reshape(-1, 2).tolist()]
-    return tuple(found)
+        runs += [Unwanted(kind, sum(values[i:j]), i, j - 1) for i, j in edges.reshape(-1, 2).tolist()]
+    return tuple(runs)
 
 
 def _motions(path: Path) -> Iterator[tuple[np.ndarray, ...]]:
-    """Of each motion in steps: the direction of travel as the robot sees it, ahead and across; travel; radians."""
+    """Yield each motion in steps: direction of travel in the robot's frame, ahead and across; travel; radians."""
     shares = np.linspace(0.0, 1.0, STEPS)
     for pose, motion in zip(path.poses, path.motions, strict=False):
         dx, dy = np.diff(motion.sample(pose, shares).xy, axis=0).T

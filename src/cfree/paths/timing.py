@@ -1,4 +1,4 @@
-"""When a robot is where on a path, if no point of it is to be faster than a speed."""
+"""Times at the poses of a path, if no point of the robot may be faster than a speed."""
 
 from __future__ import annotations
 
@@ -12,16 +12,17 @@ from cfree.scene.scene import Scene, robot_radius
 
 @checked
 def times(path: Path, scene: Scene, speed: float, step: float, turn: float) -> NDArray[np.float64]:
-    """Seconds since the start at each of the poses of `Path.sample`.
+    """Return the seconds since the start at each of the poses of `Path.sample`.
 
     Parameters
     ----------
     path : Path
     scene : Scene
-        Whose robot moves.
+        The scene of the robot that moves.
     speed : float
-        Lengths a second, which no point of the robot is faster than: a motion takes the way of the reference point plus
-        the turning times the robot's radius about that point, over the speed. Within it time goes with its share.
+        Greatest speed of any point of the robot, in lengths a second. A motion takes the path length of the reference
+        point, plus the turning times the robot's radius about that point, over the speed. Within it time is
+        proportional to its share.
     step, turn : float
         As in `Path.sample`.
 

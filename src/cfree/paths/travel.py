@@ -1,4 +1,4 @@
-"""A path by how far the robot moves, not only its reference point: for pictures, films and samples."""
+"""Travel along a path, counting all points of the robot, not only its reference point: for pictures and films."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-GHOSTS, APART = 15, 0.6  # so many poses of a path in a picture, and no closer than this part of the robot's radius
-SAME = 1e-9  # of the robot's radius: less is no motion, for the eye
+GHOSTS, APART = 15, 0.6  # most poses of a path in a picture, and least distance of two in robot radii
+SAME = 1e-9  # in robot radii: a picture shows less as no motion
 
 
 class Travel:
-    """Places on a path by the travel of the robot: in each motion how far its farthest moving point goes.
+    """Places on a path by the travel of the robot: in each motion the path length of its farthest moving point.
 
     Parameters
     ----------
     path : Path
     scene : Scene
-        Whose robot moves.
+        The scene of the robot that moves.
 
     Attributes
     ----------
@@ -54,14 +54,14 @@ class Travel:
         self.total = float(self._until[-1])
 
     def places(self, travel: ArrayLike) -> tuple[Ints, Floats]:
-        """Motions (n,), and how much of each is done (n,), after so much travel; of a path of some motions."""
+        """Return motions (n,), and the completed share of each (n,), after some travel; there must be motions."""
         s = np.asarray(travel, dtype=np.float64)
         motion = np.clip(np.searchsorted(self._until, s, side="right") - 1, 0, len(self._motions) - 1)
         length = np.diff(self._until)[motion]
         return motion, np.clip((s - self._until[motion]) / np.where(length > 0, length, 1.0), 0.0, 1.0)
 
     def at(self, travel: ArrayLike) -> Floats:
-        """Rows x, y, theta, (n, 3), after so much travel (n,); theta goes on beyond full turns, from the start's."""
+        """Return rows x, y, theta, (n, 3), after some travel (n,); theta continues from the start's, not wrapped."""
         s = np.asarray(travel, dtype=np.float64)
         rows = np.empty((len(s), 3))
         if not self._motions:
@@ -76,9 +76,9 @@ class Travel:
 
 
 def ghosts(rows: Floats, scene: Scene) -> Ints:
-    """Rows x, y, theta of a path at which to draw the robot: at even steps, turns in place not counted.
+    """Select rows x, y, theta of a path at which to draw the robot: at even steps, without turns in place.
 
-    It turns in place where its reference point or its centroid stays.
+    A turn is in place if the reference point or the centroid stays.
     """
     import shapely
 

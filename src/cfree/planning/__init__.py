@@ -1,7 +1,7 @@
-"""Paths, or proofs that there are none: the core finds poses and surfaces, here they become objects.
+"""Paths, or proofs that there are none, made from the poses and surfaces that the core finds.
 
-`planner` asks it, for one pair of poses; `goals`, `many` and `clearance` ask several times. Nothing but a check of the
-core says that a motion is free.
+`planner` calls the core for one pair of poses; `goals`, `many` and `clearance` call it several times. Every motion of a
+path is proved free by a check of the core.
 """
 
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""What is asked of a planner by those who make one answer of several."""
+"""Interface of a planner for code that combines several of its answers."""
 
 from __future__ import annotations
 

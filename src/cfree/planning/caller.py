@@ -1,4 +1,4 @@
-"""Who waits for a long call of the core: is told of its phases, and asked whether to go on."""
+"""Listener to a long call of the core: receives its phases and progress, and can stop it."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from typing import Any
 from cfree.errors import UndecidedError
 
 Phase = Callable[[str], AbstractContextManager[Any]]
-TOLD = "free space"  # the phase whose share is told without a context for it
+TOLD = "free space"  # the phase that reports its share to `progress` if it has no context
 
 
 class OutOfWork(UndecidedError):
-    """Raised within the planner when the contact patches for a question are used up."""
+    """Raised within the planner when the contact patches for a query are used up."""
 
 
 class Work:
-    """Contact patches that may be trimmed for one question, whatever the number of scenes it is asked of.
+    """Limit of the contact patches trimmed for one query, summed over all its scenes.
 
     Parameters
     ----------
@@ -30,12 +30,12 @@ class Work:
         self.patches = self.left = patches
 
     def spend(self, patches: int) -> None:
-        """Count patches.
+        """Subtract patches from those left.
 
         Raises
         ------
         OutOfWork
-            If none are left.
+            If too few are left.
         """
         self.left -= patches
         if self.left < 0:
@@ -43,14 +43,14 @@ class Work:
 
 
 class Caller:
-    """One for each call.
+    """Listener of one call.
 
     Parameters
     ----------
     phase : callable
-        Gives a context for the phase with a name, which gives what to call with its share, or None.
+        Returns a context for the phase with a name. The context's value is called with the completed share, or is None.
     progress : callable, optional
-        Called with the share of the free space that is computed, unless its context gives what to call.
+        Called with the completed share of the free space, unless its phase's context has a callable value.
     max_seconds : float, optional
     stop : threading.Event, optional
         Ends the call when it is set.
@@ -73,28 +73,28 @@ class Caller:
         self._open: list[tuple[AbstractContextManager[Any], Callable[[float], object] | None]] = []
 
     def begin(self, name: str) -> None:
-        """Of a phase."""
+        """Begin a phase."""
         context = self._phase(name)
         share = context.__enter__()
         self._open.append((context, share if callable(share) else self._progress if name == TOLD else None))
 
     def end(self) -> None:
-        """Of the phase that has begun last."""
+        """End the phase that began last."""
         context, _ = self._open.pop()
         context.__exit__(None, None, None)
 
     def share(self, share: float) -> None:
-        """Of the phase that has begun last."""
-        told = self._open[-1][1] if self._open else self._progress
-        if told is not None:
-            told(share)
+        """Report the completed share of the phase that began last."""
+        report = self._open[-1][1] if self._open else self._progress
+        if report is not None:
+            report(share)
 
     def spend(self, patches: int) -> None:
-        """Count contact patches, if their number is limited."""
+        """Subtract contact patches from those left, if their number is limited."""
         if self._work is not None:
             self._work.spend(patches)
 
     def look(self) -> None:
-        """Ten times a second."""
+        """Raise `KeyboardInterrupt` if the call is to stop; called ten times a second."""
         if self._stop is not None and self._stop.is_set():
             raise KeyboardInterrupt

@@ -1,9 +1,9 @@
 """Paths that keep a distance from obstacles and workspace, or a proof that none does.
 
-The poses at which the robot keeps the distance are those that are free for its Minkowski sum with a disc. Polygons
-around a disc and within it have more and more sides: a path for the robot and the polygon around it keeps the distance,
-and where none joins start and goal for the robot and the one within it, none keeps it. Bounds stay for the reference
-point. docs/theory/separations.md, "With a clearance", has the proof.
+The robot keeps the distance at the poses that are free for its Minkowski sum with a disc. Polygons around a disc and
+inside it get more and more sides. A path for the robot's sum with the outer polygon keeps the distance; if there is no
+path for the sum with the inner one, no path keeps it. Bounds apply to the reference point, unchanged.
+docs/theory/separations.md, "With a clearance", has the proof.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ from cfree.scene.goals import Goal
 from cfree.scene.scene import Bounds, Scene, with_robot
 
 SIDES = (8, 28, 100)  # of the polygons: the last two differ by less than 0.1 % of the radius
-BEYOND = Fraction(1, 2**30)  # of the clearance: how much wider bounds are for a proof
-THINNER = Fraction(1, 2**20)  # of the clearance: how much smaller cores are than the robot's pieces
-TURNING = Fraction(1, 2**21)  # of the clearance: half the square by which what turns at a place is larger
-ROUNDING = 2.0**-40  # more than that of a radius, relatively
+BEYOND = Fraction(1, 2**30)  # widening of the bounds for a proof, as a part of the clearance
+THINNER = Fraction(1, 2**20)  # shrinking of the robot's pieces to cores, as a part of the clearance
+TURNING = Fraction(1, 2**21)  # half the side of the square added to a robot that turns, as a part of the clearance
+ROUNDING = 2.0**-40  # relative; exceeds the rounding of a radius
 
 
 def plan_at_distance(
@@ -48,19 +48,19 @@ def plan_at_distance(
     improve: float | None,
     objective: Objective,
 ) -> Path | Separated:
-    """A path that keeps a clearance above 0, or a proof that none does; see `cfree.plan`.
+    """Plan a path that keeps a clearance above 0, or prove that none does; see `cfree.plan`.
 
     Raises
     ------
     InvalidPoseError
-        If start or goal is nearer to something.
+        If start or goal has less clearance.
     UndecidedError
         If the largest clearance of a path is within 0.1 % of this one.
     """
     for pose, name in ((start, "start"), (goal, "goal")):
         _require(scene, pose, clearance, name)
-    found = _to_one(_Asked(scene, start, clearance, planner, improve, objective), goal, "goal")
-    return found if isinstance(found, Path) else found[0]
+    answer = _to_one(_Query(scene, start, clearance, planner, improve, objective), goal, "goal")
+    return answer if isinstance(answer, Path) else answer[0]
 
 
 def plan_any_at_distance(
@@ -72,29 +72,29 @@ def plan_any_at_distance(
     improve: float | None,
     objective: Objective,
 ) -> Path | AllSeparated:
-    """A path to one of several goals that keeps a clearance, or proofs that none leads to any; see `cfree.plan`.
+    """Plan a path to one of several goals that keeps a clearance, or prove that none does; see `cfree.plan`.
 
     Raises
     ------
     InvalidPoseError
-        If the start, or a goal that is a pose, is nearer to something, or the robot is in all orientations at a place.
+        If the start or a goal has less clearance; at a place, in all orientations.
     UndecidedError
-        If no path was found, and a goal is too near to deciding.
+        If no path was found, and for a goal the largest clearance is within 0.1 % of this one.
     """
     scene = asked.scene
     for pose, name in ((start, "start"), *((goal, name_of(goals, k)) for k, goal in enumerate(goals))):
         if isinstance(pose, Pose):
             _require(scene, pose, clearance, name)
-    question = _Asked(scene, start, clearance, planner, improve and improve / len(goals), objective)
+    query = _Query(scene, start, clearance, planner, improve and improve / len(goals), objective)
     paths, proofs, undecided = list[Path](), list[Separated](), None
     for k, goal in enumerate(goals):
         try:
-            found = _to_one(question, goal, name_of(goals, k))
+            answer = _to_one(query, goal, name_of(goals, k))
         except UndecidedError as error:
             undecided = error
         else:
-            paths += [found] if isinstance(found, Path) else []
-            proofs += [] if isinstance(found, Path) else found
+            paths += [answer] if isinstance(answer, Path) else []
+            proofs += [] if isinstance(answer, Path) else answer
     if paths:
         return cheapest(paths, asked)
     if undecided is not None:
@@ -103,8 +103,8 @@ def plan_any_at_distance(
 
 
 @dataclass(frozen=True)
-class _Asked:
-    """A question about paths from one start that keep a clearance."""
+class _Query:
+    """A query for paths from one start that keep a clearance."""
 
     scene: Scene
     start: Pose
@@ -119,13 +119,13 @@ def _require(scene: Scene, pose: Pose, clearance: Fraction, name: str) -> None:
     require_distance(scene, pose, clearance, name)
 
 
-def _to_one(asked: _Asked, goal: Goal, name: str) -> Path | list[Separated]:
-    """A path to a pose, or to a place in any orientation; or a proof for the pose, or for each interval of these."""
-    scene, start, clearance = asked.scene, asked.start, asked.clearance
+def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
+    """Return a path to a pose or place; or a proof for the pose, or for each interval of orientations at the place."""
+    scene, start, clearance = query.scene, query.start, query.clearance
     hi, disc, inside = math.inf, list[ExactPoint](), list[ExactPoint]()
 
-    def kept(path: Path | Separated) -> Path | None:
-        """As a path of the scene's robot; none with slides, whose contacts are those of the larger one."""
+    def for_scene(path: Path | Separated) -> Path | None:
+        """Convert to a path of the scene's robot; None if it has slides, which keep contacts of the larger robot."""
         if not isinstance(path, Path) or any(motion.contacts for motion in path.motions):
             return None
         return replace(path, scene=scene, clearance=clearance, disc=tuple(disc))
@@ -133,22 +133,22 @@ def _to_one(asked: _Asked, goal: Goal, name: str) -> Path | list[Separated]:
     for sides in SIDES:
         disc, inside = around_disc(clearance, sides), inside_disc(clearance, sides)
         larger = _grown(scene, disc, scene.bounds)
-        outer = asked.planner(larger)
+        outer = query.planner(larger)
         ends = _ends(larger, start, goal) if is_free(larger, start) else []
         ways = ([start] if start == end else outer.quick(start, end) for end in ends)
-        found: list[Path | Separated] = [outer.improved(way, asked.improve, asked.objective) for way in ways if way]
-        if paths := [path for path in map(kept, found) if path]:
+        answers: list[Path | Separated] = [outer.improved(way, query.improve, query.objective) for way in ways if way]
+        if paths := [path for path in map(for_scene, answers) if path]:
             return cheapest(paths, outer)
-        if proofs := _proofs(asked, goal, inside, name):
+        if proofs := _proofs(query, goal, inside, name):
             return proofs
-        found = [outer.plan(start, end, improve=asked.improve, objective=asked.objective) for end in ends]
-        if paths := [path for path in map(kept, found) if path]:
+        answers = [outer.plan(start, end, improve=query.improve, objective=query.objective) for end in ends]
+        if paths := [path for path in map(for_scene, answers) if path]:
             return cheapest(paths, outer)
-        if all(isinstance(answer, Separated) and answer.of == "closed" for answer in found):
+        if all(isinstance(answer, Separated) and answer.of == "closed" for answer in answers):
             hi = _farthest(disc)
     smaller = _grown(scene, inside, scene.bounds)
-    inner = asked.planner(smaller)
-    # within the bounds, too
+    inner = query.planner(smaller)
+    # the scene's bounds, not the wider ones of a proof
     is_joined = any(inner.free_space.common_cell(start, end) is not None for end in _ends(smaller, start, goal))
     lo = _nearest(inside) if is_joined else 0.0
     raise UndecidedError(
@@ -160,55 +160,55 @@ def _to_one(asked: _Asked, goal: Goal, name: str) -> Path | list[Separated]:
 
 
 def _ends(scene: Scene, start: Pose, goal: Goal) -> list[Pose]:
-    """The goal if it is a free pose; of a place one pose of each interval of free orientations."""
+    """Return the goal if it is a free pose; at a place, one pose for each interval of free orientations."""
     if isinstance(goal, Pose):
         return [goal] if is_free(scene, goal) else []
-    found = (pose_in(interval, start, goal) for interval in turn_in_place(scene, Pose(*goal)))
-    return [pose for pose in found if pose]
+    poses = (pose_in(interval, start, goal) for interval in turn_in_place(scene, Pose(*goal)))
+    return [pose for pose in poses if pose]
 
 
-def _proofs(asked: _Asked, goal: Goal, ring: Sequence[ExactPoint], name: str) -> list[Separated]:
-    """Prove by a robot all of which is nearer to the scene's that no path keeps the clearance; none if it does not.
+def _proofs(query: _Query, goal: Goal, ring: Sequence[ExactPoint], name: str) -> list[Separated]:
+    """Prove that no path keeps the clearance, using a robot that stays within that distance; return [] if not proved.
 
-    Where that robot touches an obstacle, the scene's is nearer than the clearance. Bounds are wider, so that none of
-    its contacts is one with the scene's. At a place it turns freely, without touching, where it is free if it is a
-    little larger: so a pose of each interval of such orientations will do.
+    Where that robot touches an obstacle, the scene's robot is nearer than the clearance. Its bounds are wider, so that
+    no contact with them is one with the scene's. At a place, it turns without contact where it is free if grown a
+    little: so one pose in each interval of such orientations is enough.
     """
-    scene, clearance = asked.scene, asked.clearance
+    scene, clearance = query.scene, query.clearance
     by, within = BEYOND * clearance, cores(scene, THINNER * clearance)
     x0, y0, x1, y1 = scene.bounds or (by, by, -by, -by)
     robot = [Polygon(convex_sum(core.exact_vertices, ring)) for core in within]
-    ends = [goal] if isinstance(goal, Pose) else _turned(asked, goal, robot, name)
+    ends = [goal] if isinstance(goal, Pose) else _turned(query, goal, robot, name)
     inner = with_robot(scene, robot, scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by))
-    planner, proofs = asked.planner(inner), list[Separated]()
+    planner, proofs = query.planner(inner), list[Separated]()
     for end in ends:
-        if (found := planner.barrier(asked.start, end)) is None:
+        if (barrier := planner.barrier(query.start, end)) is None:
             return []
-        proof = Separated._of(found, scene, asked.start, end)
+        proof = Separated._of(barrier, scene, query.start, end)
         proofs.append(replace(proof, clearance=clearance, cores=tuple(within)))
     return proofs
 
 
-def _turned(asked: _Asked, place: ExactPoint, robot: Sequence[Polygon], name: str) -> list[Pose]:
-    """One pose of each interval of orientations at a place that are free for a robot, a little larger.
+def _turned(query: _Query, place: ExactPoint, robot: Sequence[Polygon], name: str) -> list[Pose]:
+    """Return one pose for each interval of orientations at a place that are free for a slightly grown robot.
 
-    All of it is nearer to the scene's robot than the clearance: where it only just fits, single orientations among
-    them, that is nearer to something.
+    The grown robot stays within the clearance of the scene's robot. So at single orientations, where it fits exactly,
+    the scene's robot has less clearance.
     """
-    by = TURNING * asked.clearance
+    by = TURNING * query.clearance
     square = [(-by, -by), (by, -by), (by, by), (-by, by)]
     larger = with_robot(
-        asked.scene, [Polygon(convex_sum(part.exact_vertices, square)) for part in robot], asked.scene.bounds
+        query.scene, [Polygon(convex_sum(part.exact_vertices, square)) for part in robot], query.scene.bounds
     )
     intervals = [interval for interval in turn_in_place(larger, Pose(*place)) if not interval.is_single]
     if not intervals:
         x, y = map(float, place)
         raise InvalidPoseError(
             f"{name} ({x:g}, {y:g}): however it is turned there, the robot is nearer to something than "
-            f"{float(asked.clearance):g}; give another place, or less clearance"
+            f"{float(query.clearance):g}; give another place, or less clearance"
         )
-    found = [pose_in(interval, asked.start, place) for interval in intervals]
-    return [pose for pose in found if pose]
+    poses = [pose_in(interval, query.start, place) for interval in intervals]
+    return [pose for pose in poses if pose]
 
 
 def _grown(scene: Scene, ring: Sequence[ExactPoint], bounds: Bounds | None) -> Scene:
@@ -216,11 +216,11 @@ def _grown(scene: Scene, ring: Sequence[ExactPoint], bounds: Bounds | None) -> S
 
 
 def _farthest(ring: Sequence[ExactPoint]) -> float:
-    """The radius of a disc around a polygon, or more."""
+    """Return an upper bound of the radius of the least disc about the origin that contains a polygon."""
     return math.sqrt(float(max(x * x + y * y for x, y in ring))) * (1 + ROUNDING)
 
 
 def _nearest(ring: Sequence[ExactPoint]) -> float:
-    """The radius of a disc within a polygon, or less."""
+    """Return a lower bound of the radius of the largest disc about the origin inside a polygon."""
     squares = [(x * v - y * u) ** 2 / ((u - x) ** 2 + (v - y) ** 2) for (x, y), (u, v) in pairwise([*ring, ring[0]])]
     return math.sqrt(float(min(squares))) * (1 - ROUNDING)

@@ -1,4 +1,4 @@
-"""Poses, and ways with the slides on them, as the core takes and gives them."""
+"""Conversion of poses, paths and slides to and from the core's form."""
 
 from __future__ import annotations
 
@@ -17,38 +17,38 @@ Slides = dict[tuple[Pose, Pose], Slide]  # by the poses that they join; `motion_
 
 
 def numbers_of(pose: Pose) -> Numbers:
-    """A pose as the core takes it."""
+    """Convert a pose to the core's numbers."""
     q, p = (0, 1) if pose.tau is None else (pose.tau.denominator, pose.tau.numerator)
     return pose.x.numerator, pose.x.denominator, pose.y.numerator, pose.y.denominator, q, p
 
 
 def end_of(pose: Pose) -> tuple[Numbers, tuple[float, float, float]]:
-    """The same, and rounded."""
+    """Convert a pose to the core's numbers, and to doubles."""
     return numbers_of(pose), (float(pose.x), float(pose.y), pose.theta)
 
 
 def from_numbers(numbers: Sequence[int]) -> Pose:
-    """A pose as the core gives it."""
+    """Convert the core's numbers to a pose."""
     a, b, c, d, q, p = numbers
     return Pose(Fraction(a, b), Fraction(c, d), {"tau": Fraction(p, q) if q else None})
 
 
-def way_of(found: tuple[Sequence[Numbers], Sequence[Any]], features: SceneFeatures, slides: Slides) -> list[Pose]:
-    """Poses of a way that the core gives; the slides on it are added to those known."""
-    numbers, on_it = found
-    for start, goal, *slide in on_it:
+def way_of(way: tuple[Sequence[Numbers], Sequence[Any]], features: SceneFeatures, slides: Slides) -> list[Pose]:
+    """Convert a path from the core to poses; its slides are added to `slides`."""
+    numbers, its_slides = way
+    for start, goal, *slide in its_slides:
         slides[from_numbers(start), from_numbers(goal)] = slide_of(slide, features)
     return [*map(from_numbers, numbers)]
 
 
-def slide_of(found: Any, features: SceneFeatures) -> Slide:
-    """A slide that the core gives, without the poses that it joins."""
-    (first, last), x, y, d, q, p = found
+def slide_of(numbers: Any, features: SceneFeatures) -> Slide:
+    """Convert a slide from the core, without the poses that it joins."""
+    (first, last), x, y, d, q, p = numbers
     return Slide((_touch(features, first), _touch(features, last)), x, y, d, Fraction(p, q))
 
 
 def _touch(features: SceneFeatures, contact: Contact) -> Touch:
-    """A contact as files name it."""
+    """Convert a contact from the core to the names of files."""
     kind, i, j = contact
 
     def feature(shape: ShapeFeatures, k: int) -> tuple[int, int]:

@@ -1,9 +1,9 @@
-"""Paths among round shapes, or a proof that there is none: both in scenes of polygons.
+"""Paths among round shapes, or proofs that there is none: both in scenes of polygons.
 
-In the outer scene all is forbidden that is forbidden among the round shapes, in the inner one nothing else: a path in
-the outer scene is one among them, and what no path joins in the inner scene none joins among them. Where neither
-answers, shapes that the inner scene's path overlaps in the outer one have their error divided by 4, down to a
-tolerance. docs/theory/curved-shapes.md has the proofs.
+The outer scene forbids every pose that the round shapes forbid; the inner scene forbids no other pose. So a path in the
+outer scene is also free among the round shapes, and a proof in the inner scene also holds for them. If neither answers,
+the error of the shapes that the inner scene's path overlaps in the outer scene is divided by 4, down to a tolerance.
+docs/theory/curved-shapes.md has the proofs.
 """
 
 from __future__ import annotations
@@ -35,29 +35,29 @@ from cfree.planning.separation import Separated
 
 Answer = Path | Separated | AllSeparated
 Ask = Callable[[Planner, float | None, Number | None], Answer]
-POSES = 400  # of a path, at which it is seen what it overlaps
-PATCHES = 100_000  # contact patches that are trimmed for one question, unless more is asked for; about 10 s
-AROUND = 4  # errors of polygons, by which a clearance differs that is asked for to bound the largest
-NARROW = 0.002  # of a clearance: polygons for it tell no more
+POSES = 400  # poses of a path at which overlaps are looked up
+PATCHES = 100_000  # default limit of contact patches trimmed for one query; about 10 s
+AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
+NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
 TOUCHING = "these touch, or all but do; give a smaller tolerance, or other shapes"
 OUT_OF_WORK = f"{PATCHES:,} contact patches were not enough; give max_seconds or a tolerance for more, or other shapes"
 
 
 @checked
 class CurvedPlanner:
-    """Answers questions about a scene with round shapes, as a `Planner` does about polygons.
+    """Planner for a scene with round shapes, with the methods of `Planner`.
 
     Parameters
     ----------
     planner : Planner
-        Of the scene; its settings are those of the planners for polygons.
+        A planner of the scene; the planners for polygons get its settings.
     tolerance : float, optional
         As in `cfree.plan`.
 
     Attributes
     ----------
     scene : Scene
-        With round shapes; after a question that of polygons in which it was answered.
+        The scene with round shapes; after a query, the scene of polygons in which it was answered.
     """
 
     def __init__(self, planner: Planner, tolerance: float | None = None) -> None:
@@ -72,12 +72,12 @@ class CurvedPlanner:
 
     @property
     def angle_scale(self) -> float:
-        """Of the scene of polygons."""
+        """Length per radian in the scene of polygons."""
         return self._planner.angle_scale
 
     @property
     def free_space(self) -> FreeSpace:
-        """Of the scene of polygons."""
+        """The free space of the scene of polygons."""
         return self._planner.free_space
 
     @checked
@@ -96,9 +96,9 @@ class CurvedPlanner:
         def ask(planner: Planner, improve: float | None, clearance: Number | None) -> Answer:
             return planner.plan(*ends, clearance=clearance, improve=improve, objective=objective)
 
-        found = self._answer(ask, ends, improve, clearance)
-        assert not isinstance(found, AllSeparated)
-        return found
+        answer = self._answer(ask, ends, improve, clearance)
+        assert not isinstance(answer, AllSeparated)
+        return answer
 
     @checked
     def plan_any(
@@ -110,16 +110,16 @@ class CurvedPlanner:
         improve: float | None = None,
         objective: Objective = "balanced",
     ) -> Path | AllSeparated:
-        """See `cfree.plan`, for several goals, or places."""
+        """See `cfree.plan`; for several goals, or places."""
         first = to_pose(start, "start")
 
         def ask(planner: Planner, improve: float | None, clearance: Number | None) -> Answer:
             return planner.plan_any(first, goals, clearance=clearance, improve=improve, objective=objective)
 
         ends = first, *(goal for goal in goals if isinstance(goal, Pose))
-        found = self._answer(ask, ends, improve, clearance)
-        assert not isinstance(found, Separated)
-        return found
+        answer = self._answer(ask, ends, improve, clearance)
+        assert not isinstance(answer, Separated)
+        return answer
 
     def _answer(self, ask: Ask, ends: Sequence[Pose], improve: float | None, clearance: Number | None) -> Answer:
         self._begin, self._work = time.monotonic(), Work(PATCHES) if self._is_limited else None
@@ -134,16 +134,16 @@ class CurvedPlanner:
             raise UndecidedError(message, lo=lo, hi=hi, error=error.error) from None
 
     def _around(self, ask: Ask, clearance: Fraction, error: float) -> tuple[float, float]:
-        """Bounds of the largest clearance: some less and some more is asked for, in the scenes that gave answers."""
+        """Bound the largest clearance by queries for a smaller and a larger one, in the scenes that gave answers."""
         lo, hi = self._interval
         for outward, planner in self._decided.items():
             other = clearance + (-AROUND if outward else AROUND) * Fraction(error)
             planner.work = Work(PATCHES)
             with suppress(IncompleteError, InvalidPoseError):
-                found = ask(planner, 0.0, other) if other > 0 else None
-                if outward and isinstance(found, Path):
+                answer = ask(planner, 0.0, other) if other > 0 else None
+                if outward and isinstance(answer, Path):
                     lo = max(lo, float(other))
-                elif not outward and found is not None and not isinstance(found, Path):
+                elif not outward and answer is not None and not isinstance(answer, Path):
                     hi = min(hi, float(other))
         return lo, hi
 
@@ -154,17 +154,17 @@ class CurvedPlanner:
         while True:
             apart, within, refused = None, None, None
             try:
-                found = self._asked(ask, improve, outward=True)
-                if isinstance(found, Path):
-                    return self._for_curves(found)
-                apart = found
-            except InvalidPoseError as error:  # the inner scene says whether it is so here, too
+                answer = self._asked(ask, improve, outward=True)
+                if isinstance(answer, Path):
+                    return self._for_curves(answer)
+                apart = answer
+            except InvalidPoseError as error:  # the inner scene decides if the round shapes also refuse the pose
                 refused = error
             try:
-                found = self._asked(ask, 0.0, outward=False)
-                if found is not None and refused is None and not isinstance(found, Path):
-                    return self._for_curves(found)
-                within = found if refused is None and isinstance(found, Path) else None
+                answer = self._asked(ask, 0.0, outward=False)
+                if answer is not None and refused is None and not isinstance(answer, Path):
+                    return self._for_curves(answer)
+                within = answer if refused is None and isinstance(answer, Path) else None
             except ForbiddenPoseError as error:
                 raise _for_both(error, refused) from None
             lo, hi = self._interval
@@ -176,7 +176,7 @@ class CurvedPlanner:
     def _asked(
         self, ask: Callable[[Planner, float | None], Answer], improve: float | None, *, outward: bool
     ) -> Answer | None:
-        """Return the answer in one of the two scenes of polygons; None if there is no such scene, or none in it."""
+        """Return the answer in one of the two scenes of polygons; None if there is no such scene, or no answer."""
         try:
             planner = self._planner._of(self.near.scene(outward=outward))
         except UndecidedError as error:
@@ -203,22 +203,22 @@ class CurvedPlanner:
         message = f"polygons within {error:.3g} of the round shapes decide neither way: {reason}"
         return UndecidedError(message, error=error)
 
-    def _for_curves(self, found: Answer) -> Answer:
-        if isinstance(found, AllSeparated):
-            return replace(found, proofs=tuple(replace(proof, curved=self.exact) for proof in found.proofs))
-        return replace(found, curved=self.exact)
+    def _for_curves(self, answer: Answer) -> Answer:
+        if isinstance(answer, AllSeparated):
+            return replace(answer, proofs=tuple(replace(proof, curved=self.exact) for proof in answer.proofs))
+        return replace(answer, curved=self.exact)
 
 
 def _for_both(inner: ForbiddenPoseError, outer: InvalidPoseError | None) -> ForbiddenPoseError:
-    """What overlaps in the inner scene does; what is free in the outer one is."""
+    """Combine the overlap of the inner scene's message, which is proved, with the free pose of the outer scene's."""
     overlap, free = str(inner).partition(";")[0], str(outer or "").partition(";")[2]
     return ForbiddenPoseError(f"{overlap};{free}" if free else overlap, free=getattr(outer, "free", None))
 
 
 def _poses(path: Path | None, ends: Sequence[Pose]) -> NDArray[np.float64]:
-    """Rows x, y, theta of start and goals, and along a path."""
+    """Return rows x, y, theta of start and goals, and along a path."""
     table = [[float(pose.x), float(pose.y), pose.theta] for pose in ends]
     if path is None or not path.motions:
         return np.array(table)
-    found = path.sample(max(path.length, 1e-300) / POSES, max(path.turning, 1e-9) / POSES)
-    return np.vstack([table, np.column_stack([found.xy, found.theta])])
+    poses = path.sample(max(path.length, 1e-300) / POSES, max(path.turning, 1e-9) / POSES)
+    return np.vstack([table, np.column_stack([poses.xy, poses.theta])])

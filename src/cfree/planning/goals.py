@@ -1,7 +1,7 @@
-"""Goals any one of which will do: poses, and places at which any orientation will.
+"""Planning to any one of several goals: poses, and places at which any orientation is accepted.
 
-The free orientations at a place are closed intervals; all of one are in the closure of one cell, as the robot can turn
-there. So one pose stands for each of them.
+The free orientations at a place are closed intervals. Each interval is in the closure of one cell, as the robot can
+turn there, so one pose represents it.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from cfree.exact.angle_interval import AngleInterval
     from cfree.planning.asked import Planner
 
-BITS = 20  # of orientations next to the end of an interval, then twice as many, and so on
-INWARD = math.radians(10)  # from the end of an interval, or a quarter of it
+BITS = 20  # first number of bits of an orientation next to the end of an interval; doubled as often as needed
+INWARD = math.radians(10)  # distance from the end of an interval, if a quarter of the interval is not less
 
 
 @checked
@@ -43,12 +43,12 @@ class AllSeparated(Shown, Answer):
     Parameters
     ----------
     proofs : tuple of Separated
-        From one start: of each goal that is a pose, and of each place one for every interval of free orientations.
+        All from one start: one for each goal that is a pose, and for each interval of free orientations at a place.
     places : tuple of (x, y)
         Goals at which any orientation will do.
     of : "closed" or "interior"
-        "closed": no path at all leads to any of them. "interior": no path that keeps a distance; a proof is so, or at a
-        place an orientation is left out at which the robot fits exactly, and whose half-angle tangent is irrational.
+        "closed": no path at all leads to any of them. "interior": no path that keeps a distance does. Then a proof is
+        "interior", or an exact fit at a place is left out because its half-angle tangent is irrational.
     """
 
     proofs: tuple[Separated, ...]
@@ -64,28 +64,28 @@ class AllSeparated(Shown, Answer):
 
     @property
     def goals(self) -> tuple[Goal, ...]:
-        """Places, and the poses that are at none of them."""
+        """The places, and the poses that are at none of them."""
         poses = (proof.goal for proof in self.proofs)
         return *self.places, *(pose for pose in poses if (pose.x, pose.y) not in self.places)
 
     @property
     def start(self) -> Pose:
-        """The same in all proofs."""
+        """The start of all proofs."""
         return self.proofs[0].start
 
     @property
     def moved_goals(self) -> dict[Goal, Goal]:
-        """Goals as they were asked for, by the free poses and places that they were moved to."""
-        found = {}
+        """The requested goals, by the free poses and places that they were moved to."""
+        requested: dict[Goal, Goal] = {}
         for proof in self.proofs:
             if proof.moved and proof.moved.goal is not None:
                 is_place = not isinstance(proof.moved.goal, Pose)
-                found[(proof.goal.x, proof.goal.y) if is_place else proof.goal] = proof.moved.goal
-        return found
+                requested[(proof.goal.x, proof.goal.y) if is_place else proof.goal] = proof.moved.goal
+        return requested
 
     @property
     def clearance(self) -> Fraction:
-        """If not 0: no path leads to any of them that keeps at least this distance from obstacles and workspace."""
+        """Distance from obstacles and workspace, if not 0: no path that keeps it leads to any goal."""
         return max(proof.clearance for proof in self.proofs)
 
     @property
@@ -95,22 +95,22 @@ class AllSeparated(Shown, Answer):
 
     @property
     def scene(self) -> Scene | None:
-        """What it is a proof for; None if it was read from a file."""
+        """The scene of the proof; None if it was read from a file."""
         return self.proofs[0].scene
 
     @property
     def curved(self) -> Scene | None:
-        """With round shapes, if it is a proof for these."""
+        """The scene with round shapes, if it is a proof for these."""
         return self.proofs[0].curved
 
     @property
     def stamp(self) -> Stamp | None:
-        """What the file said of the scene."""
+        """The scene's stamp in the file."""
         return self.proofs[0].stamp
 
     @property
     def obstacles(self) -> tuple[int, ...]:
-        """Whose contacts form the surfaces; -1 is the bounds, -2 the workspace."""
+        """The blocking obstacles, whose contacts form the separating surfaces; -1 is the bounds, -2 the workspace."""
         return tuple(sorted({k for proof in self.proofs for k in proof.obstacles}))
 
 
@@ -121,7 +121,7 @@ def plan_any(
     improve: float | None,
     objective: Objective,
 ) -> Path | AllSeparated:
-    """A path to one of the goals, of those that are found the shortest; or a proof for each of them."""
+    """Return the cheapest of the paths found to the goals, or a proof for each goal."""
     require_free(planner.scene, start, "start")
     poses, is_whole = dict[Pose, None](), True
     for k, goal in enumerate(goals):
@@ -130,9 +130,9 @@ def plan_any(
             require_free(planner.scene, goal, name)
             poses[goal] = None
         else:
-            found = list(_poses_at(planner.scene, goal, start, name))
-            poses |= dict.fromkeys(pose for pose in found if pose is not None)
-            is_whole = is_whole and None not in found
+            at_place = list(_poses_at(planner.scene, goal, start, name))
+            poses |= dict.fromkeys(pose for pose in at_place if pose is not None)
+            is_whole = is_whole and None not in at_place
 
     ways = [planner.way(start, pose, few=True) for pose in poses]
     if not any(isinstance(way, list) for way in ways):
@@ -145,24 +145,24 @@ def plan_any(
 
 
 def name_of(goals: Sequence[Goal], k: int) -> str:
-    """Name of a goal in messages."""
+    """Return the name of a goal in messages."""
     return "goal" if len(goals) == 1 else f"goal {k}"
 
 
 def cheapest(paths: Sequence[Path], planner: Planner) -> Path:
-    """The path that costs least by the planner's preferences."""
+    """Return the path of least cost by the planner's preferences."""
     return min(paths, key=lambda path: planner.preferences.cost(path, planner.scene))
 
 
 def all_separated(proofs: Sequence[Separated], goals: Sequence[Goal], *, is_whole: bool) -> AllSeparated:
-    """Proofs for all goals as one; `is_whole` if no orientation at a place is left out."""
+    """Combine the proofs for all goals; `is_whole` is True if no orientation at a place is left out."""
     is_closed = is_whole and all(proof.of == "closed" for proof in proofs)
     places = tuple(dict.fromkeys(goal for goal in goals if not isinstance(goal, Pose)))
     return AllSeparated(tuple(proofs), places, "closed" if is_closed else "interior")
 
 
 def _poses_at(scene: Scene, place: ExactPoint, start: Pose, name: str) -> Iterator[Pose | None]:
-    """One pose of each interval of free orientations, turned little from the start; None of one that is irrational."""
+    """Yield one pose for each interval of free orientations, turned little from the start; None if irrational."""
     from cfree.free.turn_in_place import turn_in_place
 
     x, y = place
@@ -174,7 +174,7 @@ def _poses_at(scene: Scene, place: ExactPoint, start: Pose, name: str) -> Iterat
 
 
 def pose_in(interval: AngleInterval, start: Pose, place: ExactPoint) -> Pose | None:
-    """A pose at a place with its orientation in an interval, turned little from the start; None if irrational."""
+    """Return a pose at a place with an orientation in an interval, turned little from the start; None if irrational."""
 
     def pose(tau: Fraction | None) -> Pose:
         return Pose(*place, {"tau": tau})
@@ -189,7 +189,7 @@ def pose_in(interval: AngleInterval, start: Pose, place: ExactPoint) -> Pose | N
     to_first, to_last = (abs(math.remainder(start.theta - end, math.tau)) for end in (first, last))
     near = Pose(*place, first + inward if to_first < to_last else last - inward)
     bits = BITS
-    while not interval.contains({"tau": near.tau}):  # it is that narrow
+    while not interval.contains({"tau": near.tau}):  # the interval is too narrow
         near = pose(interval.start.neighbours(bits)[1])
         bits *= 2
     return near

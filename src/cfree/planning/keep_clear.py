@@ -1,7 +1,7 @@
 """Paths that keep away from obstacles: paths of a robot grown by a margin, as far along a path as it fits.
 
-Where a grown robot is free the robot has the margin around it. Its paths are searched, never decided: the margin is
-proved, that it is the largest is not.
+Where a grown robot is free, the robot has the margin around it. Paths of the grown robot are searched, never decided.
+So the margin is proved, but not that it is the largest.
 """
 
 from __future__ import annotations
@@ -23,25 +23,25 @@ from cfree.scene.dilation import grown
 from cfree.scene.scene import Scene, with_robot
 
 WayOf = Callable[[Scene, Pose, Pose], Sequence[Pose] | None]
-HALVINGS = 10  # of the margin, from the robot's radius on
-GRID_BITS = 40  # of these places, and of their tangents: short numbers
-PLACES = 16  # of a motion, at which the grown robot may begin and end
+HALVINGS = 10  # halvings of the margin, which begins with the robot's radius
+GRID_BITS = 40  # bits of the places where the grown robot begins and ends, and of their tangents: short numbers
+PLACES = 16  # places on a motion at which the grown robot may begin and end
 
 
 def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: float, way_of: WayOf) -> Sequence[Pose]:
-    """A path with margins: the largest in its middle, smaller ones towards its ends.
+    """Return a path with margins: the largest in its middle, smaller ones towards its ends.
 
     Parameters
     ----------
     scene : Scene
     checker : MotionChecker
-        Of the scene.
+        A checker of the scene.
     poses : sequence of Pose
-        Of a free path.
+        Poses of a free path.
     radius : float
         The largest margin tried; each one after it is half as large.
     way_of : callable
-        Poses of a path from one pose to another in a scene, or None if it finds none.
+        Returns poses of a path from one pose to another in a scene, or None if it finds none.
     """
     grid = Fraction(2) ** (GRID_BITS - math.frexp(radius)[1])
 
@@ -49,7 +49,7 @@ def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: f
     def larger(level: int) -> tuple[Scene, PoseChecker] | None:
         try:
             grown_scene = with_robot(scene, grown(scene, Fraction(radius) / 2**level), scene.bounds)
-        except UnsupportedError:  # coordinates beyond what is allowed
+        except UnsupportedError:  # coordinates out of range
             return None
         return grown_scene, PoseChecker(grown_scene)
 
@@ -57,23 +57,24 @@ def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: f
         if level == HALVINGS or len(poses) < 2:
             return poses
         way = None
-        if found := larger(level):
+        if grown_robot := larger(level):
+            larger_scene, larger_checker = grown_robot
             places = list(_places(poses))
-            free = np.flatnonzero(found[1].is_free(Poses.from_poses([pose for _, pose in places])))
+            free = np.flatnonzero(larger_checker.is_free(Poses.from_poses([pose for _, pose in places])))
             if len(free) > 1:
                 (i, begin), (j, end) = places[free[0]], places[free[-1]]
                 first = begin if begin in poses else short(begin, poses[i])
                 last = end if end in poses else short(end, poses[j + 1])
-                # the table's were rounded
-                if first and last and all(found[1].is_free(pose) for pose in (first, last)):
-                    way = way_of(found[0], first, last)
+                # the poses of the table were rounded
+                if first and last and all(larger_checker.is_free(pose) for pose in (first, last)):
+                    way = way_of(larger_scene, first, last)
         if way is None:
             return cleared(poses, level + 1)
         assert first and last
         return [*cleared([*poses[: i + 1], first], level + 1), *way, *cleared([last, *poses[j + 1 :]], level + 1)]
 
     def short(place: Pose, end: Pose) -> Pose | None:
-        """A place on a motion in few digits, if it is free from there to an end: else they would double each time."""
+        """Round a pose on a motion to few bits, else they double each time; None if no free motion leads to an end."""
         x, y = (round(c * grid) / grid for c in (place.x, place.y))
         rounded = Pose(x, y, {"tau": place.tau and place.tau.limit_denominator(2**GRID_BITS)})
         return rounded if checker.joins([end, rounded]) else None
@@ -82,7 +83,7 @@ def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: f
 
 
 def _places(poses: Sequence[Pose]) -> Iterator[tuple[int, Pose]]:
-    """Poses along a path, exact, each with the number of the one before it."""
+    """Yield exact poses along a path, each with the number of the path's pose before it."""
     for k, (a, b) in enumerate(pairwise(poses)):
         if a != b:
             motion = motion_between(a, b)

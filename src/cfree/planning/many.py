@@ -1,4 +1,4 @@
-"""Answers to many questions about one scene, on all cores."""
+"""`plan_many`: many planning queries in one scene, on all cores."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def plan_many(
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> list[Path | Separated]:
-    """Answers to many questions about one scene.
+    """Answer many planning queries in one scene.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ def plan_many(
     threads : int, optional
         All cores by default. The answers do not depend on it, unless `improve` is given.
     progress : callable, optional
-        Called with the share that is done, from 0 to 1.
+        Called with the completed share, from 0 to 1.
 
     Returns
     -------
     list of Path or Separated
-        In the order of the queries, as of `plan` with the free space known.
+        In the order of the queries, as from `plan` with the free space known.
 
     Raises
     ------
@@ -72,22 +72,22 @@ def plan_many(
     if threads is not None and threads < 1:
         raise ValueError(f"threads: {threads}; give at least 1")
     space = free_space(boundary(scene)) if isinstance(scene, Scene) else scene
-    asked = list(queries)
+    todo = list(queries)
     planner, answers = Planner(space.boundary.scene, space, preferences=preferences or NONE), []
 
     def answer_to(number: int) -> Path | Separated:
         try:
-            return planner.plan(*asked[number], improve=improve, objective=objective)
+            return planner.plan(*todo[number], improve=improve, objective=objective)
         except InvalidPoseError as error:
             error.args = (f"query {number}: {error}",)
             raise
 
     with ThreadPoolExecutor(threads or os.cpu_count()) as pool:
         try:
-            for found in pool.map(answer_to, range(len(asked))):
-                answers.append(found)
+            for answer in pool.map(answer_to, range(len(todo))):
+                answers.append(answer)
                 if progress is not None:
-                    progress(len(answers) / len(asked))
+                    progress(len(answers) / len(todo))
         except BaseException:
             planner.stop.set()
             pool.shutdown(cancel_futures=True)

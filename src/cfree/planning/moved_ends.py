@@ -1,4 +1,4 @@
-"""Starts and goals that are not free, moved to the nearest free poses that are found."""
+"""Starts and goals that are not free, moved to the nearest free poses that a search finds."""
 
 from __future__ import annotations
 
@@ -20,21 +20,22 @@ from cfree.scene.dilation import grown_by
 from cfree.scene.goals import Goal, Moved, text_of
 from cfree.scene.scene import Scene, size_of, with_robot
 
-ROUND = 1e-3  # of the robot's size: error of the polygons around round shapes
-SIDES = 100  # of the polygon around a disc whose radius is a clearance
+ROUND = 1e-3  # error of the polygons around round shapes, in robot sizes
+SIDES = 100  # sides of the polygon around a disc whose radius is a clearance
 
 
 @dataclass(frozen=True)
 class Ends:
-    """A start and goals that are free, and where they were asked for.
+    """A start and goals that are free, with the requested ones.
 
     Attributes
     ----------
     start : Pose
     goals : tuple of Pose or place
     asked_start : Pose or None
-        None if the start was not moved.
+        The requested start; None if it was not moved.
     asked_goals : tuple of Pose, place or None
+        The requested goals; None for those that were not moved.
     """
 
     start: Pose
@@ -43,29 +44,29 @@ class Ends:
     asked_goals: tuple[Goal | None, ...]
 
     def marked(self, answer: Path | Separated | AllSeparated) -> Path | Separated | AllSeparated:
-        """The answer, which says what was moved."""
+        """Return the answer with the requested ends that were moved."""
         if isinstance(answer, AllSeparated):
             return replace(answer, proofs=tuple(replace(proof, moved=self._of(proof.goal)) for proof in answer.proofs))
         return replace(answer, moved=self._of(answer.goal))
 
     def _of(self, goal: Pose) -> Moved | None:
-        """Return what was moved of an answer to one of the goals."""
+        """Return the requested ends of an answer for one of the goals; None if none was moved."""
         pairs = zip(self.goals, self.asked_goals, strict=True)
-        found = next((asked for end, asked in pairs if end in (goal, (goal.x, goal.y))), None)
-        return None if found is None and self.asked_start is None else Moved(self.asked_start, found)
+        its_goal = next((asked for end, asked in pairs if end in (goal, (goal.x, goal.y))), None)
+        return None if its_goal is None and self.asked_start is None else Moved(self.asked_start, its_goal)
 
 
 def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Number | None) -> Ends:
-    """Start and goals, each of them moved to the nearest free pose that is found, unless it is free.
+    """Move start and goals that are not free to the nearest free poses that a search finds.
 
     Parameters
     ----------
     scene : Scene
     start : Pose
     goals : sequence of Pose or place
-        At a place any orientation is enough.
+        A place is free if any orientation is.
     clearance : number or None
-        What they have to keep from obstacles and workspace.
+        Distance that they must keep from obstacles and workspace.
 
     Raises
     ------
@@ -92,11 +93,11 @@ def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Numbe
     def moved(end: Goal, name: str) -> Goal:
         if is_fit(end):
             return end
-        found = nearest_free(room, end if isinstance(end, Pose) else Pose(*end, {"tau": start.tau}))
-        if found is None:
+        near = nearest_free(room, end if isinstance(end, Pose) else Pose(*end, {"tau": start.tau}))
+        if near is None:
             far = "" if distance is None else f" and {float(distance):g} away from everything"
             raise InvalidPoseError(f"{name} {text_of(end)}: no pose near by is free{far}; give another")
-        return found if isinstance(end, Pose) else (found.x, found.y)
+        return near if isinstance(end, Pose) else (near.x, near.y)
 
     begin = moved(start, "start")
     ends = tuple(moved(goal, name_of(goals, k)) for k, goal in enumerate(goals))

@@ -1,6 +1,7 @@
-"""Rotations about poles far away, replaced by nearer motions wherever these are proved free.
+"""Rotations about far poles, replaced by motions with nearer poles wherever these are proved free.
 
-A small turn on a long way has its pole far beyond the scene. Its decimals need many digits, and few programs have them.
+A small turn over a long distance has its pole far outside the scene. Its coordinates need more digits than most
+programs have.
 """
 
 from __future__ import annotations
@@ -20,25 +21,25 @@ from cfree.exact.pose import Pose
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
-FAR = 1000  # sizes of the scene
-PARTS = (1, 2, 4)  # of a motion, each replaced by a turn and a translation
+FAR = 1000  # distance of a far pole, in sizes of the scene
+PARTS = (1, 2, 4)  # parts of a motion, each replaced by a turn and a translation
 
 
 def near_poles(scene: Scene, checker: MotionChecker, poses: Sequence[Pose]) -> list[Pose]:
-    """The same way without far poles, where nearer motions are free: eight at most for each."""
+    """Replace each motion about a far pole by at most eight motions with nearer poles, if these are free."""
     far, centres = (FAR * _size(scene, poses)) ** 2, list(dict.fromkeys(_centres(scene)))
-    found = [poses[0]]
+    result = [poses[0]]
     for a, b in pairwise(poses):
         motion = motion_between(a, b)
         way: Sequence[Pose] | None = None
         if motion.pole and (motion.pole[0] - a.x) ** 2 + (motion.pole[1] - a.y) ** 2 > far:
             way = checker.first_free(_ways(a, motion, centres))
-        found += way[1:] if way else [b]
-    return found
+        result += way[1:] if way else [b]
+    return result
 
 
 def _ways(pose: Pose, motion: Rotation, centres: Sequence[ExactPoint]) -> Iterator[list[Pose]]:
-    """Turns about points of the robot, and translations between them, in few parts first."""
+    """Yield turns about points of the robot with translations between them, few parts first."""
     for count in PARTS:
         ends = [motion.at(pose, Fraction(k, count)) for k in range(count + 1)]
         for centre in centres:
@@ -50,14 +51,14 @@ def _ways(pose: Pose, motion: Rotation, centres: Sequence[ExactPoint]) -> Iterat
 
 
 def _turned(a: Pose, b: Pose, centre: ExactPoint) -> Pose:
-    """A pose turned as another, about a point of the robot."""
+    """Return a pose turned to the orientation of another, about a point of the robot."""
     turned = Pose(0, 0, {"tau": b.tau})
     ((x, y),), ((u, v),) = a.apply_exact([centre]), turned.apply_exact([centre])
     return Pose(x - u, y - v, {"tau": b.tau})
 
 
 def _centres(scene: Scene) -> Iterator[ExactPoint]:
-    """The middle of the robot; its reference point; its vertices, which may slide on something."""
+    """Yield the middle of the robot, its reference point, and its vertices, which may slide on something."""
     vertices = [point for part in scene.robot for point in part.exact_vertices]
     (x0, x1), (y0, y1) = ((min(axis), max(axis)) for axis in zip(*vertices, strict=True))
     yield (x0 + x1) / 2, (y0 + y1) / 2
@@ -66,7 +67,7 @@ def _centres(scene: Scene) -> Iterator[ExactPoint]:
 
 
 def _size(scene: Scene, poses: Sequence[Pose]) -> Fraction:
-    """The longer side, about, of the box around all that is in the world and the ends of a way, or around the robot."""
+    """Return the longer side, about, of the box around the world and the ends of a path, or around the robot."""
     corners = [np.array([[float(q.x), float(q.y)] for q in (poses[0], poses[-1])])]
     corners += [polygon.vertices for polygon in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
     if scene.bounds is not None:

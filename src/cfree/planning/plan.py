@@ -1,4 +1,4 @@
-"""One question, and all that may be wished of its answer."""
+"""`plan`: one planning query and its options."""
 
 from __future__ import annotations
 
@@ -65,57 +65,59 @@ def plan(
     tolerance: float | None = None,
     nearest_free: bool = False,
 ) -> Path | Separated | AllSeparated:
-    """A path from start to goal, each motion of it proved free, or a proof that there is none.
+    """Plan a path from start to goal with every motion proved free, or prove that there is none.
 
     Parameters
     ----------
     scene : Scene or FreeSpace
-        With its free space known, which of the two it is takes two calls of `locate`, unless exact fits join cells.
+        If the free space is given, two calls of `locate` decide whether a path exists, unless exact fits join cells.
     start, goal : Pose or (x, y, theta), optional
-        Those of the scene unless given. A goal may also be a place (x, y), at which any orientation will do, or a
-        list of poses and places, any one of which will.
+        By default those of the scene. A goal may also be a place (x, y), at which any orientation will do, or a
+        list of poses and places, any one of which will do.
     clearance : number, optional
-        A distance that the path keeps from obstacles and workspace; not from bounds. Or no path does, proved.
+        Distance that the path keeps from obstacles and workspace, not from bounds. If no path keeps it, the answer is a
+        proof.
     improve : float, seconds, optional
-        How long to improve a path, 0 for the first one found. A fixed number of attempts unless given; given a time,
-        other ways are tried, too, on all cores. Ctrl-C ends it early, and the path so far is the answer.
+        Time for improving a path, 0 for the first one found; by default a fixed number of attempts. With a time, other
+        paths are also tried, on all cores. Ctrl-C ends it early, and the path so far is the answer.
     objective : "balanced", "short" or "clear"
-        What to prefer: short paths that keep a distance where there is room, short ones, or paths that keep away from
-        obstacles; see Notes.
+        The paths to prefer: short ones that keep a distance where there is room, short ones, or ones that keep away
+        from obstacles; see Notes.
     preferences : Preferences, optional
-        What a machine would rather not do, such as going sideways. They decide which path is found, not whether one is.
+        Cost factors, such as of going sideways. They influence which path is found, not if one is.
     max_seconds : float, optional
-        Give up if computing the free space takes longer; for a scene with round shapes, if all of it does.
+        Time limit for computing the free space; in a scene with round shapes, for the whole query.
     progress : callable, optional
-        Called with the share of the free space that is computed, if it has to be.
+        Called with the completed share of the free space, if that has to be computed.
     tolerance : float, optional
-        The least error of the polygons for round shapes; a 2**14th of the robot's size if left out. If neither this nor
-        `max_seconds` is given, a question about round shapes ends undecided after 100,000 contact patches, about 10 s.
+        The least error of the polygons for round shapes; by default a 2**14th of the robot's size. With neither this
+        nor `max_seconds`, a query with round shapes ends undecided after 100,000 contact patches, about 10 s.
     nearest_free : bool
-        Move a start or goal that is not free, or keeps less than the clearance, to the nearest free pose that a search
-        finds. The answer says so: `Path.moved`, `Separated.moved`.
+        Move a start or goal that is not free, or has less than the clearance, to the nearest free pose that a search
+        finds. The answer has the requested ones: `Path.moved`, `Separated.moved`.
 
     Returns
     -------
     Path, Separated or AllSeparated
-        A path leads to the goal that is reached by the shortest path found. The last is for places and lists.
+        A path leads to the goal with the shortest path found. `AllSeparated` is for places and lists.
 
     Raises
     ------
     InvalidPoseError
-        If there is no start or goal, or the robot overlaps an obstacle there, or is nearer than the clearance; at a
-        place in all orientations.
+        If there is no start or goal, or the robot overlaps an obstacle there, or has less than the clearance; at a
+        place, in all orientations.
     IncompleteError
-        If `max_seconds` were not enough. If the largest clearance of a path is within 0.1 % of the one asked for this
-        is an `UndecidedError`, which has the interval; so if polygons for round shapes do not tell, with their error.
+        If `max_seconds` ran out. Subclass `UndecidedError`: the clearance is within 0.1 % of the largest possible
+        (carries the interval), or the polygons for round shapes were too coarse (carries their error).
 
     Notes
     -----
-    A path's length is the way of the reference point, plus the turning times the robot's radius about that point. The
-    same question has the same answer everywhere, unless a time is given. "balanced" keeps a share of the distance that
-    the narrowest place of the way taken has, and of what is left beside that, of the narrowest place there; then it
-    prefers short paths of few motions. What a path keeps, `clearance` certifies. "clear" looks for a path of a robot
-    grown by a margin, as large as is found, between the first place on a short path where that one fits and the last.
+    A path's length is that of the reference point's path, plus the turning times the robot's radius about that point.
+    The same query has the same answer everywhere, unless `improve` is a time. "balanced" keeps a share of the clearance
+    at the path's bottleneck, and then of the clearance at the next bottleneck in each remaining part. Among such paths
+    it prefers short ones of few motions. `clearance` certifies the distance that a path keeps. "clear" searches for a
+    path of a robot grown by the largest margin that works, between the first and the last place on a short path where
+    the grown robot fits.
 
     Examples
     --------
@@ -128,8 +130,8 @@ def plan(
     """
     space = scene if isinstance(scene, FreeSpace) else None
     scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
-    of_polygons = Planner(scene, space, max_seconds, preferences or NONE, progress)
-    planner = CurvedPlanner(of_polygons, tolerance) if scene.curved else of_polygons
+    polygon_planner = Planner(scene, space, max_seconds, preferences or NONE, progress)
+    planner = CurvedPlanner(polygon_planner, tolerance) if scene.curved else polygon_planner
     if not scene.curved and tolerance is not None:
         raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
     if goal is None and scene.goals:

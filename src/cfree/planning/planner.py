@@ -1,6 +1,6 @@
-"""Can the robot get from start to goal? A path of motions that are proved free, or a proof that there is none.
+"""`Planner`: paths of motions that are proved free, or proofs that there is no path, for many queries in one scene.
 
-The core answers, `planner.hpp` says how; here are the objects, and paths are improved.
+The C++ core plans (see `planner.hpp`); this module wraps its answers in objects and improves paths.
 """
 
 from __future__ import annotations
@@ -39,26 +39,26 @@ from cfree.scene.goals import to_goals
 from cfree.scene.scene import Scene, robot_radius
 from cfree.value import Value
 
-COMPLETE = 30_000  # contact patches at most of a grown robot whose free space is computed
+COMPLETE = 30_000  # most contact patches of a grown robot whose free space is computed
 
 
 @checked
 @dataclass(eq=False)
 class Planner(Value):
-    """Answers many questions about one scene; what they need is computed once.
+    """Planner for many queries in one scene; shared data are computed once.
 
     Parameters
     ----------
     scene : Scene
     space : FreeSpace, optional
-        Computed when needed, unless given.
+        Computed at first use by default.
     max_seconds, progress
         As in `plan`, for that computation.
     preferences : Preferences
-        As in `plan`, for all questions.
+        As in `plan`, for all queries.
     phase : callable, optional
-        Called with the name of each long part of the work; gives a context for it, which gives what to call with the
-        share of that part that is done, or None.
+        Called with the name of each long part of the work; returns a context for it. The context's value is called with
+        the completed share of that part, or is None.
     """
 
     scene: Scene
@@ -67,13 +67,13 @@ class Planner(Value):
     preferences: Preferences = NONE
     progress: Callable[[float], object] | None = None
     phase: Phase = field(default=nullcontext, repr=False)
-    stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends what runs in other threads
-    work: Work | None = field(default=None, repr=False)  # ends a question
+    stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends the work in other threads
+    work: Work | None = field(default=None, repr=False)  # limits a query
     _slides: Slides = field(default_factory=dict, repr=False)  # by the poses that they join
 
     @property
     def _content(self) -> tuple[Scene, float | None, Preferences]:
-        """Not whether something has been computed."""
+        """The settings, without computed data."""
         return self.scene, self.max_seconds, self.preferences
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -98,7 +98,7 @@ class Planner(Value):
 
     @property
     def free_space(self) -> FreeSpace:
-        """The cells, computed when first asked for."""
+        """The free space, computed at first use."""
         if self.space is None:
             built = self._known.build(self._caller())
             self.space = built_space(self.scene, self.checker.features, *built)
@@ -124,7 +124,7 @@ class Planner(Value):
 
             return plan_at_distance(self.scene, start, goal, distance, self._of, improve, objective)
         way = self.way(start, goal)
-        assert way is not None, "all is asked"
+        assert way is not None, "the search was complete"
         return self.improved(way, improve, objective) if isinstance(way, list) else way
 
     @checked
@@ -138,24 +138,24 @@ class Planner(Value):
         objective: Objective = "balanced",
     ) -> Path | AllSeparated:
         """See `cfree.plan`, for several goals, or places."""
-        found = to_goals(goals)
-        found = (found,) if isinstance(found, Pose) else found
+        ends = to_goals(goals)
+        ends = (ends,) if isinstance(ends, Pose) else ends
         distance, start = _wish(clearance, improve), to_pose(start, "start")
-        places = {f"goal {k}": goal if isinstance(goal, Pose) else Pose(*goal) for k, goal in enumerate(found)}
+        places = {f"goal {k}": goal if isinstance(goal, Pose) else Pose(*goal) for k, goal in enumerate(ends)}
         _see_to_places({"start": start} | places)
         if distance is not None:
             from cfree.planning.clearance import plan_any_at_distance
 
-            return plan_any_at_distance(self, start, found, distance, self._of, improve, objective)
-        return plan_any(self, start, found, improve, objective)
+            return plan_any_at_distance(self, start, ends, distance, self._of, improve, objective)
+        return plan_any(self, start, ends, improve, objective)
 
     def _of(self, scene: Scene) -> Planner:
-        """For the same question with another robot."""
+        """Return a planner with the same settings for the same query with another robot."""
         return Planner(scene, None, self.max_seconds, self.preferences, self.progress, self.phase, self.stop, self.work)
 
     @checked
     def improved(self, way: Sequence[Pose], improve: float | None, objective: Objective) -> Path:
-        """A path from poses of one."""
+        """Improve a path, given by its poses."""
         parts = self._without_slides(way)
         seconds = improve and improve / len(parts)
         with self.phase("clearer paths" if objective == "clear" else "shorter paths"):
@@ -172,38 +172,38 @@ class Planner(Value):
 
     @checked
     def way(self, start: Pose, goal: Pose, *, few: bool = False) -> list[Pose] | Separated | None:
-        """Poses of a path, or a proof; None if few surfaces were to be enough, and are not. The same both ways."""
+        """Return poses of a path, or a proof; None if `few` surfaces do not decide. Swapped ends give the same."""
         try:
-            found = self._planner.plan(end_of(start), end_of(goal), self._caller(), few)
+            answer = self._planner.plan(end_of(start), end_of(goal), self._caller(), few)
         except InvariantError as error:
             error.state = self.scene, start, goal
             raise
-        if found == "unclear":
+        if answer == "unclear":
             return None
-        if isinstance(found, str):
-            require_free(self.scene, start if found == "start" else goal, found)
-            raise InvariantError(f"{found} is free, and it is not", state=(self.scene, start, goal))
-        if isinstance(found, _core.Separation):
-            return Separated._of(found, self.scene, start, goal)
-        return way_of(found, self.checker.features, self._slides)
+        if isinstance(answer, str):
+            require_free(self.scene, start if answer == "start" else goal, answer)
+            raise InvariantError(f"{answer} is free, and it is not", state=(self.scene, start, goal))
+        if isinstance(answer, _core.Separation):
+            return Separated._of(answer, self.scene, start, goal)
+        return way_of(answer, self.checker.features, self._slides)
 
     @checked
     def barrier(self, start: Pose, goal: Pose) -> _core.Separation | None:
-        """A closed surface between two poses at which the robot touches nothing, if there is one."""
+        """Return a surface that separates two poses at which the robot touches nothing; None if there is none."""
         return self._known.barrier(numbers_of(start), numbers_of(goal), self._caller())
 
     @checked
     def walk(self, start: Pose, goal: Pose) -> list[Pose] | None:
-        """Poses of a path along the boundary of the first cell that both are in or on the boundary of, if one is."""
-        found = self._planner.walk(end_of(start), end_of(goal), self._caller())
-        return None if found is None else way_of(found, self.checker.features, self._slides)
+        """Return poses of a path along the boundary of the first cell whose closure contains both; None without one."""
+        way = self._planner.walk(end_of(start), end_of(goal), self._caller())
+        return None if way is None else way_of(way, self.checker.features, self._slides)
 
     def _caller(self) -> Caller:
         return Caller(self.phase, self.progress, self.max_seconds, self.stop, self.work)
 
     @checked
     def path(self, poses: Sequence[Pose]) -> Path:
-        """Through these poses, without far poles where that is free; all of it checked once more.
+        """Return a path through these poses, without far poles where that is free; every motion is checked again.
 
         Raises
         ------
@@ -213,20 +213,20 @@ class Planner(Value):
         parts = self._without_slides(poses)
         poses = [q for part in parts for q in near_poles(self.scene, self.checker, part)]
         motions = [self._slide(a, b) or motion_between(a, b) for a, b in pairwise(poses) if a != b]
-        found = Path(poses[0], motions, self.scene.units, scene=self.scene)
-        if not found.is_free(self.checker):
-            raise InvariantError("a path is not free", state=found)
-        return found
+        path = Path(poses[0], motions, self.scene.units, scene=self.scene)
+        if not path.is_free(self.checker):
+            raise InvariantError("a path is not free", state=path)
+        return path
 
     def _slide(self, a: Pose, b: Pose) -> Slide | None:
-        """The slide that joins two poses, if one does."""
+        """Return the slide that joins two poses; None if there is none."""
         if not self._slides:
             return None
         back = self._slides.get((b, a))
         return back.reversed() if back else self._slides.get((a, b))
 
     def _without_slides(self, poses: Sequence[Pose]) -> list[Sequence[Pose]]:
-        """Parts of a way, joined by slides."""
+        """Divide a path, given by its poses, at its slides."""
         after = [k for k in range(1, len(poses)) if self._slide(poses[k - 1], poses[k])]
         return [poses[i:j] for i, j in pairwise([0, *after, len(poses)])]
 
@@ -237,21 +237,21 @@ class Planner(Value):
 
         def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
             larger = Planner(scene, preferences=self.preferences)
-            found: Sequence[Pose] | None = larger.quick(start, goal)
-            if found is None and larger.checker.features.patches <= COMPLETE:
-                found = larger.walk(start, goal)
-            if found is None or len(larger._without_slides(found)) > 1:
+            way: Sequence[Pose] | None = larger.quick(start, goal)
+            if way is None and larger.checker.features.patches <= COMPLETE:
+                way = larger.walk(start, goal)
+            if way is None or len(larger._without_slides(way)) > 1:
                 return None
             left = seconds and max(0.0, end - time.perf_counter()) / 3
-            return larger._improver(found).shortened(found, left)
+            return larger._improver(way).shortened(way, left)
 
         return clear(self.scene, self.checker, poses, self.angle_scale, way_of)
 
     @checked
     def quick(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
-        """Poses of a path between free poses, if simple ways or a search find one."""
-        found = self._planner.quick(end_of(start), end_of(goal), self._caller())
-        return None if found is None else [*map(from_numbers, found)]
+        """Return poses of a path between free poses; None if neither simple paths nor a search gives one."""
+        way = self._planner.quick(end_of(start), end_of(goal), self._caller())
+        return None if way is None else [*map(from_numbers, way)]
 
     def _improver(self, poses: Sequence[Pose]) -> Improver:
         costs = self.angle_scale, *self.preferences.factors
@@ -260,7 +260,7 @@ class Planner(Value):
 
 
 def _wish(clearance: Number | None, improve: float | None) -> Fraction | None:
-    """The clearance; what is wrong with either is said."""
+    """Check both options; return the clearance."""
     if improve is not None and not 0 <= improve < math.inf:
         raise ValueError(f"improve {improve}: give seconds, 0 or more")
     if clearance is not None and to_fraction(clearance) <= 0:

@@ -1,7 +1,7 @@
 """Separations: closed surfaces in C that prove that no motion leads from one pose to another.
 
-docs/theory/separations.md has the proofs, docs/answer-format.md the files, and `cfree.verify.answer` checks them
-without what is used here.
+docs/theory/separations.md has the proofs, docs/answer-format.md the files. `cfree.verify.answer` checks them without
+this code.
 """
 
 from __future__ import annotations
@@ -39,12 +39,12 @@ NO_TRUTH_VALUE = "a proof that there is no path is neither true nor false; ask i
 
 @dataclass(frozen=True)
 class Auxiliary:
-    """A point, or a line through two, by which an angle or a curve is named, and which is no feature of the scene.
+    """A point, or a line through two points, that names an angle or a curve and is no feature of the scene.
 
     Attributes
     ----------
     of : "robot" or "obstacles"
-        In whose frame it is, and among whose features it has its number.
+        The shape in whose frame it is, and among whose features it has its number.
     kind : "vertex" or "edge"
     number : int
     points : one exact point, or two
@@ -65,12 +65,12 @@ class Pieces(Value):
     kind : (N,) uint8
         Contacts: 1 a vertex of the robot on an edge of an obstacle, 2 an edge of the robot on a vertex of an obstacle.
     robot, obstacle : (N, 2) int32
-        Polygon, and its vertex or the one where its edge begins. -1 is the bounds, and their reference point, -2 the
-        workspace's complement: vertices are the workspace's, whose rings it runs through the other way.
+        Polygon, and its vertex or the one where its edge begins. -1 is the bounds, and the reference point. -2 is the
+        workspace's complement: vertices are the workspace's, and its edges run against the workspace's rings.
     table : Trapezoids
         Their angles and curves; patch k belongs to contact k.
     auxiliary : tuple of Auxiliary
-        What the table names and the scene does not have: diagonals of convex pieces, corners beyond the bounds.
+        Names in the table that are no features of the scene: diagonals of convex pieces, corners beyond the bounds.
     """
 
     kind: NDArray[np.uint8]
@@ -83,14 +83,14 @@ class Pieces(Value):
         return len(self.kind)
 
     @classmethod
-    def _of(cls, found: _core.Separation) -> Pieces:
-        """Some trapezoids of a boundary."""
-        features, faces = SceneFeatures.of(found.features), found.faces
-        patches, trapezoids = found.boundary.patches, found.boundary.trapezoids
+    def _of(cls, core: _core.Separation) -> Pieces:
+        """Wrap the trapezoids of a separating surface of the core."""
+        features, faces = SceneFeatures.of(core.features), core.faces
+        patches, trapezoids = core.boundary.patches, core.boundary.trapezoids
         patch = trapezoids.patch[faces]
         robot, obstacle = (
-            np.column_stack([shape.owner_polygon[of[patch]], shape.owner_vertex[of[patch]]])
-            for shape, of in ((features.robot, patches.robot), (features.obstacles, patches.obstacle))
+            np.column_stack([shape.owner_polygon[number[patch]], shape.owner_vertex[number[patch]]])
+            for shape, number in ((features.robot, patches.robot), (features.obstacles, patches.obstacle))
         )
         columns = {name: getattr(trapezoids, name)[faces] for name in COLUMNS}
         columns["patch"] = np.arange(len(faces), dtype=np.int32)
@@ -99,10 +99,10 @@ class Pieces(Value):
 
 
 def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary]:
-    """What a table's names need and the rings of the scene's polygons do not have."""
+    """Yield the points and lines that a table names and the rings of the scene's polygons do not have."""
     codes = np.unique(np.concatenate([getattr(table, name) for name in CODED]))
     kind, i, j = unpacked(codes[codes > 0])
-    for of, shape, number, first in (
+    for side, shape, number, first in (
         ("robot", features.robot, i, Kind.VERTEX_EDGE),
         ("obstacles", features.obstacles, j, Kind.EDGE_VERTEX),
     ):
@@ -113,7 +113,7 @@ def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary
             for k in np.unique(number[foreign & chosen]).tolist():
                 ends = (k,) if name == "vertex" else (int(shape.v[k]), int(shape.w[k]))
                 points = [[Fraction(c, shape.scale) for c in shape.vertices[end]] for end in ends]
-                yield Auxiliary(of, name, k, tuple((x, y) for x, y in points))  # type: ignore[arg-type]
+                yield Auxiliary(side, name, k, tuple((x, y) for x, y in points))  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, repr=False)
@@ -128,30 +128,30 @@ class Separated(Shown, Answer):
     start, goal : Pose or (x, y, theta)
     of : "closed" or "interior"
         "closed": no path at all joins them, not even one that touches obstacles all the way. "interior": no path that
-        keeps a distance from obstacles, bounds and workspace.
+        keeps a distance from obstacles, bounds and workspace joins them.
     pieces : Pieces
-        The closed surface that is between them.
+        The separating surface, which is closed.
     obstacles : tuple of int
-        Whose contacts form it; -1 is the bounds, -2 the workspace.
+        The blocking obstacles, whose contacts form it; -1 is the bounds, -2 the workspace.
     robot : tuple of Polygon
-        If closed: the surface is one of contacts of this robot, which is strictly inside the scene's; or, if it is
-        about a clearance, of one whose parts are each nearer to one of `cores` than that.
+        If closed, the robot whose contacts form the surface; it is strictly inside the scene's robot. For a clearance,
+        each part of it is instead within that distance of one of `cores`.
     bounds : four numbers, optional
-        If closed, and the scene has bounds: these, of which the scene's are strictly inside.
+        If closed, and the scene has bounds: larger bounds, with the scene's strictly inside.
     units, frame : str
         Unit of length, and name of the world's frame, for files.
     scene : Scene, optional
-        What it is a proof for; None if it was read from a file.
+        The scene of the proof; None if it was read from a file.
     stamp : Stamp, optional
-        What the file said of the scene.
+        The scene's stamp in the file.
     clearance : Fraction
-        If not 0: no path joins them that keeps at least this distance from obstacles and workspace.
+        If not 0: no path that keeps at least this distance from obstacles and workspace joins them.
     cores : tuple of Polygon
-        Then: convex polygons inside the scene's robot, one for each polygon of `robot`.
+        For a clearance: convex polygons inside the scene's robot, one for each polygon of `robot`.
     curved : Scene, optional
-        With round shapes, if it is a proof for these; `scene` has polygons inside of them.
+        The scene with round shapes, if it is a proof for these; `scene` has polygons inside them.
     moved : Moved, optional
-        Start and goal as they were asked for, if they were moved to free poses.
+        The requested start and goal, if they were moved to free poses.
     whole : Whole, optional
         The scene of which `scene` has only some obstacles, if a folder was asked.
     """
@@ -185,24 +185,24 @@ class Separated(Shown, Answer):
         return tuple(np.unique(self.pieces.obstacle[:, 0]).tolist())
 
     @classmethod
-    def _of(cls, found: _core.Separation, scene: Scene, start: Pose, goal: Pose) -> Separated:
-        """What the core has found about a scene."""
-        pieces = Pieces._of(found)
-        if not found.is_closed:
+    def _of(cls, core: _core.Separation, scene: Scene, start: Pose, goal: Pose) -> Separated:
+        """Wrap a proof of the core about a scene."""
+        pieces = Pieces._of(core)
+        if not core.is_closed:
             return cls(start, goal, "interior", pieces, units=scene.units, scene=scene)
-        robot, bounds = tuple(map(polygon_of, found.robot)), None
-        if found.bounds is not None:
-            x0, y0, x1, y1 = (Fraction(n, d) for n, d in found.bounds)
+        robot, bounds = tuple(map(polygon_of, core.robot)), None
+        if core.bounds is not None:
+            x0, y0, x1, y1 = (Fraction(n, d) for n, d in core.bounds)
             bounds = x0, y0, x1, y1
         return cls(start, goal, "closed", pieces, robot, bounds, scene.units, scene=scene)
 
     def reversed(self) -> Separated:
-        """The same proof for the way back, from pose to pose as they are."""
+        """Return the same proof with start and goal swapped, without the requested ones."""
         return replace(self, start=self.goal, goal=self.start, moved=None)
 
 
 class Insets:
-    """Scenes with a robot a little smaller, in bounds as much larger; what is found of each is kept.
+    """Scenes with a slightly smaller robot, in bounds larger by as much; their results are cached.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ class Insets:
     powers : list of int
         Insets that a proof may need, as powers of two of the robot's size.
     size : int
-        The power of two that is about as large as the robot.
+        Exponent of the power of two that is about as large as the robot.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -230,23 +230,24 @@ def separation(
     powers: Sequence[int] | None = None,
     insets: Insets | None = None,
 ) -> Separated | None:
-    """A proof that no motion joins two free poses; None if they are in the closure of one cell, and so joined.
+    """Prove that no motion joins two free poses; return None if they are in the closure of one cell, and so joined.
 
     Parameters
     ----------
     space : FreeSpace
     start, goal : Pose or (x, y, theta)
-        Free.
+        Must be free.
     powers : sequence of int, optional
-        Of two, of the robot's size: the insets to be tried for "closed", one after the other. From -20 on, each time
-        twice as deep, as long as the digits of the scene suggest that a gap may be that narrow, unless given.
+        The insets to try for "closed", in this order, as exponents of 2 relative to the robot's size. By default from
+        -20 on, doubled each time, as long as the digits of the scene suggest that a gap may be that narrow.
     insets : Insets, optional
-        Of the space's scene: kept from one call to the next they are computed once.
+        Insets of the space's scene. If several calls share them, they are computed once.
 
     Returns
     -------
     Separated, or None
-        ``of`` is "closed" if they are apart for a smaller robot: by 2**-20 of its size or less. Else "interior".
+        ``of`` is "closed" if they are also separated for a robot smaller by 2**-20 of its size or less, else
+        "interior".
 
     Raises
     ------
@@ -255,7 +256,7 @@ def separation(
 
     Notes
     -----
-    Of a smaller robot only the closed surfaces around the two poses are computed, unless these touch something.
+    For a smaller robot only the closed surfaces around the two poses are computed, unless these touch something.
 
     Examples
     --------
@@ -278,12 +279,12 @@ def separation(
     insets = insets or Insets(scene)
     known = known_scene(insets.checker, space)
     chosen = insets.powers if powers is None else list(powers)
-    found = _core.separation(known, insets.core, numbers_of(start), numbers_of(goal), chosen, Caller())
-    return Separated._of(found, scene, start, goal)
+    proof = _core.separation(known, insets.core, numbers_of(start), numbers_of(goal), chosen, Caller())
+    return Separated._of(proof, scene, start, goal)
 
 
 def known_scene(checker: MotionChecker, space: FreeSpace | None = None) -> _core.KnownScene:
-    """What the core finds out about a checker's scene; with all of its free space, if that is known."""
+    """Return the core's cache of results about a checker's scene, with its free space if that is known."""
     known = _core.KnownScene(checker.features.made, checker.core)
     if space is not None:
         known.keep(space.boundary.core, space.surfaces.core_complex, space.core)

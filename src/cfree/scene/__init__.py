@@ -1,1 +1,1 @@
-"""Scenes: a robot, its obstacles and bounds, and their features as the core takes them."""
+"""Scenes: a robot, its obstacles and bounds, and their features in the core's form."""

@@ -1,7 +1,7 @@
 """The documented range of a scene's coordinates, checked once, where a scene is made.
 
 Coordinates become integers over one common denominator. If these have few enough bits (``coordinate_range.hpp``),
-the core's doubles neither overflow nor underflow, and its exact integers stay fast: lengths from 1e-150 to 1e150 may
+the core's doubles neither overflow nor underflow, and its exact integers stay fast. Lengths from 1e-150 to 1e150 may
 meet in one scene.
 """
 
@@ -29,7 +29,7 @@ def range_fault(
     workspace: Polygon | None,
     bounds: Sequence[Fraction] | None,
 ) -> tuple[Path, str] | None:
-    """What lies outside the range: its place and a message, or nothing.
+    """Return the first place outside the range, and a message; None if there is none.
 
     Examples
     --------

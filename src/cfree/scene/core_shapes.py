@@ -1,4 +1,4 @@
-"""What the core makes a scene of."""
+"""A scene's shapes in the core's form."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def core_shapes(
     workspace: Polygon | None,
     bounds: Sequence[Fraction] | None,
 ) -> tuple[Any, ...]:
-    """Polygons and bounds as the core takes them."""
+    """Return polygons and bounds in the core's form."""
     return (
         [part.core for part in robot],
         [obstacle.core for obstacle in obstacles],

@@ -1,6 +1,6 @@
-"""Which scene an answer is for: a hash of all of it that decides whether a pose is free, and the robot's box.
+"""Stamps of scenes in answers: a hash of everything that decides whether a pose is free, and the robot's box.
 
-`docs/answer-format.md`, "The scene", has the text that is hashed.
+`docs/answer-format.md`, "The scene", defines the hashed text.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Stamp:
-    """What an answer in a file says of its scene.
+    """The identity of its scene that an answer in a file carries.
 
     Attributes
     ----------
     sha256 : str
-        Of the scene's text: no names, units, start or goal are in it.
+        Hash of the scene's text, which has no names, units, start or goal.
     robot : four numbers
         Least x and y, greatest x and y of the robot's vertices, in its own frame.
     """
@@ -45,7 +45,7 @@ class Stamp:
 
     @property
     def reach(self) -> Fraction:
-        """No point of the robot is farther from its reference point."""
+        """A bound of the distance of the robot's points from its reference point."""
         x0, y0, x1, y1 = map(abs, self.robot)
         return max(x0, x1) + max(y0, y1)
 
@@ -67,7 +67,7 @@ class Whole:
 
 
 def stamp_of(scene: Scene) -> Stamp:
-    """The stamp of answers for a scene.
+    """Return the stamp of answers for a scene.
 
     Examples
     --------
@@ -84,7 +84,7 @@ def stamp_of(scene: Scene) -> Stamp:
 
 
 def _corners(shape: AnyShape) -> Sequence[ExactPoint]:
-    """Vertices, or corners of a box around it."""
+    """Return the vertices of a polygon, or two corners of the box around a round shape."""
     if isinstance(shape, Polygon):
         return shape.exact_vertices
     x0, y0, x1, y1 = shape.box
@@ -92,12 +92,12 @@ def _corners(shape: AnyShape) -> Sequence[ExactPoint]:
 
 
 def stamp_for(file: object, scene: Scene | None, stamp: Stamp | None) -> Stamp:
-    """Of the scene, or what a file said of it.
+    """Return the stamp of the scene, or else the one read from a file.
 
     Raises
     ------
     ValueError
-        If there is none.
+        If there is neither.
     """
     if scene is not None:
         return stamp_of(scene)
@@ -156,7 +156,7 @@ def _shape(word: str, shape: AnyShape) -> Iterator[str]:
 
 
 def _piece(piece: Piece) -> str:
-    """Of a line its end; of an ellipse center, radii, right angles and the half-angle tangent of the rest."""
+    """Write a line by its end; an ellipse by center, radii, right angles and half-angle tangent of the rest."""
     match piece:
         case Line(_, end):
             numbers: list[object] = ["line", *end]

@@ -1,4 +1,4 @@
-"""Robots a little larger: convex polygons around all that is within a distance of the robot, or in that."""
+"""Slightly larger or smaller robots: convex polygons around everything within a distance of the robot, or inside it."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
 
 SIDES = 16  # of the polygon that stands for a disc
-ROUNDING = 1 + 2**-20  # more than that of its coordinates
-FARTHEST_OUT = ROUNDING**2 / math.cos(math.pi / SIDES)  # of its points, in radii
+ROUNDING = 1 + 2**-20  # exceeds the rounding of its coordinates
+FARTHEST_OUT = ROUNDING**2 / math.cos(math.pi / SIDES)  # distance of its farthest point from the middle, in radii
 
 
 def grown(scene: Scene, radius: Fraction) -> list[Polygon]:
-    """The robot's Minkowski sum with a polygon of 16 sides around a disc, in convex pieces that overlap.
+    """Return the robot's Minkowski sum with a polygon of 16 sides around a disc, in convex pieces that overlap.
 
-    A pose at which this robot is free is one at which the scene's is at least `radius` from everything.
+    Wherever this robot is free, the scene's robot is at least `radius` from everything.
 
     Examples
     --------
@@ -32,26 +32,26 @@ def grown(scene: Scene, radius: Fraction) -> list[Polygon]:
 
 
 def grown_by_square(scene: Scene, half: Fraction) -> list[Polygon]:
-    """The robot's Minkowski sum with the square [-half, half]^2, in the same way."""
+    """Return the robot's Minkowski sum with the square [-half, half]^2, in convex pieces that overlap."""
     return grown_by(scene, [(-half, -half), (half, -half), (half, half), (-half, half)])
 
 
 def grown_by(scene: Scene, ring: Sequence[ExactPoint]) -> list[Polygon]:
-    """The robot's Minkowski sum with a convex polygon, in the same way; one of each convex piece, in their order."""
+    """Return the Minkowski sums of the robot's convex pieces with a convex polygon, in the order of the pieces."""
     rings = ([part.exact_vertices[k] for k in piece] for part in scene.robot for piece in part.pieces)
     return [Polygon(convex_sum(piece, ring)) for piece in rings]
 
 
 def cores(scene: Scene, by: Fraction) -> list[Polygon]:
-    """The robot's convex pieces, a little smaller, so that they are inside: no vertex moves by more than `by`."""
-    found = []
+    """Return the robot's convex pieces, shrunk so that they are inside it: no vertex moves by more than `by`."""
+    smaller = []
     share = Fraction(2) ** min(math.frexp(by)[1] - 3 - math.frexp(robot_radius(scene))[1], -10)
     for part in scene.robot:
         for piece in part.pieces:
             ring = [part.exact_vertices[k] for k in piece]
             x, y = ((a + 2 * b + c) / 4 for a, b, c in zip(*ring[:3], strict=True))  # inside, with short numbers
-            found.append(Polygon([(u + share * (x - u), v + share * (y - v)) for u, v in ring]))
-    return found
+            smaller.append(Polygon([(u + share * (x - u), v + share * (y - v)) for u, v in ring]))
+    return smaller
 
 
 def _around_a_disc() -> list[ExactPoint]:

@@ -1,11 +1,11 @@
-"""The scene as the core takes it: integer coordinates, and an identity for every feature.
+"""The scene in the core's form: integer coordinates, and an identity for every feature.
 
 Coordinates are multiplied by one common denominator. Coincident vertices get one *point*, directed edges on one line
-with one direction one *line*, parallel edges one *direction*: equality of features is settled by the core, exactly,
-once. It then names curves and critical angles by these, and most ties need no arithmetic.
+with one direction one *line*, parallel edges one *direction*. The core settles equality of features once, exactly.
+It then names curves and critical angles by these, and most ties need no arithmetic.
 
-Two layers meet only themselves: the robot's polygons with the obstacles (and the complement of `workspace`), and the
-robot's reference point, as a shape of its own, with the complement of `bounds`.
+There are two separate layers. The robot's polygons meet the obstacles (and the complement of `workspace`); the robot's
+reference point, as a shape of its own, meets the complement of `bounds`.
 """
 
 from __future__ import annotations
@@ -41,19 +41,19 @@ class ShapeFeatures:
     Attributes
     ----------
     core : _core.Shape
-        Its columns; ``cpp/include/cfree/scene/scene.hpp`` says what they are. Nobody writes to them.
+        Its columns, read only; ``cpp/include/cfree/scene/scene.hpp`` defines them.
     scale : int
         Common denominator of all coordinates.
     xy : (n, 2) float64
         Vertices in the user's units, correctly rounded.
     near : (n, 2) float64
-        The same from the origin: all digits, however far away that is.
+        The same from the frame's origin, so that no digits are lost far away from (0, 0).
     v, w : (e,) int32
         Ends of the directed edges: edge k of a ring starts at vertex k; the pieces' diagonals come last.
     previous : (r,) int32
         The vertex before, for the vertices of rings, which come first.
     owner_polygon, owner_vertex : (r,) int32
-        Whose they are; polygon is `BOUNDS` or `WORKSPACE` for those of no user's polygon.
+        Polygon and vertex that each belongs to; polygon is `BOUNDS` or `WORKSPACE` if the user gave no such polygon.
     """
 
     def __init__(self, core: _core.Shape, near: _core.Shape, owners: _core.Owners, scale: int) -> None:
@@ -64,12 +64,12 @@ class ShapeFeatures:
 
     @cached_property
     def vertices(self) -> tuple[Point, ...]:
-        """Vertices times `scale`."""
+        """The vertices times `scale`."""
         return self.core.vertices
 
     @cached_property
     def pieces(self) -> list[list[int]]:
-        """Vertices of the convex pieces."""
+        """The vertices of each convex piece."""
         return [part.tolist() for part in np.split(self.core.piece_vertex, self.core.piece[1:-1])]
 
     @cached_property
@@ -89,13 +89,13 @@ class SceneFeatures:
     Attributes
     ----------
     core : _core.Scene
-        The same as the core has it: what is made of the scene there shares it.
+        The core's own scene, shared by everything that the core makes of it.
     scale : int
         Common denominator of all coordinates.
     rim : (xmin, ymin, xmax, ymax) or None
-        If bounds or a workspace are given: a rectangle around all patches.
+        A rectangle around all patches, if there are bounds or a workspace.
     made : _core.SceneFeatures
-        What all of these are views of.
+        The memory that all of these are views of.
     """
 
     robot: ShapeFeatures
@@ -107,7 +107,7 @@ class SceneFeatures:
 
     @classmethod
     def of(cls, made: _core.SceneFeatures) -> SceneFeatures:
-        """What the core has made of a scene."""
+        """Wrap the features that the core has made of a scene."""
         core, scale = made.scene, made.scene.scale
         robot = ShapeFeatures(core.robot, core.near.robot, made.robot, scale)
         obstacles = ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale)
@@ -115,34 +115,34 @@ class SceneFeatures:
 
     @property
     def frame(self) -> tuple[float, float, float, float]:
-        """The origins of the obstacles and of the robot: what is near by has doubles from these."""
+        """The origins of the obstacles and of the robot, from which `near` counts."""
         return self.core.frame
 
     def moved(self, theta: ArrayLike, frame: ArrayLike | None = None) -> NDArray[np.float64]:
-        """How far poses are from those of the frame, by their orientations, (..., 2)."""
+        """Return the offsets (..., 2) of positions from the frame's positions, by orientation."""
         x, y, a, b = self.frame if frame is None else np.asarray(frame, float)
         c, s = np.cos(theta), np.sin(theta)
         return np.stack([x - (c * a - s * b), y - (s * a + c * b)], axis=-1)
 
     def in_chart(self, pose: Pose) -> tuple[tuple[int, ...], int]:
-        """A pose as the core locates it: integers x, y, their unit, numerator and denominator of tau; and the chart."""
+        """Return a pose in the core's form, integers x, y, unit, numerator and denominator of tau; and its chart."""
         (chart, tau), (x, y, unit) = pose.chart, pose.integers
         return (x * self.scale, y * self.scale, unit, tau.numerator, tau.denominator), chart
 
     @property
     def patches(self) -> int:
-        """How many contact patches there are."""
+        """The number of contact patches."""
         n, m = (shape.core.convex for shape in (self.robot, self.obstacles))
         return int(n.sum()) * len(m) + len(n) * int(m.sum())
 
 
 def unpacked(code: Any) -> tuple[Any, Any, Any]:
-    """Kind, robot feature and obstacle feature of a packed pair, an int or an array of uint64."""
+    """Return kind, robot feature and obstacle feature of a packed pair, an int or an array of uint64."""
     return code >> 61, code >> 31 & 0x3FFFFFFF, code & 0x7FFFFFFF
 
 
 def scene_features(scene: Scene) -> SceneFeatures:
-    """Number everything the core needs to know of a scene, which keeps it."""
+    """Number the features of a scene for the core; the scene caches the result."""
     return kept(scene, _numbered)
 
 
@@ -154,7 +154,7 @@ def _numbered(scene: Scene) -> SceneFeatures:
 
 
 def refuse_too_many(features: SceneFeatures) -> None:
-    """See that every feature and every patch has a number."""
+    """Raise `UnsupportedError` if there are more features or patches than numbers for them."""
     for name, shape, most in (
         ("robot", features.robot, MOST_ROBOT_FEATURES),
         ("obstacles", features.obstacles, MOST_OBSTACLE_FEATURES),

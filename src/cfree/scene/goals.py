@@ -1,4 +1,4 @@
-"""What a goal may be: a pose, a place at which any orientation will do, or several, any one of which will do."""
+"""Goals: a pose, a place at which any orientation is accepted, or several of these, any one of which is accepted."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ Goal = Pose | ExactPoint
 @checked
 @dataclass(frozen=True)
 class Moved:
-    """Start and goal of an answer as they were asked for, before they were moved to free poses.
+    """The requested start and goal of an answer, before they were moved to free poses.
 
     Parameters
     ----------
     start : Pose, optional
-        None if the start is the one asked for.
+        None if the start was not moved.
     goal : Pose, or exact place (x, y), optional
-        None if the goal is the one asked for.
+        None if the goal was not moved.
 
     Examples
     --------
@@ -45,7 +45,7 @@ class Moved:
 
 
 def text_of(goal: Goal) -> str:
-    """A pose, or a place, in words.
+    """Write a pose, or a place, in words.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def text_of(goal: Goal) -> str:
 
 
 def text_of_move(asked: Goal | None, end: Goal) -> str:
-    """An end in words, with where it was asked for if it was moved.
+    """Write an end in words, and the requested end if it was moved.
 
     Examples
     --------
@@ -69,12 +69,12 @@ def text_of_move(asked: Goal | None, end: Goal) -> str:
 
 
 def to_goals(value: Any) -> tuple[Goal, ...] | Pose:
-    """One pose, or several goals; a pair is a place.
+    """Convert an argument to one pose, or to several goals; a pair of numbers is a place.
 
     Raises
     ------
     InvalidPoseError, TypeError
-        If it is neither, with the number of the goal.
+        If it is neither; the message has the number of the goal.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def to_goals(value: Any) -> tuple[Goal, ...] | Pose:
 
 
 def _is_row(value: Any) -> bool:
-    """Is it one goal, and not many?"""
+    """True if a value is one goal, not several."""
     return (
         isinstance(value, Sequence | np.ndarray)
         and not isinstance(value, str)

@@ -14,7 +14,7 @@ from cfree.words import listed
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
-DIGITS = 2  # of a size and a place: about this many after the first digit of the size
+DIGITS = 2  # digits of a size and a place, after the first digit of the size
 
 
 def numbered(scene: Scene, obstacle: int) -> str:
@@ -31,12 +31,12 @@ def numbered(scene: Scene, obstacle: int) -> str:
     if obstacle in NAMES:
         return f"the {NAMES[obstacle]}"
     name = scene.obstacle_names[obstacle]
-    # the obstacles of a part of a scene, and the pieces of a round shape, are called by their numbers in the whole
+    # obstacles of a part of a scene, and pieces of a round shape, keep their numbers in the whole scene as names
     return name if re.fullmatch(r"obstacle \d+( \(.*\))?", name) else f"{default_name(obstacle)} ({name})"
 
 
 def placed(scene: Scene, obstacle: int) -> str:
-    """Return the same with the sides of the obstacle's box, and its middle.
+    """Return the number and name of an obstacle, with the sides of its box and the middle of it.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def _length(value: float) -> str:
 
 
 def all_placed(scene: Scene, obstacles: Iterable[int]) -> str:
-    """Return the same of several, the first few of many.
+    """Return the same of several obstacles; of many, only the first few.
 
     Examples
     --------

@@ -12,15 +12,15 @@ from cfree.scene.scene import Scene
 
 
 def smallest_scene(scene: Scene, fails: Callable[[Scene], bool], *, seconds: float = 20.0) -> Scene:
-    """Leave out obstacles, parts of the robot, bounds, holes and vertices as long as the fault stays.
+    """Remove obstacles, parts of the robot, bounds, holes and vertices as long as the fault stays.
 
     Parameters
     ----------
     scene : Scene
-        One that fails.
+        A scene that fails.
     fails : callable
     seconds : float
-        When to stop looking; what has been found by then is returned.
+        Time limit; the smallest scene found by then is returned.
 
     Examples
     --------
@@ -30,24 +30,24 @@ def smallest_scene(scene: Scene, fails: Callable[[Scene], bool], *, seconds: flo
     Scene(robot: 3 vertices; 1 obstacle: 3 vertices)
     """
     until = time.monotonic() + seconds
-    found = True
-    while found:
-        found = False
+    is_smaller = True
+    while is_smaller:
+        is_smaller = False
         for smaller in _smaller(scene):
             if time.monotonic() > until:
                 return scene
             try:
-                found = fails(smaller)
+                is_smaller = fails(smaller)
             except CfreeError:
                 continue
-            if found:
+            if is_smaller:
                 scene = smaller
                 break
     return scene
 
 
 def _smaller(scene: Scene) -> Iterator[Scene]:
-    """Scenes with a little less, large parts first."""
+    """Yield scenes with something removed, large parts first."""
     robot, obstacles = scene.robot, scene.obstacles
     share = len(obstacles)
     while share >= 1:
@@ -73,7 +73,7 @@ def _made(scene: Scene, robot: tuple[Polygon, ...], obstacles: tuple[Polygon, ..
 
 
 def _simpler(polygon: Polygon) -> Iterator[Polygon]:
-    """The polygon without one hole, or without one vertex, where that is a polygon."""
+    """Yield the polygon without one hole, and without one vertex where the rest is a polygon."""
     outer, *holes = map(list, polygon.exact_rings)
     for k in range(len(holes)):
         yield Polygon(outer, holes[:k] + holes[k + 1 :])

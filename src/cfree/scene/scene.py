@@ -1,7 +1,7 @@
-"""Scene: a robot, the obstacles it may not overlap, and where it may be.
+"""Scene: a robot, the obstacles it may not overlap, and the region it must stay in.
 
-The robot's polygons stand in the robot's own frame, whose origin is the reference point; everything else
-stands in the world. Shapes are closures of their interiors: a segment or a point forbids nothing.
+The robot's polygons are given in the robot's own frame, whose origin is the reference point; everything else
+in the world. Shapes are closures of their interiors: a segment or a point forbids nothing.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from fractions import Fraction
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -25,6 +24,7 @@ from cfree.curves.rings import Circle
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UndecidedError, UnsupportedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.lazy import registered
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import range_fault
 from cfree.scene.goals import Goal, to_goals
@@ -46,9 +46,9 @@ class Scene(Shown, Keeping):
         One or more polygons that move together, in a frame whose origin is the reference point. A shape is a
         `Polygon`, an (n, 2) array, a list of points, a shapely polygon or multipolygon, or a `Curved`.
     obstacles : shape or sequence of shapes
-        They may touch and overlap. None at all is a scene, too.
+        They may touch and overlap. There may be none.
     obstacle_names : sequence of (str or None), optional
-        One for each shape given; each polygon of a multipolygon has its name. Unnamed ones are called
+        One for each shape; all polygons of a multipolygon get its name. Unnamed ones are called
         ``"obstacle 0"`` and so on, by their index.
     bounds : four numbers, optional
         (xmin, ymin, xmax, ymax): the rectangle the reference point stays in.
@@ -57,13 +57,13 @@ class Scene(Shown, Keeping):
     start, goal : Pose or (x, y, theta), optional
         Configurations, theta as `Pose` takes it. A goal may also be a place (x, y), at which any orientation will do.
     goals : sequence of such, optional
-        Instead of a goal, several: any one of them will do. A place given as the goal is here, too.
+        Several goals instead of one: any one of them will do. The attribute also holds a place given as `goal`.
     units, name, note : str, optional
         Unit of length, title and remarks.
     source : mapping of str to str, optional
-        Where the data come from, and their licence.
+        Origin of the data, and their licence.
     check : mapping, optional
-        Facts about the scene that somebody has checked, as JSON.
+        Facts about the scene that have been checked, as JSON.
     version : int, optional
         Version of the scene format.
 
@@ -75,12 +75,12 @@ class Scene(Shown, Keeping):
         If the bounds are empty, names and obstacles differ in number, or there are both a goal and goals.
     UnsupportedError
         If a coordinate is larger than 1e150, or all of them over one common denominator are integers of more than 1110
-        bits: lengths from 1e-150 to 1e150 may meet in one scene.
+        bits. Lengths from 1e-150 to 1e150 may meet in one scene.
 
     Notes
     -----
-    `plan`, `is_free`, `verify.answer` and pictures take scenes with round shapes; all else takes polygons: those of
-    `outer` or `inner`.
+    `plan`, `is_free`, `verify.answer` and pictures accept round shapes. Everything else accepts polygons only: use
+    the scenes of `outer` or `inner`.
 
     Examples
     --------
@@ -105,7 +105,7 @@ class Scene(Shown, Keeping):
     source: Mapping[str, str] = field(hash=False)
     check: Mapping[str, object] = field(hash=False)
     version: int
-    curved: bool = field(init=False, compare=False)  # are some of its shapes round?
+    curved: bool = field(init=False, compare=False)  # True if some of its shapes are round
 
     def __init__(
         self,
@@ -186,39 +186,39 @@ class Scene(Shown, Keeping):
 
     def plot(self) -> Any:
         """Draw obstacles, bounds, workspace, start and goal with `cfree.plot.picture`; return the matplotlib figure."""
-        return import_module("cfree.plot").picture(self)
+        return registered("figure")(self)
 
     @checked
     def outer(self, error: float) -> Scene:
-        """A scene of polygons in which all is forbidden that is forbidden here: a path in it is one here, too.
+        """Return a scene of polygons in which every pose that is forbidden here is forbidden.
 
-        Robot and obstacles grow, the workspace shrinks.
+        A path in it is also a path here. Robot and obstacles grow, the workspace shrinks.
 
         Parameters
         ----------
         error : float
-            No point of a polygon's boundary is farther from the round shape it is for. One less than doubles can tell
-            is raised to that.
+            Greatest distance of a polygon's boundary from the boundary of its round shape. If doubles cannot reach it,
+            the least error that they can reach is used.
 
         Raises
         ------
         UndecidedError
-            If the workspace has no polygon that can be proved to be inside: it is too thin for doubles, or has cusps.
+            If no polygon can be proved to be inside the workspace: it is too thin for doubles, or has cusps.
         """
         return with_polygons(self, [error] * len(shapes_of(self)), outward=True)
 
     @checked
     def inner(self, error: float) -> Scene:
-        """A scene of polygons in which no more is forbidden than here: what is proved impossible in it is here, too.
+        """Return a scene of polygons in which every pose that is free here is free.
 
-        Robot and obstacles shrink, the workspace grows. Parameters and errors are those of `outer`; here the robot
-        may have no polygon inside.
+        If no path exists in it, none exists here. Robot and obstacles shrink, the workspace grows. Parameters and
+        errors are those of `outer`, but here the robot may be the shape without a polygon inside.
         """
         return with_polygons(self, [error] * len(shapes_of(self)), outward=False)
 
     @checked
     def grown(self, by: Number) -> Scene:
-        """The same with a larger robot: all that is so near to it belongs to it.
+        """Return the scene with the robot grown by a distance: its Minkowski sum with a disc of that radius.
 
         Raises
         ------
@@ -237,34 +237,34 @@ class Scene(Shown, Keeping):
 
 
 def shapes_of(scene: Scene) -> tuple[AnyShape, ...]:
-    """Those of the robot, the obstacles, and the workspace, if there is one; polygons or not."""
+    """Return the shapes of the robot, the obstacles, and the workspace, if there is one; round or not."""
     return *scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])
 
 
 def round_count(shapes: Iterable[AnyShape]) -> int:
-    """How many of them are no polygons."""
+    """Count the round shapes."""
     return sum(isinstance(shape, Curved) for shape in shapes)
 
 
 def largest_of(scene: Scene) -> float:
-    """The longer side of the largest box around a shape."""
+    """Return the longer side of the largest box around a shape."""
     return max(map(size_of, shapes_of(scene)))
 
 
 def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Scene:
-    """Polygons for round shapes, in the order of `shapes_of`, each with its error: outward more is forbidden."""
+    """Replace round shapes by polygons, with an error for each in the order of `shapes_of`; outward forbids more."""
     if not scene.curved:
         return scene
-    given = iter(errors)
-    robot = [polygon for shape in scene.robot for polygon in polygons_for(shape, next(given), outward)]
+    error_of = iter(errors)
+    robot = [polygon for shape in scene.robot for polygon in polygons_for(shape, next(error_of), outward)]
     named = list[tuple[str, Polygon]]()
     for k, (name, shape) in enumerate(zip(scene.obstacle_names, scene.obstacles, strict=True)):
-        for polygon in polygons_for(shape, next(given), outward):
-            # what has another number now is still called by that of its shape
+        for polygon in polygons_for(shape, next(error_of), outward):
+            # a polygon whose number has changed keeps the number of its shape as a name
             is_moved = name != default_name(k) and len(named) != k
             named.append((f"{default_name(k)} ({name})" if is_moved else name, polygon))
     room = scene.workspace
-    rooms = () if room is None else polygons_for(room, next(given), not outward)
+    rooms = () if room is None else polygons_for(room, next(error_of), not outward)
     if not robot or (room and not rooms):
         raise UndecidedError(
             f"no polygon inside the {'workspace' if robot else 'robot'} can be proved: it is too thin, or has cusps",
@@ -282,7 +282,7 @@ def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Sc
 
 
 def polygons_for(shape: AnyShape, error: float, outward: bool) -> tuple[Polygon, ...]:
-    """Polygons around a shape, or inside of it."""
+    """Return polygons around a shape, or inside it."""
     if isinstance(shape, Polygon):
         return (shape,)
     error = max(error, shape.least_error)
@@ -301,7 +301,7 @@ def _grown(shape: AnyShape, by: Fraction) -> Curved:
 
 
 def _edges(shapes: Sequence[AnyShape]) -> str:
-    """How many vertices, and how many round shapes."""
+    """Write the number of vertices, and of round shapes."""
     count = sum(len(shape) for shape in shapes if isinstance(shape, Polygon))
     curved = round_count(shapes)
     texts = [counted(count, "vertex")] if count or not curved else []
@@ -309,30 +309,30 @@ def _edges(shapes: Sequence[AnyShape]) -> str:
 
 
 def size_of(shape: AnyShape) -> float:
-    """The longer side of its box."""
+    """Return the longer side of the box around a shape."""
     x0, y0, x1, y1 = box_of(shape)
     return float(max(x1 - x0, y1 - y0))
 
 
 def box_of(shape: AnyShape) -> tuple[float, float, float, float]:
-    """Box around a shape: xmin, ymin, xmax, ymax."""
+    """Return the box around a shape: xmin, ymin, xmax, ymax."""
     x0, y0, x1, y1 = shape.box if isinstance(shape, Curved) else shape.bounds
     return float(x0), float(y0), float(x1), float(y1)
 
 
 def robot_radius(scene: Scene) -> float:
-    """Distance of the robot's farthest vertex from its reference point."""
+    """Return the distance of the robot's farthest vertex from its reference point."""
     return max(math.hypot(x, y) for part in scene.robot for x, y in part.vertices.tolist())
 
 
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:
-    """A scene with another robot, in other bounds."""
+    """Return the scene with another robot and other bounds, without start and goal."""
     names = scene.obstacle_names
     return Scene(robot, scene.obstacles, bounds=bounds, obstacle_names=names, workspace=scene.workspace)
 
 
 def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
-    """A scene with another start and goal; where None is given, with its own.
+    """Return the scene with another start and goal; None keeps its own.
 
     Examples
     --------
@@ -350,7 +350,7 @@ def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
 
 
 def default_name(index: int) -> str:
-    """What an obstacle without a name is called.
+    """Return the name of an obstacle that has none.
 
     Examples
     --------
@@ -361,7 +361,7 @@ def default_name(index: int) -> str:
 
 
 def _items(value: Any, name: str) -> list[Any]:
-    """The shapes in an argument that is one shape or many."""
+    """Return the shapes of an argument that is one shape or several."""
     if isinstance(value, Polygon | Curved) or hasattr(value, "geom_type") or _is_ring(value):
         return [value]
     if not isinstance(value, Iterable) or isinstance(value, (str, bytes, Mapping)):
@@ -371,7 +371,7 @@ def _items(value: Any, name: str) -> list[Any]:
 
 
 def _is_ring(value: Any) -> bool:
-    """Points, rather than rings of points?"""
+    """True if a value is a ring of points, not several rings."""
     if isinstance(value, np.ndarray):
         return value.ndim == 2
     return (
@@ -385,7 +385,7 @@ def _is_ring(value: Any) -> bool:
 
 
 def _shapes(item: Any, place: str) -> list[AnyShape]:
-    """The polygons of one shape, or the round one; `place` begins the message if it is none."""
+    """Return the polygons of one shape, or the round shape; `place` begins the message if it is neither."""
     if isinstance(item, Polygon | Curved):
         return [item]
     try:
@@ -409,7 +409,7 @@ NO_INTERIOR = "shapes are closures of their interiors: a segment or a point forb
 
 
 def flat_shape(kind: str) -> str:
-    """Why a kind of geometry is refused.
+    """Return the reason why a kind of geometry is refused.
 
     Examples
     --------
@@ -420,14 +420,14 @@ def flat_shape(kind: str) -> str:
 
 
 def explained(error: InvalidPolygonError) -> str:
-    """Message of an error, with the reason if the points make only a segment or a point."""
+    """Return the message of an error, with the reason if the points make only a segment or a point."""
     message = str(error)
     few = "at least 3" in message and not message.startswith("outer ring: 0")
     return f"{message}: {NO_INTERIOR}" if error.ring == 0 and (few or "on one line" in message) else message
 
 
 def shapes_in(value: Any, name: str) -> list[AnyShape]:
-    """The polygons of one shape, or of several; or round ones."""
+    """Return the polygons and round shapes of one shape, or of several."""
     return [shape for item in _items(value, name) for shape in _shapes(item, name)]
 
 
@@ -456,7 +456,7 @@ def _rectangle(bounds: Sequence[Number]) -> Bounds:
 
 
 def with_obstacles(scene: Scene, obstacles: Sequence[Polygon], names: Sequence[str] | None = None) -> Scene:
-    """The scene with these obstacles, and no others."""
+    """Return the scene with these obstacles, and no others."""
     return Scene(
         scene.robot,
         obstacles,
@@ -472,18 +472,18 @@ def with_obstacles(scene: Scene, obstacles: Sequence[Polygon], names: Sequence[s
 
 
 def required(scene: Scene, start: PoseLike | None, goal: PoseLike | None) -> tuple[Pose, Pose]:
-    """Start and goal, the scene's where none is given.
+    """Return start and goal; those of the scene replace None.
 
     Raises
     ------
     InvalidPoseError
-        If there is none.
+        If there is neither.
     """
-    found = []
-    for name, given in (("start", start), ("goal", goal)):
-        pose = getattr(scene, name) if given is None else given
+    ends = []
+    for name, end in (("start", start), ("goal", goal)):
+        pose = getattr(scene, name) if end is None else end
         if pose is None:
             has = "several, or a place" if name == "goal" and scene.goals else "none"
             raise InvalidPoseError(f"no {name}: the scene has {has}, and none was given; give x, y and theta")
-        found.append(to_pose(pose, name))
-    return found[0], found[1]
+        ends.append(to_pose(pose, name))
+    return ends[0], ends[1]
