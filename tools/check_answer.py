@@ -3,26 +3,26 @@
 
     python check_answer.py SCENE.json ANSWER.json
 
-prints one line. Exit code 0: verified. 1: refuted. 2: a file cannot be read; so are scenes in GeoJSON or WKT, and
-answers without exact numbers. The formats are those of docs/scene-format.md and docs/answer-format.md.
+prints one line. Exit code 0: verified. 1: refuted. 2: a file cannot be read; that includes scenes in GeoJSON or WKT,
+and answers without exact numbers. The formats are those of docs/scene-format.md and docs/answer-format.md.
 
-What has to be believed: this file; Python's integers, `fractions`, `decimal`, `json`, `hashlib`; the mathematics below.
-All signs are of integers; only the rational that an angle stands for is found in floating point. None of cfree is here.
+The check trusts this file; Python's integers, `fractions`, `decimal`, `json`, `hashlib`; the mathematics below. All
+signs are of integers; only the rational that an angle stands for is found in floating point. It uses no cfree.
 
 A point a of the robot is at R(theta) a + r. A pose is forbidden if the interior of one of its polygons meets the
 interior of an obstacle, or leaves the workspace, or if r leaves the bounds.
 
 Paths. With tau = tan(theta / 2) every motion is a quotient of polynomials. Robot and obstacles are cut into convex
-pieces. Two of these do not overlap exactly if a side of one of them has all of the other on its outer side; whether a
-vertex is there is the sign of a polynomial. So one moment stands for all between two neighbouring zeros of these.
+pieces. Two of these do not overlap exactly if a side of one has all of the other on its outer side. The sign of a
+polynomial decides that for a vertex. So one moment stands for all between two neighbouring zeros of these.
 
 Proofs that there is none. A contact surface is a set of poses at which a vertex is on an edge. A piece of it is {(t,
-theta): lower(theta) <= t <= upper(theta), from <= theta <= to}, t the place on the edge. If every part of an edge of
-a piece is one of an even number of them, then they have no boundary, and a closed path crosses them an even number of
-times, if properly. If a ray from the start does so an odd number of times, and one from the goal an even number, every
-path between them meets a piece, where the robot touches something. So "interior" proofs exclude paths that keep a
-distance. "closed" ones are made of contacts of a robot strictly inside the real one: where it touches, the real one
-overlaps. A clearance is kept by a robot larger by a polygon around a disc; it is not if a robot all nearer touches.
+theta): lower(theta) <= t <= upper(theta), from <= theta <= to}, t the place on the edge. If every part of every edge
+belongs to an even number of pieces, then they have no boundary, and a closed path crosses them an even number of times,
+if properly. If a ray from the start does so an odd number of times, and one from the goal an even number, every path
+between them meets a piece, where the robot touches something. So "interior" proofs exclude paths that keep a distance.
+"closed" ones have contacts of a robot strictly inside the real one: where it touches, the real one overlaps. A
+clearance is kept by a robot larger by a polygon around a disc; it is not if a robot all nearer touches.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ Interval = tuple[Fraction, Fraction]
 ZERO, ONE = Fraction(0), Fraction(1)
 
 class BadFileError(Exception):
-    """A file does not say what its format asks for."""
+    """The content of a file differs from its format."""
 
 class RefutedError(Exception):
     """The answer is wrong, or not proved."""
@@ -72,10 +72,10 @@ def refute_if(wrong: Any, text: str) -> None:
 
 # === Files: JSON with exact numbers, no unknown and no repeated keys ===
 MAX_DIGITS = 4000
-LARGEST = 10**150  # of a coordinate
-MAX_BITS = 1110  # of a scene's coordinates over their common denominator
+LARGEST = 10**150  # largest coordinate
+MAX_BITS = 1110  # bits of a scene's coordinates over their common denominator
 QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")
-BITS = 1300  # of angles: there may be 1024 in front of the point
+BITS = 1300  # bits of angles: there may be 1024 in front of the point
 REQUIRED, ROUND = object(), {"circle", "ellipse", "path", "grown"}  # keys of shapes that are no polygons
 
 def decoded(text: str) -> Any:
@@ -85,16 +85,16 @@ def decoded(text: str) -> Any:
             return literal  # a text of that length is no number
         return int(literal) if literal.lstrip("-").isdigit() else Decimal(literal)
     def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        found = dict(pairs)
-        refuse_if(len(found) < len(pairs), f"a key is there twice, one of {list(found)!a:.60}")
-        return found
+        value = dict(pairs)
+        refuse_if(len(value) < len(pairs), f"a key is there twice, one of {list(value)!a:.60}")
+        return value
     try:
         return json.loads(text, parse_int=exact, parse_float=exact, parse_constant=int, object_pairs_hook=unique)
     except (ValueError, InvalidOperation, RecursionError) as error:
         raise BadFileError(f"no JSON: {error}") from None
 
 def members(value: Any, place: str, /, **known: Any) -> dict[str, Any]:
-    """The members of an object; `known` holds the keys, each with what counts if it is not there."""
+    """Members of an object; `known` holds the keys, each with its default."""
     refuse_if(not isinstance(value, dict), f"{place}: expected an object")
     for key in value:
         refuse_if(key not in known, f"{place}: unknown key {key!a}" + "; `cfree verify` reads it" * (key in ROUND))
@@ -116,12 +116,12 @@ def whole(value: Any, place: str, least: int, most: int = 2**31 - 1) -> Any:
     return value
 
 def number(value: Any, place: str) -> Fraction:
-    """A JSON number, as it is written, or a text "p/q" or of a decimal."""
+    """Value of a JSON number in its own digits, or of a text "p/q" or of a decimal."""
     if type(value) is int:
         return Fraction(value)
     if isinstance(value, str) and len(value) <= MAX_DIGITS:
-        if (found := QUOTIENT.fullmatch(value)) and int(found[2]):
-            return Fraction(int(found[1]), int(found[2]))
+        if (match := QUOTIENT.fullmatch(value)) and int(match[2]):
+            return Fraction(int(match[1]), int(match[2]))
         with contextlib.suppress(InvalidOperation):
             value = Decimal(value)
     if isinstance(value, Decimal) and value.is_finite():
@@ -163,7 +163,7 @@ class Pose:
         return f"({float(self.x):g}, {float(self.y):g}, {math.degrees(float(angle_to(self.tau)) % math.tau):g} deg)"
 
 def tau_sum(one: Fraction | None, other: Fraction | None) -> Fraction | None:
-    """Of the sum of two angles."""
+    """Tangent of half the sum of two angles."""
     if one is None or other is None:
         finite = one if other is None else other
         return ZERO if finite is None else -1 / finite if finite else None
@@ -171,7 +171,7 @@ def tau_sum(one: Fraction | None, other: Fraction | None) -> Fraction | None:
 
 @lru_cache(maxsize=1 << 12)
 def angle_to(tau: Fraction | None) -> Fraction:
-    """2 atan(tau), in (-pi, pi], but for an error below 2^-1250: the tangent is halved 8 times, then its series."""
+    """Angle 2 atan(tau), in (-pi, pi], with an error below 2^-1250: 8 halvings of the tangent, then its series."""
     if tau is None or abs(tau) > 1:
         return 2 * angle_to(ONE) if tau is None else sign(tau) * angle_to(None) - angle_to(1 / tau)
     unit = 1 << BITS
@@ -200,7 +200,7 @@ def simplest_between(low: Fraction, high: Fraction) -> Fraction:
     return below + 1 / simplest_between(1 / (high - below), 1 / (low - below))
 
 def read_angle(value: Any, place: str) -> Fraction | None:
-    """Of radians, "90deg", "90rad", or {"tau": "p/q"}; a text of more than a whole turn needs its unit."""
+    """Tangent of half an angle: radians, "90deg", "90rad", or {"tau": "p/q"}; a text of over a turn needs its unit."""
     if isinstance(value, dict):
         return read_tau(members(value, place, tau=REQUIRED)["tau"], place)
     text = value.strip() if isinstance(value, str) else ""
@@ -246,7 +246,7 @@ def minus(u: Any, v: Any) -> Point:
     return u[0] - v[0], u[1] - v[1]
 
 def side(p: Any, q: Any, r: Any) -> int:
-    """1 if r is on the left of the line from p to q, -1 if on the right, 0 if on it."""
+    """Side of the line from p to q: 1 if r is on its left, -1 if on its right, 0 if on it."""
     area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
     return bool(area > 0) - bool(area < 0)
 
@@ -273,14 +273,14 @@ def scaled(ring: Ring, scale: int) -> Ring:
     return [(x.numerator * (scale // x.denominator), y.numerator * (scale // y.denominator)) for x, y in ring]
 
 def clean(points: Ring, place: str) -> Ring:
-    """Without the closing point, repeated ones, and those on a line with their neighbours."""
+    """Drop the closing point, repeated ones, and those on a line with their neighbours."""
     points = points[: len(points) - (len(points) > 1 and points[0] == points[-1])]
     ring = [point for k, point in enumerate(points) if point != points[k - 1]]
     around = list(zip(ring[-1:] + ring[:-1], ring, ring[1:] + ring[:1], strict=True))
-    kept = [q for p, q, r in around if side(p, q, r)]
+    corners = [q for p, q, r in around if side(p, q, r)]
     spikes = (side(p, q, r) == 0 > dot(minus(q, p), minus(r, q)) for p, q, r in around)
-    refuse_if(len(points) < 3 or len(kept) < 3 or any(spikes), f"{place}: a ring without area, or with a spike")
-    return kept
+    refuse_if(len(points) < 3 or len(corners) < 3 or any(spikes), f"{place}: a ring without area, or with a spike")
+    return corners
 
 def check_rings(rings: list[Ring], place: str) -> None:
     """Rings must not cross themselves or each other; holes are in the outer ring, and in no other hole."""
@@ -306,7 +306,7 @@ def check_rings(rings: list[Ring], place: str) -> None:
                 refuse_if(m != k and encloses([other], middle) != (k > 0 and m == 0), f"{place}: rings that cross")
 
 def common_points(p: Point, q: Point, r: Point, s: Point) -> list[Point] | None:
-    """Those in which two edges touch, p < q and r < s; None if they cross or overlap."""
+    """Points in which two edges touch, p < q and r < s; None if they cross or overlap."""
     of_r, of_s, of_p, of_q = side(p, q, r), side(p, q, s), side(r, s, p), side(r, s, q)
     if of_r == of_s == 0:
         low, high = max(p, r), min(q, s)
@@ -316,7 +316,7 @@ def common_points(p: Point, q: Point, r: Point, s: Point) -> list[Point] | None:
     return [x for x, on in ((r, of_r), (s, of_s), (p, of_p), (q, of_q)) if on == 0] or None
 
 def encloses(rings: Iterable[Ring], point: Point) -> bool:
-    """Is a point that is on none of the rings inside an odd number of them? By a ray towards +x."""
+    """True if a point that is on none of the rings is inside an odd number of them, by a ray towards +x."""
     inside = False
     for ring in rings:
         for p, q in edges_of(ring):
@@ -325,8 +325,8 @@ def encloses(rings: Iterable[Ring], point: Point) -> bool:
     return inside
 
 def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
-    """Is all of one polygon, with its boundary, in the interior of another: do their boundaries not meet, are the rings
-    of the one inside the other, and is no ring of the other, a hole, inside the one?
+    """True if all of one polygon, with its boundary, is in the interior of another. Their boundaries must not meet, the
+    rings of the one must be inside the other, and no ring of the other, a hole, inside the one.
     """
     unit = math.lcm(inner.unit, outer.unit)
     one, other = inner.integers(unit), outer.integers(unit)
@@ -337,20 +337,20 @@ def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
     return all(encloses(other, ring[0]) for ring in one) and not any(encloses(one, ring[0]) for ring in other)
 
 def is_near(point: Point, core: Ring, distance: Fraction) -> bool:
-    """Is a point nearer to a convex ring than a distance, or inside?"""
+    """True if a point is nearer to a convex ring than a distance, or inside."""
     seen = [(minus(p, point), minus(q, p)) for p, q in edges_of(core)]
     feet = [(p, v, min(max(-dot(p, v) / dot(v, v), ZERO), ONE)) for p, v in seen]
     away = ((p[0] + share * v[0], p[1] + share * v[1]) for p, v, share in feet)
     return all(cross(p, v) >= 0 for p, v in seen) or any(dot(p, p) < distance**2 for p in away)
 
 def is_convex(rings: list[Ring]) -> bool:
-    """One ring, counter-clockwise, all of whose points are corners of their hull?"""
+    """True if this is one ring, counter-clockwise, and all of its points are corners of their hull."""
     hull, ring = convex_hull(rings[0]), rings[0]
     first = ring.index(hull[0])
     return len(rings) == 1 and ring[first:] + ring[:first] == hull
 
 def is_around_disc(ring: Ring, radius: Fraction) -> bool:
-    """Is it convex, with a disc about the origin inside?"""
+    """True if a ring is convex, with a disc about the origin inside."""
     sides = ((cross(p, q), minus(q, p)) for p, q in edges_of(ring))
     return is_convex([ring]) and all(h > 0 and h * h >= radius**2 * dot(u, u) for h, u in sides)
 
@@ -372,13 +372,13 @@ class Scene:
 
     @property
     def box(self) -> tuple[Fraction, ...]:
-        """Around the robot, in its frame."""
+        """Box around the robot, in its frame."""
         xs, ys = zip(*(point for part in self.robot for point in part.rings[0]), strict=True)
         return min(xs), min(ys), max(xs), max(ys)
 
     @property
     def sha256(self) -> str:
-        """Of all that decides whether a pose is free (docs/answer-format.md, "The scene")."""
+        """Hash of all that decides whether a pose is free (docs/answer-format.md, "The scene")."""
         lines = ["cfree scene 1"]
         kinds = ("robot", self.robot), ("obstacle", self.obstacles), ("workspace", filter(None, [self.workspace]))
         for word, polygon in ((word, polygon) for word, polygons in kinds for polygon in polygons):
@@ -395,17 +395,17 @@ def read_scene(data: Any) -> Scene:
     one_of(got["version"], "version", 1)
     robot, obstacles = ([each] if is_ring(each) else each for each in (got["robot"], got["obstacles"]))
     robot = [robot] if isinstance(robot, dict) else items(robot, "robot", 1)
-    found = Scene(
+    scene = Scene(
         [read_polygon(part, f"robot[{k}]") for k, part in enumerate(robot)],
         [read_polygon(o, f"obstacles[{k}]", name=None) for k, o in enumerate(items(obstacles, "obstacles"))],
         None if got["workspace"] is None else read_polygon(got["workspace"], "workspace"),
         None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
     )
     refuse_if(got["goal"] is not None and bool(got["goals"]), "goals: there is a goal, too")
-    found.asked["start"] = [read_pose(value, "start") for value in [got["start"]] if value is not None]
+    scene.asked["start"] = [read_pose(value, "start") for value in [got["start"]] if value is not None]
     goals = items(got["goals"], "goals") or [goal for goal in [got["goal"]] if goal is not None]
-    found.asked["goal"] = [read_pose(goal, "goal", 2) for goal in goals]
-    return found
+    scene.asked["goal"] = [read_pose(goal, "goal", 2) for goal in goals]
+    return scene
 
 def is_ring(value: Any) -> bool:
     """True if a list begins with a point: a polygon without holes may be written as its ring alone."""
@@ -419,20 +419,20 @@ def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
     return Polygon(read[0], read[1:], place)
 
 def read_bounds(value: Any, place: str) -> tuple[Fraction, ...]:
-    x0, y0, x1, y1 = found = numbers(value, place, 4)
+    x0, y0, x1, y1 = bounds = numbers(value, place, 4)
     refuse_if(x0 >= x1 or y0 >= y1, f"{place}: they are empty")
-    return found
+    return bounds
 
 # === Polynomials with integer coefficients, and their roots ===
 def sign(value: Any) -> int:
     return bool(value > 0) - bool(value < 0)
 
 def trimmed(p: Sequence[int]) -> Poly:
-    """Without leading zeros; () is the zero polynomial."""
+    """Polynomial without leading zeros; () is the zero polynomial."""
     return tuple(p[: max((k + 1 for k, c in enumerate(p) if c), default=0)])
 
 def primitive(p: Sequence[int]) -> Poly:
-    """Divided by its content; the leading coefficient is positive."""
+    """Polynomial divided by its content; the leading coefficient is positive."""
     p = trimmed(p)
     content = math.gcd(*p) * sign(p[-1]) if p else 1
     return tuple(c // content for c in p)
@@ -440,11 +440,11 @@ def primitive(p: Sequence[int]) -> Poly:
 def times(p: Sequence[Any], q: Sequence[Any]) -> tuple[Any, ...]:
     if not p or not q:
         return ()
-    found = [0] * (len(p) + len(q) - 1)
+    product = [0] * (len(p) + len(q) - 1)
     for i, a in enumerate(p):
         for j, b in enumerate(q):
-            found[i + j] += a * b
-    return tuple(found)
+            product[i + j] += a * b
+    return tuple(product)
 
 def combined(factors: Sequence[int], *polys: Sequence[int]) -> Poly:
     """The sum of polynomials, each times a number."""
@@ -456,11 +456,11 @@ def value(p: Sequence[int], x: Fraction) -> Fraction:
 def value_over(p: Sequence[int], x: Fraction) -> tuple[int, int]:
     """Numerator and denominator, positive and not reduced, of p(x)."""
     n, d = x.numerator, x.denominator
-    found, power = 0, 1
+    total, power = 0, 1
     for k, c in enumerate(reversed(p)):
         power = power * d if k else 1
-        found = found * n + c * power
-    return found, power
+        total = total * n + c * power
+    return total, power
 
 def sign_at(p: Sequence[int], x: Fraction) -> int:
     return sign(value_over(p, x)[0])
@@ -480,16 +480,16 @@ def common_divisor(p: Poly, q: Poly) -> Poly:
 
 def quotient(p: Poly, q: Poly) -> Poly:
     """p / q for a primitive q that divides p."""
-    p, found = trimmed(p), []
+    p, digits = trimmed(p), []
     while len(p) >= len(q):
-        found.append(p[-1] // q[-1])
-        p = combined((1, -found[-1]), p, [0] * (len(p) - len(q)) + [*q])[:-1]
+        digits.append(p[-1] // q[-1])
+        p = combined((1, -digits[-1]), p, [0] * (len(p) - len(q)) + [*q])[:-1]
     assert not any(p)
-    return tuple(reversed(found))
+    return tuple(reversed(digits))
 
 @lru_cache(maxsize=1 << 14)
 def squarefree(p: Poly) -> Poly:
-    """With the same roots, each of them simple."""
+    """Polynomial with the same roots, each of them simple."""
     p = primitive(p)
     return quotient(p, common_divisor(p, derivative(p))) if len(p) > 2 else p
 
@@ -530,18 +530,18 @@ class Root:
         """Halve the interval."""
         if self.lo < self.hi:
             middle = (self.lo + self.hi) / 2
-            found = sign_at(self.poly, middle)
-            if found == 0:
+            here = sign_at(self.poly, middle)
+            if here == 0:
                 self.poly = -middle.numerator, middle.denominator
-            self.lo = self.lo if found == -self.before else middle
-            self.hi = self.hi if found == self.before else middle
+            self.lo = self.lo if here == -self.before else middle
+            self.hi = self.hi if here == self.before else middle
 
     def sign(self, p: Poly) -> int:
-        """Of another polynomial at this number."""
+        """Sign of another polynomial at this number."""
         while self.lo < self.hi:
-            found = mapped(p, (self.lo, self.hi)) if p else [0]
-            if min(found) > 0 or max(found) < 0:
-                return sign(found[0])
+            mapped_poly = mapped(p, (self.lo, self.hi)) if p else [0]
+            if min(mapped_poly) > 0 or max(mapped_poly) < 0:
+                return sign(mapped_poly[0])
             g = common_divisor(self.poly, trimmed(p))  # it has no root in the interval but this one
             if sign_at(g, self.lo) != sign_at(g, self.hi):
                 return 0
@@ -549,13 +549,13 @@ class Root:
         return sign_at(p, self.lo)
 
     def is_change(self, p: Poly) -> bool:
-        """Does a polynomial change its sign here: is it a root an odd number of times?"""
+        """True if a polynomial changes its sign here: this is a root an odd number of times."""
         return self.sign(p) == 0 and not self.is_change(derivative(p))
 
     def compared(self, other: Root) -> int:
         """-1 if less, 0 if equal, 1 if greater than another number."""
         if self.lo <= other.hi and other.lo <= self.hi:
-            # equal to the only root of the other's polynomial between other.lo and other.hi?
+            # equality: this is the only root of the other's polynomial between other.lo and other.hi
             low, high = (self.sign((-end.numerator, end.denominator)) for end in (other.lo, other.hi))
             if low >= 0 >= high and self.sign(other.poly) == 0:
                 return 0
@@ -565,8 +565,8 @@ class Root:
         return -1 if self.hi < other.lo else 1
 
 def roots_in(p: Poly, lo: Fraction, hi: Fraction) -> list[Root]:
-    """All roots in a closed interval, each once, in order. By halving, until Descartes' rule says none or one."""
-    found, rational, todo = [], set(), [(squarefree(p), lo, hi)]
+    """All roots in a closed interval, each once, in order. Halved until Descartes' rule allows none or one."""
+    isolated, rational, todo = [], set(), [(squarefree(p), lo, hi)]
     while todo:
         q, lo, hi = todo.pop()
         for end in {lo, hi}:
@@ -576,21 +576,21 @@ def roots_in(p: Poly, lo: Fraction, hi: Fraction) -> list[Root]:
         signs = [c > 0 for c in mapped(q, (lo, hi)) if c] if lo < hi else []
         count = sum(a != b for a, b in pairwise(signs))
         if count == 1:
-            found.append(Root(q, lo, hi))
+            isolated.append(Root(q, lo, hi))
         elif count:
             middle = (lo + hi) / 2
             todo += [(q, lo, middle), (q, middle, hi)]
-    return sorted([*found, *map(Root.rational, rational)], key=lambda root: (root.lo, root.hi))
+    return sorted([*isolated, *map(Root.rational, rational)], key=lambda root: (root.lo, root.hi))
 
 def ordered(roots: Iterable[Root]) -> list[list[Root]]:
-    """In order, equal ones together."""
-    found: list[list[Root]] = []
+    """Roots in order, equal ones together."""
+    groups: list[list[Root]] = []
     for root in sorted(roots, key=cmp_to_key(Root.compared)):
-        if found and found[-1][0].compared(root) == 0:
-            found[-1].append(root)
+        if groups and groups[-1][0].compared(root) == 0:
+            groups[-1].append(root)
         else:
-            found.append([root])
-    return found
+            groups.append([root])
+    return groups
 
 def between(lo: Fraction, hi: Fraction) -> Fraction:
     """A dyadic number of few digits strictly between two."""
@@ -607,10 +607,10 @@ def samples(polys: Iterable[Poly], lo: Fraction, hi: Fraction) -> Iterator[Fract
         yield between(one.hi, other.lo)
 
 
-ALL = ZERO, ONE  # of a motion: from u = 0 to u = 1
+ALL = ZERO, ONE  # all of a motion: from u = 0 to u = 1
 
 def is_nowhere_positive(p: Sequence[int], interval: Interval) -> bool:
-    """Yes is right; no may be wrong."""
+    """True if a polynomial is certainly positive nowhere in an interval; False may be wrong."""
     return all(sum(map(mul, row, p)) <= 0 for row in mapping(len(p) - 1, *interval))
 
 def positive_place(p: Poly) -> Fraction | None:
@@ -622,7 +622,7 @@ def positive_place(p: Poly) -> Fraction | None:
 # === Convex pieces ===
 class Piece:
     """A convex polygon: counter-clockwise corners (x, y, z), which stand for (x / z, y / z), and lines (l, m, k)
-    through them: on their left, where the piece is, l x + m y + k z > 0.
+    through them. On their left, where the piece is, l x + m y + k z > 0.
     """
 
     def __init__(self, points: Ring) -> None:
@@ -647,7 +647,7 @@ def convex_pieces(rings: list[Ring]) -> list[Piece]:
     edges = [(min(p, q), max(p, q)) for ring in rings for p, q in edges_of(ring) if p[0] != q[0]]
     stops = sorted({p[0] for ring in rings for p in ring})
     open_ones: dict[Any, int] = {}  # pairs of edges with space between them, and where it begins
-    found = []
+    pieces = []
     for left, right in [*pairwise(stops), (stops[-1], None)]:
         here = [] if right is None else [e for e in edges if e[0][0] <= left and right <= e[1][0]]
         here.sort(key=lambda e: height(e, left) + height(e, right))
@@ -655,21 +655,21 @@ def convex_pieces(rings: list[Ring]) -> list[Piece]:
         for lower, upper in [gap for gap in open_ones if gap not in gaps]:
             begin = open_ones.pop((lower, upper))
             ring = [(x, height(e, x)) for e, x in ((lower, begin), (lower, left), (upper, left), (upper, begin))]
-            found.append(Piece([point for k, point in enumerate(ring) if point != ring[k - 1]]))
+            pieces.append(Piece([point for k, point in enumerate(ring) if point != ring[k - 1]]))
         for gap in gaps:
             open_ones.setdefault(gap, left)
-    return found
+    return pieces
 
 def height(edge: tuple[Point, Point], x: Any) -> Fraction:
-    """The y of an edge at an x."""
+    """Height y of an edge at an x."""
     (a, b), (c, d) = edge
     return Fraction(b * (c - a) + (d - b) * (x - a), c - a)
 
 def convex_hull(points: Iterable[Point]) -> Ring:
-    """Counter-clockwise, from the leftmost point on."""
-    found = sorted(set(points))
+    """Convex hull, counter-clockwise, from the leftmost point on."""
+    ordered = sorted(set(points))
     half = []
-    for run in (found, found[::-1]):
+    for run in (ordered, ordered[::-1]):
         turned: list[Point] = []
         for r in run:
             while len(turned) > 1 and side(turned[-2], turned[-1], r) <= 0:
@@ -681,7 +681,7 @@ def convex_hull(points: Iterable[Point]) -> Ring:
 class World:
     """Convex pieces of a scene's robot and obstacles, in coordinates of its own: the scene's times `scale`.
 
-    The outside of the workspace is what is outside of its box, and what is in the box and outside the workspace.
+    The outside of the workspace is the outside of its box, and the part of the box outside the workspace.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -700,24 +700,24 @@ class World:
         self.boxes = [box_around(piece.corners) for piece in self.walls]
 
     def larger(self, ring: Ring) -> World:
-        """For a robot larger by a convex polygon, in its own frame."""
-        found, moves = copy(self), [(x * self.scale, y * self.scale) for x, y in ring]
-        found.robot = [
+        """World of a robot larger by a convex polygon, in its own frame."""
+        world, moves = copy(self), [(x * self.scale, y * self.scale) for x, y in ring]
+        world.robot = [
             Piece(convex_hull((x + dx, y + dy) for x, y in piece.points for dx, dy in moves)) for piece in self.robot
         ]
-        return found
+        return world
 
     def roomier(self, leeway: Fraction) -> World:
-        """For a robot larger by the square [-leeway, leeway]^2, within bounds smaller by leeway on every side."""
+        """World of a robot larger by the square [-leeway, leeway]^2, within bounds smaller by leeway on every side."""
         by = leeway * self.scale
-        found = self.larger([(-leeway, -leeway), (leeway, -leeway), (leeway, leeway), (-leeway, leeway)])
-        found.bounds = [b + (by if k < 2 else -by) for k, b in enumerate(self.bounds)]
-        if self.bounds and (found.bounds[0] >= found.bounds[2] or found.bounds[1] >= found.bounds[3]):
-            raise RefutedError("its decimals are not free, as it says: of smaller bounds nothing would be left")
-        return found
+        world = self.larger([(-leeway, -leeway), (leeway, -leeway), (leeway, leeway), (-leeway, leeway)])
+        world.bounds = [b + (by if k < 2 else -by) for k, b in enumerate(self.bounds)]
+        if self.bounds and (world.bounds[0] >= world.bounds[2] or world.bounds[1] >= world.bounds[3]):
+            raise RefutedError("its decimals are not free, as it claims: of smaller bounds nothing would be left")
+        return world
 
 def box_around(points: Iterable[Any]) -> tuple[int, int, int, int]:
-    """Of points (x, y, z), larger by less than 1 / 1024."""
+    """Box of points (x, y, z), larger by less than 1 / 1024."""
     xs, ys, zs = zip(*points, strict=True)
     low = [min(1024 * c // z for c, z in zip(axis, zs, strict=True)) for axis in (xs, ys)]
     high = [-min(-1024 * c // z for c, z in zip(axis, zs, strict=True)) for axis in (xs, ys)]
@@ -725,20 +725,20 @@ def box_around(points: Iterable[Any]) -> tuple[int, int, int, int]:
 
 # === Motions ===
 class Course:
-    """A motion as polynomials in u, 0 <= u <= 1: a point (a, b) of the robot is at ((X + C a - S b) / W,
-    (Y + S a + C b) / W), W > 0. These are in `moving`; in `back` those for points of the world in the robot's frame.
+    """A motion as polynomials in u, 0 <= u <= 1. A point (a, b) of the robot is at ((X + C a - S b) / W,
+    (Y + S a + C b) / W), W > 0. These are in `moving`; `back` has those for points of the world in the robot's frame.
     """
 
-    def __init__(self, *given: Fractions) -> None:
-        unit = math.lcm(*(c.denominator for p in given for c in p))
-        polys = [[int(c * unit) for c in p] for p in given]
+    def __init__(self, *polynomials: Fractions) -> None:
+        unit = math.lcm(*(c.denominator for p in polynomials for c in p))
+        polys = [[int(c * unit) for c in p] for p in polynomials]
         content = math.gcd(*(c for p in polys for c in p))
         W, C, S, X, Y = self.moving = padded([tuple(c // content for c in p) for p in polys])
         turned = combined((-1, -1), times(C, X), times(S, Y)), combined((1, -1), times(S, X), times(C, Y))
         self.back = padded([times(W, W), times(C, W), combined((-1,), times(S, W)), *turned])
 
 def padded(polys: Sequence[Poly]) -> list[Poly]:
-    """To one length."""
+    """Polynomials of one length, padded with zeros."""
     length = max(len(trimmed(p)) for p in polys)
     return [(*p, *[0] * length)[:length] for p in polys]
 
@@ -759,7 +759,7 @@ class Motion:
 
     @property
     def angle(self) -> Fraction:
-        """By which it turns, but for an error below 2^-1250."""
+        """Angle by which it turns, with an error below 2^-1250."""
         return -angle_to(None) if self.tau is None and self.clockwise else angle_to(self.tau)
 
     @property
@@ -770,7 +770,7 @@ class Motion:
         return [Motion(pole=self.pole, tau=tau) for tau in (right, tau_sum(self.tau, -right))]
 
     def moved(self, pose: Pose) -> Sequence[Fractions]:
-        """x, y and d, for one part."""
+        """Polynomials x, y and d, for one part."""
         if self.pole:
             t, rx, ry = self.tau, pose.x - self.pole[0], pose.y - self.pole[1]
             assert t is not None
@@ -786,7 +786,7 @@ class Motion:
         return pose
 
     def courses(self, pose: Pose, scale: int) -> Iterator[Course]:
-        """One of each part."""
+        """Courses of all parts."""
         for part in self.parts:
             t, (c, s) = part.tau, pose.rotation
             assert t is not None
@@ -816,7 +816,7 @@ def read_slide(exact: Any, contacts: list[tuple[Any, ...]], place: str) -> Motio
 
 # === Collisions ===
 STANDING = Motion(vector=(ZERO, ZERO))
-SHORT = Fraction(1, 2**8)  # parts of a motion are halved; in those as short as that roots are looked for
+SHORT = Fraction(1, 2**8)  # parts of a motion are halved; roots are found in those as short as that
 
 class Pair:
     """A piece of the robot on its course, and one of the walls."""
@@ -827,7 +827,7 @@ class Pair:
         self.known: dict[tuple[int, int], Poly] = {}
 
     def heights(self, i: int) -> Iterator[Poly]:
-        """Of one's corners over a side of the other, times positive numbers: those on its inner side are positive."""
+        """Yield heights of one's corners over a side of the other, times positive numbers; positive is inside."""
         (l, m, k), corners, polys = self.sides[i]
         for j, (x, y, z) in enumerate(corners):
             if (i, j) not in self.known:
@@ -835,18 +835,18 @@ class Pair:
             yield self.known[i, j]
 
     def is_apart(self, interval: Interval) -> bool:
-        """Does one side have all of the other piece on its outer side, all the time? No may be wrong."""
+        """True if one side certainly has all of the other piece on its outer side, all the time; False may be wrong."""
         return any(all(is_nowhere_positive(p, interval) for p in self.heights(i)) for i in range(len(self.sides)))
 
     def overlaps(self, u: Fraction) -> bool:
         return all(any(sign_at(p, u) > 0 for p in self.heights(i)) for i in range(len(self.sides)))
 
     def touches(self) -> bool:
-        """Have they a point in common, at u = 0?"""
+        """True if the pieces have a point in common, at u = 0."""
         return all(any(p[0] >= 0 for p in self.heights(i)) for i in range(len(self.sides)))
 
 def beyond(world: World, course: Course) -> Iterator[Poly]:
-    """What is positive where the reference point is out of the bounds, or a corner of the robot out of the box."""
+    """Polynomials, positive where the reference point is out of the bounds, or a corner of the robot out of the box."""
     W, C, S, X, Y = course.moving
     lines = ((-1, 0, 1), (0, -1, 1), (1, 0, -1), (0, 1, -1))  # l x + m y + k b > 0 is beyond
     for (l, m, k), bound in zip(lines, world.bounds, strict=False):
@@ -857,10 +857,10 @@ def beyond(world: World, course: Course) -> Iterator[Poly]:
             yield combined((l * z, m * z, k * b * z, l * x + m * y, m * x - l * y), X, Y, W, C, S)
 
 def collision(world: World, course: Course) -> Fraction | None:
-    """Some u at which the robot is where it may not be; None if there is none: that is proved."""
+    """Some u at which the robot is where it may not be; None is a proof that there is none."""
     for p in beyond(world, course):
-        if (found := positive_place(p)) is not None:
-            return found
+        if (place := positive_place(p)) is not None:
+            return place
     for part in world.robot:
         pairs: dict[int, Pair] = {}
         todo = [(ALL, list(range(len(world.walls))))]
@@ -882,7 +882,7 @@ def collision(world: World, course: Course) -> Fraction | None:
     return None
 
 def near(world: World, course: Course, part: Piece, interval: Interval, walls: list[int]) -> list[int]:
-    """Those walls whose boxes meet one around all places of a piece: a quotient is between those of coefficients."""
+    """Walls whose boxes meet one around all places of a piece: a quotient is between those of coefficients."""
     W, C, S, X, Y = (mapped(p, interval) for p in course.moving)
     if min(W) <= 0:
         return walls
@@ -896,7 +896,7 @@ def near(world: World, course: Course, part: Piece, interval: Interval, walls: l
     return [k for k, left, bottom, right, top in boxes if x0 <= right and left <= x1 and y0 <= top and bottom <= y1]
 
 def touches(world: World, pose: Pose) -> bool:
-    """Has the robot, at a free pose, no distance from something?"""
+    """True if the robot, at a free pose, has no distance from something."""
     course = next(STANDING.courses(pose, world.scale))
     if any(p[0] == 0 for p in beyond(world, course)):
         return True
@@ -910,10 +910,10 @@ def check_pose(world: World, pose: Pose, what: str) -> None:
 
 # === Answers: exact numbers, and the decimals beside them (docs/answer-format.md, "Decimals") ===
 class Answer:
-    """Start, goal, for which scene, and all decimals by place."""
+    """Start, goal, the hash of the scene, and all decimals by place."""
 
     def __init__(self, data: dict[str, Any], **more: Any) -> None:
-        refuse_if(data.get("exact") is None, "decimals alone are not read here; cfree saves exact numbers, too")
+        refuse_if(data.get("exact") is None, "decimals alone are not read here; cfree also saves exact numbers")
         more |= dict.fromkeys(("answer", "scene", "start", "goal", "exact"), REQUIRED) | {"whole": {}, "moved": None}
         self.got = got = members(data, "answer", version=1, units="", frame="world", clearance=None, **more)
         one_of(got["version"], "version", 1)
@@ -942,14 +942,14 @@ class Answer:
         self.decimals |= {(place, k): c for k, c in enumerate(literals(value, str(place), count))}
 
     def check_decimals(self, place: Any, pose: Pose, theta: Fraction | None = None) -> None:
-        """Are they a pose? Whole turns count if an angle is given."""
-        given = self.decimals[place, 2]
-        apart = turns_off(given, angle_to(pose.tau)) if theta is None else abs(given - theta)
+        """Check that they are a pose. Whole turns count if an angle is given."""
+        angle = self.decimals[place, 2]
+        apart = turns_off(angle, angle_to(pose.tau)) if theta is None else abs(angle - theta)
         if off(self.decimals, place, (pose.x, pose.y)) + self.reach * apart > self.size / 10**9:
             raise BadFileError(f"{place}: the decimals are another pose than the exact numbers")
 
     def check_asked(self, scene: Scene) -> Scene:
-        """The scene that it is about: this one, or some of its obstacles (what parts poses among these always does)."""
+        """Scene that it is about: this one, or some of its obstacles (poses separated among these are so among all)."""
         part = copy(scene)
         if self.sha256 != scene.sha256 == self.whole["sha256"]:
             part.obstacles = [scene.obstacles[k] for k in self.kept if k < len(scene.obstacles)]
@@ -962,11 +962,11 @@ class Answer:
         return part
 
     def end(self, name: str) -> str:
-        """An end in words, with where it was asked for if it was moved."""
+        """Text of an end, with the pose from which it was moved, if it was."""
         return str(getattr(self, name)) + (f" [moved from {self.asked[name]}]" if name in self.asked else "")
 
     def check_moved(self, world: World) -> None:
-        """No pose that is free is moved. Of places, and of a clearance, that is not looked at."""
+        """Check that no free pose is moved. Places and poses with a clearance are not checked."""
         for name, pose in self.asked.items() if not self.clearance else ():
             is_free = pose.tau != "any" and collision(world, next(STANDING.courses(pose, world.scale))) is None
             refute_if(is_free, f"the {name} was moved from {pose}, which is free")
@@ -993,8 +993,8 @@ class PathAnswer(Answer):
         one_of(self.got["decimals"], "decimals", "free", "approximate")
         self.motions = [self.read_motion(k, m) for k, m in enumerate(items(self.got["motions"], "motions"))]
         refuse_if(self.effect(self.decimals) > self.size / 10**9, "the decimals lead elsewhere")
-        circle, given, exact = 2 * angle_to(None), self.decimals["start", 2], angle_to(self.start.tau)
-        pose, theta = self.start, exact + circle * round((given - exact) / circle)
+        circle, written, exact = 2 * angle_to(None), self.decimals["start", 2], angle_to(self.start.tau)
+        pose, theta = self.start, exact + circle * round((written - exact) / circle)
         for k, motion in enumerate(self.motions):
             pose, theta = motion.end(pose), theta + motion.angle
             self.check_decimals((k, "to"), pose, theta)
@@ -1020,7 +1020,7 @@ class PathAnswer(Answer):
         return Motion(pole=numbers(exact["pole"], f"{place}.exact.pole", 2), tau=tau, clockwise=clockwise)
 
     def effect(self, decimals: dict[Any, Fraction]) -> Fraction:
-        """How far they may put a point of the robot from where it should be."""
+        """Bound of the distance by which they may misplace a point of the robot."""
         turned = turns_off(decimals["start", 2], angle_to(self.start.tau))
         moved, pose = off(decimals, "start", (self.start.x, self.start.y)), self.start
         for k, motion in enumerate(self.motions):
@@ -1035,19 +1035,19 @@ class PathAnswer(Answer):
         return moved + self.reach * turned
 
     def leeway(self) -> Fraction:
-        """How far the exact path has to keep from everything so that the path of the decimals, as doubles, is free."""
+        """Distance that the exact path must keep from everything to make the path of its decimals, as doubles, free."""
         if any(motion.slide for motion in self.motions):
-            raise RefutedError("its decimals are not free, as it says: there are slides")
+            raise RefutedError("its decimals are not free, as it claims: there are slides")
         try:
             doubles = {place: Fraction(float(c)) for place, c in self.decimals.items()}
         except OverflowError:
-            raise RefutedError("its decimals are not free, as it says: they are no doubles") from None
+            raise RefutedError("its decimals are not free, as it claims: they are no doubles") from None
         most = 4 * max(self.effect(self.decimals), self.effect(doubles))
         power = Fraction(2) ** (most.numerator.bit_length() - most.denominator.bit_length())
         return most and (power if most <= power else 2 * power)
 
 def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
-    """What is proved, in a sentence."""
+    """Sentence that states the result."""
     world, only = World(scene), "; its decimals are approximate"
     answer.check_moved(world)
     check_pose(world, answer.start, "start")
@@ -1055,7 +1055,7 @@ def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
     worlds = {"the robot is where it may not be": world}
     if answer.got["decimals"] == "free":
         worlds, only = {}, ""
-        said = "its decimals are not free, as it says, or the robot is where it may not be"
+        said = "its decimals are not free, as it claims, or the robot is where it may not be"
         worlds[said] = world.roomier(answer.leeway())
     if answer.clearance:
         if not is_around_disc(answer.disc, answer.clearance):
@@ -1073,19 +1073,19 @@ def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
                     raise RefutedError(f"motion {k}: {said}, near u = {float(u):.6g}")
         pose = motion.end(pose)
     count = f"{len(answer.motions):,} motion{'s' * (len(answer.motions) != 1)}"
-    kept = f"keeps {float(answer.clearance):g} from obstacles and workspace"
-    only = (kept if answer.clearance else "is free of collisions") + only
+    keeps = f"keeps {float(answer.clearance):g} from obstacles and workspace"
+    only = (keeps if answer.clearance else "is free of collisions") + only
     return f"A path of {count} leads from {answer.end('start')} to {answer.end('goal')}, and {only}."
 
 def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> None:
-    """A slide keeps a contact: the vertex is on the edge's line, and never beyond its ends."""
+    """Check that a slide keeps a contact: the vertex is on the edge's line, and never beyond its ends."""
     surface = Features(scene).surface(contact)
     (ax, ay), (bx, by), (u, v) = surface.a, surface.b, surface.q
     W, C, S, X, Y = course.moving
     if contact[0] == "edge-vertex":
         (ax, ay), (bx, by), (u, v) = surface.b, surface.a, surface.g
         W, C, S, X, Y = course.back
-    # from where the edge begins to the vertex, times W
+    # from the beginning of the edge to the vertex, times W
     x, y = combined((1, ax, -ay, -bx), X, C, S, W), combined((1, ay, ax, -by), Y, C, S, W)
     refute_if(any(combined((u, -v), y, x)), f"{what}: the vertex of a contact is not on the edge's line all the way")
     for past in (combined((-u, -v), x, y), combined((u, v, -u * u - v * v), x, y, W)):
@@ -1102,9 +1102,9 @@ def poly_of(form: Form, chart: int) -> Poly:
 
 @dataclass(eq=False)
 class Surface:
-    """S(t) = b + t q - R (a + t g), t from 0 to 1, is where the reference point is at a contact.
+    """Surface S(t) = b + t q - R (a + t g), t from 0 to 1, of the reference point at a contact.
 
-    Of a vertex a of the robot on an edge, g = 0; of an edge of the robot on a vertex b, q = 0. A contact is in its
+    A vertex a of the robot on an edge has g = 0; an edge of the robot on a vertex b has q = 0. A contact is in its
     range where all limits are negative: there both edges at the vertex leave the other one on its outer side.
     """
 
@@ -1115,7 +1115,7 @@ class Surface:
     limits: Sequence[Form] = ()
 
     def form(self, beta: Point, alpha: Point) -> Form:
-        """(q - R g) x (beta - R alpha)"""
+        """Form (q - R g) x (beta - R alpha)."""
         q, g = self.q, self.g
         return cross(q, beta) + cross(g, alpha), -cross(q, alpha) - cross(g, beta), dot(g, beta) - dot(q, alpha)
 
@@ -1127,7 +1127,7 @@ class Surface:
 
 @dataclass
 class Shape:
-    """Vertices of the robot or of what it may not meet, by number, each with those before and after it."""
+    """Vertices of the robot or of the obstacles, by number, each with those before and after it."""
 
     vertices: list[Any] = field(default_factory=list)
     around: list[tuple[int, int]] = field(default_factory=list)
@@ -1145,7 +1145,7 @@ class Shape:
             count += n
 
 class Features:
-    """What numbers in an answer mean (docs/answer-format.md, "Names")."""
+    """Meaning of the numbers in an answer (docs/answer-format.md, "Names")."""
 
     def __init__(self, scene: Scene, auxiliary: dict[tuple[str, str, int], Ring] | None = None) -> None:
         self.scale, self.auxiliary = scene.scale, auxiliary or {}
@@ -1165,39 +1165,39 @@ class Features:
             walls.add([[(x0, y0), (x0, y1), (x1, y1), (x1, y0)]], BOUNDS)
             self.shapes["robot"].add([[(0, 0)]], BOUNDS)
 
-    def points(self, of: str, kind: str, k: int) -> Ring:
-        """A vertex, or the ends of an edge; not in the scene perhaps: an angle may be defined by anything."""
-        shape = self.shapes[of]
+    def points(self, owner: str, kind: str, k: int) -> Ring:
+        """A vertex, or the ends of an edge; it may be outside the scene, as any feature may define an angle."""
+        shape = self.shapes[owner]
         if k < len(shape.vertices) and shape.vertices[k] is not None:
             ends = [k] if kind == "vertex" else [k, shape.around[k][1]]
             return [shape.vertices[end] for end in ends]
-        points = self.auxiliary.get((of, kind, k), [])
+        points = self.auxiliary.get((owner, kind, k), [])
         if not points or any(self.scale % c.denominator for point in points for c in point):
-            raise RefutedError(f"{kind} {k} of the {of} does not exist, or has another denominator than the scene")
+            raise RefutedError(f"{kind} {k} of the {owner} does not exist, or has another denominator than the scene")
         return scaled(points, self.scale)
 
-    def point(self, of: str, k: int) -> Point:
-        return self.points(of, "vertex", k)[0]
+    def point(self, owner: str, k: int) -> Point:
+        return self.points(owner, "vertex", k)[0]
 
-    def edge(self, of: str, k: int) -> tuple[Point, Point]:
-        """Where an edge begins, and its vector."""
-        begin, end = self.points(of, "edge", k)
+    def edge(self, owner: str, k: int) -> tuple[Point, Point]:
+        """Beginning and vector of an edge."""
+        begin, end = self.points(owner, "edge", k)
         return begin, minus(end, begin)
 
     def surface(self, contact: Contact) -> Surface:
-        """That of a contact: a convex vertex and an edge."""
+        """Surface of a contact: a convex vertex and an edge."""
         kind, *named = contact
-        found = []
-        for of, name in zip(("robot", "obstacles"), named, strict=True):
-            if name not in self.shapes[of].owner:
-                raise RefutedError(f"there is no vertex {name[1]} of polygon {name[0]} of the {of}")
-            found.append(self.shapes[of].owner[name])
+        numbers = []
+        for owner, name in zip(("robot", "obstacles"), named, strict=True):
+            if name not in self.shapes[owner].owner:
+                raise RefutedError(f"there is no vertex {name[1]} of polygon {name[0]} of the {owner}")
+            numbers.append(self.shapes[owner].owner[name])
         is_of_bounds = [name[0] == BOUNDS for name in named]
-        (a, g), (b, q) = self.edge("robot", found[0]), self.edge("obstacles", found[1])
+        (a, g), (b, q) = self.edge("robot", numbers[0]), self.edge("obstacles", numbers[1])
         if kind == "vertex-edge" and all(is_of_bounds):
             return Surface((0, 0), (0, 0), b, q)
-        of = "robot" if kind == "vertex-edge" else "obstacles"
-        shape, k = self.shapes[of], found[of == "obstacles"]
+        owner = "robot" if kind == "vertex-edge" else "obstacles"
+        shape, k = self.shapes[owner], numbers[owner == "obstacles"]
         before, here, after = (shape.vertices[j] for j in (shape.around[k][0], k, shape.around[k][1]))
         if any(is_of_bounds) or side(before, here, after) <= 0:
             raise RefutedError("a contact of the bounds with an obstacle or the robot, or at a reflex vertex")
@@ -1217,24 +1217,24 @@ class Features:
         # the reference point where two vertices meet: on the surface if t is the same for all of it
         alpha, beta = minus(self.point("robot", i), surface.a), minus(self.point("obstacles", j), surface.b)
         n, d = dot(beta, surface.q) + dot(alpha, surface.g), dot(surface.q, surface.q) + dot(surface.g, surface.g)
-        at, along = (*beta, *alpha), (*surface.q, *surface.g)
-        refute_if(any(d * c != n * u for c, u in zip(at, along, strict=True)), "a curve off its surface")
+        start, along = (*beta, *alpha), (*surface.q, *surface.g)
+        refute_if(any(d * c != n * u for c, u in zip(start, along, strict=True)), "a curve off its surface")
         return (n, 0, 0), (d, 0, 0)
 
     def zero(self, surface: Surface, names: Sequence[tuple[int, int, int]], chart: int) -> Poly:
-        """A polynomial that is 0 at the angle that one or two pairs of features name on a surface."""
+        """Polynomial that is 0 at the angle that one or two pairs of features name on a surface."""
         if len(names) == 2:
             (n, d), (m, e) = ([poly_of(form, chart) for form in self.t_of(surface, name)] for name in names)
             return combined((1, -1), times(n, e), times(m, d))
         kind, i, j = names[0]
         if kind == 3:
-            found = surface.form(minus(self.point("obstacles", j), surface.b), minus(self.point("robot", i), surface.a))
+            terms = surface.form(minus(self.point("obstacles", j), surface.b), minus(self.point("robot", i), surface.a))
         elif kind == 4:
             g, f = self.edge("robot", i)[1], self.edge("obstacles", j)[1]
-            found = 0, cross(g, f), -dot(g, f)
+            terms = 0, cross(g, f), -dot(g, f)
         else:
             raise RefutedError("an angle that is named by a vertex and an edge")
-        return poly_of(found, chart)
+        return poly_of(terms, chart)
 
     def curve(self, contact: Contact, chart: int, name: tuple[int, int, int]) -> Curve:
         surface = self.surface(contact)
@@ -1246,10 +1246,10 @@ class Features:
             refute_if(lo != hi or abs(lo) != 1 or place, "an angle without a name is no end of a chart")
             return Root.rational(lo)
         poly = trimmed(self.zero(self.surface(contact), names, chart))
-        found = ordered(roots_in(poly, lo, hi)) if poly and lo > -2 and hi < 2 else []
-        if place > len(found) or (len(found) != 1) == (place == 0):
-            raise RefutedError(f"{len(found)} roots in the interval of an angle")
-        root = found[max(place, 1) - 1][0]
+        groups = ordered(roots_in(poly, lo, hi)) if poly and lo > -2 and hi < 2 else []
+        if place > len(groups) or (len(groups) != 1) == (place == 0):
+            raise RefutedError(f"{len(groups)} roots in the interval of an angle")
+        root = groups[max(place, 1) - 1][0]
         for end in (Root.rational(-ONE), Root.rational(ONE)):
             if (order := root.compared(end)) == 0:
                 return end
@@ -1260,13 +1260,13 @@ class Features:
         contact, chart = piece["contact"], piece["chart"]
         lower, upper = (self.curve(contact, chart, piece[key]) for key in ("lower", "upper"))
         start, stop = (self.angle(contact, chart, *piece[key]) for key in ("from", "to"))
-        found = Trapezoid(self.surface(contact), chart, lower, upper, start, stop)
-        found.check()
-        return found
+        result = Trapezoid(self.surface(contact), chart, lower, upper, start, stop)
+        result.check()
+        return result
 
 # === Separations ===
 class Curve:
-    """t = n / d on a surface, and the reference point (X / Z, Y / Z) there, polynomials of degree 4 at most."""
+    """Curve t = n / d on a surface, and the reference point (X / Z, Y / Z) there, polynomials of degree 4 at most."""
 
     def __init__(self, surface: Surface, chart: int, t: tuple[Form, Form]) -> None:
         n, d = (trimmed(poly_of(form, chart)) for form in t)
@@ -1274,8 +1274,8 @@ class Curve:
         self.n, self.d = quotient(n, g), quotient(d, g)
         (a, b), (g, h), (u, v), (x, y) = surface.a, surface.g, surface.b, surface.q
         forms = ((u, -a, b), (x, -g, h)), ((v, -b, -a), (y, -h, -g))  # at t = 0, and along
-        at, along = ([poly_of(form, chart) for form in both] for both in zip(*forms, strict=True))
-        self.X, self.Y = (combined((1, 1), times(at[k], self.d), times(along[k], self.n)) for k in (0, 1))
+        start, along = ([poly_of(form, chart) for form in both] for both in zip(*forms, strict=True))
+        self.X, self.Y = (combined((1, 1), times(start[k], self.d), times(along[k], self.n)) for k in (0, 1))
         self.Z = times((1, 0, 1), self.d)
         # two quotients of degree 4 that agree at 9 places are one; what X, Y and Z have in common has no root there
         places = [Fraction(k, 1009) + Fraction(1, 10**9 + 7) for k in range(-4, 5)]
@@ -1301,9 +1301,9 @@ class Trapezoid:
     stop: Root
 
     def check(self) -> None:
-        """From start to stop 0 <= lower <= upper <= 1, and the contact is in its range.
+        """Check that from start to stop 0 <= lower <= upper <= 1, and that the contact is in its range.
 
-        So it is at one angle between them, strictly; and no polynomial that says so changes its sign on the way.
+        This is checked at one angle strictly between them; no polynomial that decides it changes its sign on the way.
         """
         p, q, limits = self.lower, self.upper, [poly_of(form, self.chart) for form in self.surface.limits]
         refute_if(self.start.compared(self.stop) >= 0, "it does not end after it begins")
@@ -1322,9 +1322,9 @@ class Trapezoid:
                     raise RefutedError("its curves cross, or t or the angle leave their range")
 
     def roots(self, p: Poly) -> list[Root]:
-        """Those from start to stop, and perhaps some beside them."""
+        """Roots from start to stop, and perhaps some beside them."""
         ends = self.start.lo, self.stop.hi
-        return roots_in(p, *ends) if len(p) > 1 and min(found := mapped(p, ends)) <= 0 <= max(found) else []
+        return roots_in(p, *ends) if len(p) > 1 and min(images := mapped(p, ends)) <= 0 <= max(images) else []
 
 class Proof(Answer):
     """Two poses, and pieces of contact surfaces between them."""
@@ -1353,11 +1353,11 @@ class Proof(Answer):
 
 def read_auxiliary(data: Any) -> tuple[tuple[str, str, int], Ring]:
     got = members(data, "auxiliary", of=REQUIRED, kind=REQUIRED, number=REQUIRED, points=REQUIRED)
-    of, kind = one_of(got["of"], "of", "robot", "obstacles"), one_of(got["kind"], "kind", "vertex", "edge")
+    owner, kind = one_of(got["of"], "of", "robot", "obstacles"), one_of(got["kind"], "kind", "vertex", "edge")
     count = 1 + (kind == "edge")
     points = [numbers(point, "auxiliary", 2) for point in items(got["points"], "auxiliary", count, count)]
     refuse_if(len(set(points)) < count, "an auxiliary edge between two equal points")
-    return (of, kind, whole(got["number"], "auxiliary", 0)), points  # type: ignore[return-value]
+    return (owner, kind, whole(got["number"], "auxiliary", 0)), points  # type: ignore[return-value]
 
 def read_piece(data: Any, place: str) -> dict[str, Any]:
     got = members(data, place, **dict.fromkeys(("contact", "chart", "from", "to", "lower", "upper"), REQUIRED))
@@ -1379,8 +1379,8 @@ def read_name(data: Any, place: str) -> tuple[int, int, int]:
     return whole(kind, place, 1, 4), whole(i, place, 0, 2**30 - 1), whole(j, place, 0)
 
 def check_closed(pieces: list[Trapezoid]) -> None:
-    """Every part of a side of a piece is one of an even number of others: a sum mod 2 of intervals of one curve, or of
-    segments of one line at one angle, is zero if every end of one is that of an even number of them.
+    """Check that every part of a side of a piece is one of an even number of others. A sum mod 2 of intervals of one
+    curve, or of segments of one line at one angle, is zero if every end of one is that of an even number of them.
     """
     angles: dict[int, tuple[Any, Root]] = {}  # by identity of roots: a number, and one root for all that are equal
     for chart in (0, 1):
@@ -1402,7 +1402,7 @@ def check_closed(pieces: list[Trapezoid]) -> None:
         check_wall(wall)
 
 def check_wall(wall: list[tuple[Trapezoid, Root]]) -> None:
-    """The same of the segments at one angle: from lower to upper on the line of each piece."""
+    """Check the same for the segments at one angle: from lower to upper on the line of each piece."""
     lines: list[tuple[Trapezoid, dict[Any, Curve]]] = []  # a piece on each, and the ends on it that are odd
     for p, root in wall:
         odd = next((ends for other, ends in lines if other.surface is p.surface or is_one_line(p, other, root)), None)
@@ -1421,7 +1421,7 @@ def check_wall(wall: list[tuple[Trapezoid, Root]]) -> None:
     refute_if(any(odd for _, odd in lines), "the surface is not closed: sides at an angle end without a partner")
 
 def is_one_line(p: Trapezoid, other: Trapezoid, root: Root) -> bool:
-    """At an angle of p."""
+    """True if two pieces have one line at an angle of p."""
     one, two = p.surface, other.surface
     forms = one.form(two.q, two.g), one.form(minus(two.b, one.b), minus(two.a, one.a))
     return all(root.sign(poly_of(form, p.chart)) == 0 for form in forms)
@@ -1431,7 +1431,7 @@ def is_one_point(one: Curve, other: Curve, root: Root) -> bool:
     return all(root.sign(combined((1, -1), times(p, other.Z), times(q, one.Z))) == 0 for p, q in both)
 
 def crosses(p: Trapezoid, tau: Fraction, x: Fraction, y: Fraction) -> bool:
-    """Does a ray from (x, y) towards -x meet a piece just after an angle? Pieces that end level with it are below."""
+    """True if a ray from (x, y) towards -x meets a piece just after an angle. Ends level with it count as below."""
     S, unit = p.surface, math.lcm(x.denominator, y.denominator)
     above = []
     for curve in (p.lower, p.upper):
@@ -1443,11 +1443,11 @@ def crosses(p: Trapezoid, tau: Fraction, x: Fraction, y: Fraction) -> bool:
     return above[0] != above[1] and (on_left < 0) == above[1]
 
 def sign_after(p: Poly, tau: Fraction) -> int:
-    """Of the first derivative that is not 0 at tau; 0 of the zero polynomial."""
+    """Sign of the first derivative that is not 0 at tau; 0 for the zero polynomial."""
     return (sign_at(p, tau) or sign_after(derivative(p), tau)) if any(p) else 0
 
 def is_inside(pose: Pose, scale: int, pieces: list[Trapezoid]) -> bool:
-    """Does a ray from a pose meet the surface an odd number of times, just after its angle? It is not on it."""
+    """True if a ray from a pose off the surface meets it an odd number of times, just after its angle."""
     chart, tau = 0, pose.tau
     if tau is None or not -1 <= tau < 1:
         chart, tau = 1, ZERO if tau is None else -1 / tau
@@ -1456,7 +1456,7 @@ def is_inside(pose: Pose, scale: int, pieces: list[Trapezoid]) -> bool:
     return sum(crosses(p, tau, x, y) for p in here) % 2 == 1
 
 def check_proof(proof: Proof, scene: Scene) -> str:
-    """What is proved, in a sentence."""
+    """Sentence that states the result."""
     world, inner, apart = World(scene), scene, False
     proof.check_moved(world)
     check_pose(world, proof.start, "start")
@@ -1487,20 +1487,20 @@ def check_proof(proof: Proof, scene: Scene) -> str:
     if not apart and is_inside(proof.start, inner.scale, pieces) == is_inside(proof.goal, inner.scale, pieces):
         raise RefutedError("start and goal are on one side of the surface")
     from_to = f"leads from {proof.end('start')} to {proof.end('goal')}"
-    kept = f"No path that keeps {float(proof.clearance):g} from obstacles and workspace {from_to}."
+    clear = f"No path that keeps {float(proof.clearance):g} from obstacles and workspace {from_to}."
     closed = f"No path {from_to}, not even one that touches."
     touching = f"No path that keeps a distance from everything {from_to}; one that touches may."
-    return kept if proof.clearance else closed if proof.is_closed else touching
+    return clear if proof.clearance else closed if proof.is_closed else touching
 
 # === The command ===
 def verdict(scene: str, answer: str) -> tuple[int, str]:
-    """Of the texts of two files: an exit code, and a line that says what is proved, or what is wrong."""
+    """Check the texts of two files; return an exit code, and a line that states the result or the fault."""
     try:
         world, data = read_scene(decoded(scene)), decoded(answer)
         kind = one_of(data.get("answer") if isinstance(data, dict) else None, "answer", "path", "separated")
-        given = (PathAnswer if kind == "path" else Proof)(data)
-        part = given.check_asked(world)
-        proved = check_path(given, world, part) if isinstance(given, PathAnswer) else check_proof(given, part)
+        parsed = (PathAnswer if kind == "path" else Proof)(data)
+        part = parsed.check_asked(world)
+        proved = check_path(parsed, world, part) if isinstance(parsed, PathAnswer) else check_proof(parsed, part)
         return VERIFIED, f"{proved} verified"
     except RefutedError as error:
         return REFUTED, f"REFUTED: {error}"

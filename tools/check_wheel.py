@@ -1,4 +1,4 @@
-"""Is an installed cfree built as its wheel says? From Python 3.12 on for the stable interface of all later versions."""
+"""Check that an installed cfree matches its wheel: from Python 3.12 on, the stable interface of all later versions."""
 
 import importlib.metadata
 import sys

@@ -1,4 +1,4 @@
-"""The pictures of docs/figures.md: `python tools/figure_images.py`, with the extra `render`; 256 colours each."""
+"""Make the pictures of docs/figures.md: `python tools/figure_images.py`, with the extra `render`; 256 colours each."""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory

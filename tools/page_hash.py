@@ -1,8 +1,8 @@
-"""Print the hash of what the page is made of; C++ counts as its tokens, without comments and white space.
+"""Print the hash of the sources of the page; C++ counts as its tokens, without comments and white space.
 
     python tools/page_hash.py
 
-`viewer/inputs.txt` lists the files and folders. The page holds the hash of what it was built from.
+`viewer/inputs.txt` lists the files and folders. The page holds the hash of its own sources.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ def tokens(text: str) -> Iterator[str]:
     >>> [*tokens('int x = 1\\'000;  // a thousand')]
     ['int', 'x', '=', "1'000", ';']
     """
-    for found in TOKEN.finditer(text):
-        if found["skip"] is None:
-            yield found[0]
+    for match in TOKEN.finditer(text):
+        if match["skip"] is None:
+            yield match[0]
 
 
 def inputs() -> list[Path]:
-    """All files that the page is made of."""
+    """All sources of the page."""
     listed = [ROOT / name for name in (ROOT / "viewer" / "inputs.txt").read_text().split("\n") if name]
     files = [file for entry in listed for file in (entry.rglob("*") if entry.is_dir() else [entry]) if file.is_file()]
     return sorted(files, key=lambda file: file.relative_to(ROOT).as_posix())

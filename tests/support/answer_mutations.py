@@ -1,4 +1,4 @@
-"""Answers with one thing wrong; `python answer_mutations.py` prints how many `cfree.verify.answer` rejects, by kind."""
+"""Answers with one thing wrong; `python answer_mutations.py` counts those that `verify.answer` rejects, by kind."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def change_a_vector(rng: random.Random, answer: Answer) -> bool:
 
 
 def change_two_vectors(rng: random.Random, answer: Answer) -> bool:
-    """By opposite amounts: the goal stays, if the robot does not turn between them."""
+    """Change them by opposite amounts: the goal stays, if the robot does not turn between them."""
     (one, other), k = rng.sample(motions(answer, "translation"), 2), rng.randrange(2)
     by = Fraction(rng.choice([-1, 1]), rng.choice([1, 8, 10**6]))
     for motion, amount in ((one, by), (other, -by)):
@@ -83,7 +83,7 @@ def change_an_angle(rng: random.Random, answer: Answer) -> bool:
 
 
 def turn_the_other_way(rng: random.Random, answer: Answer) -> bool:
-    """What is half a turn ends in the same pose."""
+    """Change the sense of a rotation; half a turn still ends in the same pose."""
     exact = rng.choice(motions(answer, "rotation"))["exact"]
     exact["tau"] = exact["tau"][1:] if exact["tau"].startswith("-") else f"-{exact['tau']}"
     return True
@@ -117,7 +117,7 @@ def change_an_end(rng: random.Random, answer: Answer) -> bool:
 
 
 def change_start_and_goal(rng: random.Random, answer: Answer) -> bool:
-    """Both by the same, so that the path is one, of other poses."""
+    """Change both alike, so that the path is one, of other poses."""
     k, by = rng.randrange(2), Fraction(rng.choice([-1, 1]), rng.choice([1, 8, 10**6]))
     for end in answer["exact"].values():
         end[k] = moved(rng, end[k], by)
@@ -127,7 +127,7 @@ def change_start_and_goal(rng: random.Random, answer: Answer) -> bool:
 
 
 def change_a_decimal(rng: random.Random, answer: Answer) -> bool:
-    """By more than the rule of effect allows, and so little that no picture shows it."""
+    """Change it by more than the rule of effect allows, and so little that no picture shows it."""
     record = rng.choice([answer, answer, *answer["motions"]])
     name = rng.choice([key for key in ("start", "goal", "vector", "pole", "angle", "to") if key in record])
     by = rng.choice([-1, 1]) * rng.choice([3e-7, 1e-3, 1])
@@ -139,7 +139,7 @@ def change_a_decimal(rng: random.Random, answer: Answer) -> bool:
 
 
 def claim_that_decimals_are_free(rng: random.Random, answer: Answer) -> bool:
-    """Those of a path that touches."""
+    """Claim it for the decimals of a path that touches."""
     answer["decimals"] = "free"
     return True
 
@@ -152,7 +152,7 @@ def change_the_hash_of_the_scene(rng: random.Random, answer: Answer) -> bool:
 
 
 def change_the_box_of_the_robot(rng: random.Random, answer: Answer) -> bool:
-    """It says how far decimals may be off."""
+    """Change the box that limits the error of decimals."""
     k = rng.randrange(4)
     answer["scene"]["robot"][k] = moved(rng, answer["scene"]["robot"][k])
     return True
@@ -291,7 +291,7 @@ def take_a_curve_of_another(rng: random.Random, answer: Answer) -> bool:
 
 
 def claim_more_or_less(rng: random.Random, answer: Answer) -> bool:
-    """With the pieces as they are."""
+    """Claim another kind of proof, with the pieces unchanged."""
     if answer["of"] == "interior":
         return False
     answer["of"] = "interior"
@@ -301,7 +301,7 @@ def claim_more_or_less(rng: random.Random, answer: Answer) -> bool:
 
 
 def enlarge_the_robot(rng: random.Random, answer: Answer) -> bool:
-    """One vertex by as much as it was moved, or far more."""
+    """Move one vertex by as much as it was moved, or far more."""
     if answer["of"] == "interior":
         return False
     ring = rng.choice(answer["smaller_robot"])["outer"]
@@ -319,7 +319,7 @@ def shrink_the_bounds(rng: random.Random, answer: Answer) -> bool:
 
 
 def move_an_end(rng: random.Random, answer: Answer) -> bool:
-    """Into something, or next to the other end."""
+    """Move it into something, or next to the other end."""
     one, other = rng.sample(["start", "goal"], 2)
     answer["exact"][one] = answer["exact"][other]
     if rng.random() < 0.5:
@@ -353,7 +353,7 @@ def change_the_clearance(rng: random.Random, answer: Answer) -> bool:
 
 
 def move_a_vertex_of_the_disc(rng: random.Random, answer: Answer) -> bool:
-    """Of a proof: of a core."""
+    """Move a vertex of the disc, or of a core of a proof."""
     ring = answer["disc"] if "disc" in answer else rng.choice(answer["cores"])["outer"]
     k, far = rng.randrange(len(ring)), rng.choice([Fraction(-1), Fraction(9, 10), Fraction(1001, 1000), Fraction(30)])
     ring[k] = [str(Fraction(c) * far) for c in ring[k]]
@@ -361,13 +361,13 @@ def move_a_vertex_of_the_disc(rng: random.Random, answer: Answer) -> bool:
 
 
 def turn_the_disc_round(rng: random.Random, answer: Answer) -> bool:
-    """Of a proof: exchange cores."""
+    """Reverse the disc, or exchange the cores of a proof."""
     (answer["disc"] if "disc" in answer else answer["cores"]).reverse()
     return True
 
 
 def drop_a_vertex_of_the_disc(rng: random.Random, answer: Answer) -> bool:
-    """Of a proof: a core."""
+    """Drop a vertex of the disc, or a core of a proof."""
     ring = answer["disc"] if "disc" in answer else answer["cores"]
     ring.pop(rng.randrange(len(ring)))
     return True
@@ -387,7 +387,7 @@ OF_DISTANCES: tuple[Mutation, ...] = (
 
 
 def repaired(scene: Scene, answer: Answer) -> Answer:
-    """With the goal to which the motions lead, so that there is something left to verify."""
+    """Return the answer with the goal to which the motions lead, so that there is something left to verify."""
     x, y, theta = answer["exact"]["start"]
     moves = [moved_by(motion["type"], motion["exact"], motion.get("contacts", ())) for motion in answer["motions"]]
     return json.loads(text_of(Path(Pose(x, y, theta), moves, scene=scene)))  # type: ignore[no-any-return]
@@ -417,7 +417,7 @@ def verdict(scene: Scene, answer: Answer) -> str:
 
 
 def is_true(scene: Scene, answer: Path | Separated) -> bool:
-    """Judged by the core."""
+    """True if the core judges the answer true."""
     if isinstance(answer, Path):
         ends = scene.start in (None, answer.start) and scene.goal in (None, answer.goal)
         least = clearance(answer, scene) if answer.clearance else None
@@ -442,7 +442,7 @@ def mutants(rng: random.Random, answer: Path | Separated, mutate: Mutation, coun
 
 
 def tried(mutate: Mutation, count: int) -> Counter[str]:
-    """What found the mutants; "" is for those that are verified, and true. Paths also where no ends are asked for."""
+    """Count the checks that reject mutants; "" counts those verified, and true. Paths also without requested ends."""
     rng = random.Random(mutate.__name__)
     goods: list[tuple[Scene, Path | Separated]] = (
         [corridor()]
@@ -453,7 +453,7 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
         if mutate in OF_DISTANCES
         else list(separations())
     )
-    found: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     for scene, good in goods:
         for bad in mutants(rng, good, mutate, count):
             if (
@@ -463,19 +463,19 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
             ):
                 with suppress(InvalidPoseError):  # no slide at all
                     bad = repaired(scene, bad)
-            found[verdict(scene, bad)] += 1
+            counts[verdict(scene, bad)] += 1
             if isinstance(good, Path):
-                found[verdict(with_robot(scene, scene.robot, scene.bounds), bad)] += 1
-    return found
+                counts[verdict(with_robot(scene, scene.robot, scene.bounds), bad)] += 1
+    return counts
 
 
 def main(count: int = 20) -> None:
     print("| mutation | tried | rejected | still true | found by |", "|---|--:|--:|--:|---|", sep="\n")
     for mutate in OF_PATHS + OF_SLIDES + OF_SEPARATIONS + OF_DISTANCES:
-        found = tried(mutate, count if mutate in OF_SEPARATIONS else count * 2)
-        true = found.pop("", 0)
-        checks = ", ".join(f"{check} {n}" for check, n in found.most_common(3))
-        name, rejected = mutate.__name__.replace("_", " "), found.total()
+        counts = tried(mutate, count if mutate in OF_SEPARATIONS else count * 2)
+        true = counts.pop("", 0)
+        checks = ", ".join(f"{check} {n}" for check, n in counts.most_common(3))
+        name, rejected = mutate.__name__.replace("_", " "), counts.total()
         print(f"| {name} | {rejected + true} | {rejected} | {true} | {checks} |", flush=True)
 
 

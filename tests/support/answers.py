@@ -53,7 +53,7 @@ def tee() -> tuple[Scene, Path]:
 
 @cache
 def separations() -> tuple[tuple[Scene, Separated], ...]:
-    """By obstacles, closed; by bounds and an obstacle; by a workspace; of an interior; of a robot of two parts."""
+    """Scenes and proofs: by obstacles, closed; by bounds and an obstacle; by a workspace; interior; of two parts."""
     two = [box(0, 0, 2, 1), box(3, 0, 4, 1)]
     narrow, gate = [[box(-9, -1, -x, 1), box(x, -1, 9, 1)] for x in (Fraction(9, 10), 1)]
     scenes = [
@@ -63,19 +63,19 @@ def separations() -> tuple[tuple[Scene, Separated], ...]:
         (PlainScene([box(-1, -1, 1, 1)], gate, workspace=box(-9, -9, 9, 9)), Pose(0, 5), Pose("1/3", -5, "7deg")),
         (PlainScene(two, [hollow((-9, -9, 9, 9), (-7, -7, 7, 7))]), Pose(0, 0), Pose(20, 0)),
     ]
-    found = []
+    pairs = []
     for plain, start, goal in scenes:
         scene = scene_of(plain)
         proof = separation(free_space(boundary(scene, threads=1)), start, goal)
         assert proof is not None
-        found.append((scene, proof))
-    assert [proof.of for _, proof in found] == ["closed", "closed", "closed", "interior", "closed"]
-    return tuple(found)
+        pairs.append((scene, proof))
+    assert [proof.of for _, proof in pairs] == ["closed", "closed", "closed", "interior", "closed"]
+    return tuple(pairs)
 
 
 @cache
 def distances() -> tuple[tuple[Scene, Path | Separated], ...]:
-    """A path and a proof in a gate that a robot of two convex pieces has 1/2 to spare in, on both sides."""
+    """A path and a proof in a gate with 1/2 to spare on both sides of a robot of two convex pieces."""
     robot, walls = l_shape("3/2", "1/2")[0], [box(-9, -1, "-5/4", 1)[0], box("5/4", -1, 9, 1)[0]]
     scene = Scene([(Fraction(x) - 1, Fraction(y) - 1) for x, y in robot], walls, workspace=box(-9, -9, 9, 9)[0])
     answers = [plan(scene, (-1, 4, 0), (0, -4, 0), clearance=c) for c in ("1/4", "3/5")]

@@ -1,4 +1,4 @@
-"""A boundary's slices against the oracles; `python compared.py SCENE.json` says what is wrong with one scene file."""
+"""Compare a boundary's slices with the oracles; `python compared.py SCENE.json` prints the faults of one scene file."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def scene_of(plain: PlainScene) -> Scene:
 
 
 def plain_of(scene: Scene) -> PlainScene:
-    """The scene's exact coordinates."""
+    """Exact coordinates of the scene."""
 
     def shape(polygon: Polygon) -> Shape:
         outer, *holes = (list(polygon.exact_vertices[i:j]) for i, j in pairwise(polygon.ring_offsets))
@@ -65,25 +65,25 @@ def slit_length(segments: NDArray[np.float64], tolerance: float) -> float:
 
 
 def mistakes(plain: PlainScene, result: Boundary, angle: Any, tolerance: float = 1e-9) -> list[str]:
-    """What differs between a slice and the oracle's: region, perimeter, validity; nothing, if all is well.
+    """Differences between a slice and the oracle's: region, perimeter, validity; none if all is well.
 
     The tolerance is relative to the size of the scene.
     """
-    found = result.slice(angle)
-    forbidden = found.forbidden
-    oracle = oracles.forbidden_slice(plain.robot, plain.obstacles, found.theta, plain.bounds, plain.workspace)
-    if result.features.rim is not None:  # both without end: compare what is free
+    cut = result.slice(angle)
+    forbidden = cut.forbidden
+    oracle = oracles.forbidden_slice(plain.robot, plain.obstacles, cut.theta, plain.bounds, plain.workspace)
+    if result.features.rim is not None:  # both without end: compare the free parts
         rim = shapely.box(*result.features.rim)
         window = oracles.window(plain.robot, plain.obstacles, plain.bounds, plain.workspace)
         forbidden, oracle = rim.difference(forbidden), window.difference(oracle)
     size = max(1e-300, *np.ptp(np.reshape([*oracle.bounds, *forbidden.bounds], (-1, 2)), axis=0), oracle.length)
-    wrong = [] if shapely.is_valid(found.forbidden) else ["the forbidden region is not valid"]
+    wrong = [] if shapely.is_valid(cut.forbidden) else ["the forbidden region is not valid"]
     difference = forbidden.symmetric_difference(oracle).area
     if not difference <= tolerance * size * size:
         wrong.append(f"theta {angle}: the regions differ by {difference:.3g}, oracle {oracle.area:.6g}")
-    mine = length(found.segments)
+    mine = length(cut.segments)
     if not abs(mine - oracle.length) <= tolerance * size:
-        slits = slit_length(found.segments, tolerance * size)
+        slits = slit_length(cut.segments, tolerance * size)
         if not abs(mine - slits - oracle.length) <= 10 * tolerance * size:
             wrong.append(f"theta {angle}: length {mine:.12g}, {slits:.3g} of it slits; oracle {oracle.length:.12g}")
     return wrong

@@ -1,4 +1,4 @@
-"""A boundary's slices against the exact ones, as sets of oriented segments on lines: equal, no tolerance."""
+"""Compare a boundary's slices with the exact ones, as sets of oriented segments on lines: equal, no tolerance."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ BEFORE, AFTER = -1, 1
 
 
 class Undecided(Exception):
-    """A tau in the interval of a critical angle whose condition needs more than this file knows."""
+    """A tau in the interval of a critical angle whose condition needs more than this file can decide."""
 
 
 class Orientation(NamedTuple):
@@ -34,7 +34,7 @@ class Orientation(NamedTuple):
 
     @classmethod
     def of(cls, half_tangent: Fraction | None, side: int = AFTER) -> Orientation:
-        """In the chart that holds the angle and those just before or after it; None is the half turn."""
+        """Orientation in the chart that holds the angle and those just before or after it; None is the half turn."""
         if half_tangent is None:
             return cls(1, Fraction(0))
         tau = Fraction(half_tangent)
@@ -44,7 +44,7 @@ class Orientation(NamedTuple):
 
 
 def differences(result: Boundary, half_tangent: Fraction | None, plain: PlainScene | None = None) -> list[str]:
-    """What is wrong with a boundary at an orientation, critical or not: nothing, if all is well.
+    """Faults of a boundary at an orientation, critical or not: none if all is well.
 
     The limits of its slices from before and after it, and the isolated parts, are the exact slice's boundary, no more
     and no less. Each limit has all of it but slits, which may be there on one side only, or at this angle only.
@@ -53,12 +53,12 @@ def differences(result: Boundary, half_tangent: Fraction | None, plain: PlainSce
     (reached, closed), wrong = ({}, set[Point]()), []
     for side, name in ((BEFORE, "before"), (AFTER, "after")):
         limits = list(slice_ends(result, half_tangent, side))
-        found = united(oriented(p, q) for p, q in limits if p != q)
+        stored = united(oriented(p, q) for p, q in limits if p != q)
         closed |= {p for p, q in limits if p == q}
-        reached = both(reached, found)
-        missing = without(without(exact.segments, found), exact.slits)
+        reached = both(reached, stored)
+        missing = without(without(exact.segments, stored), exact.slits)
         wrong += _told(f"{name}, is missing", missing)
-        wrong += _told(f"{name}, is no boundary", without(found, exact.segments))
+        wrong += _told(f"{name}, is no boundary", without(stored, exact.segments))
     segments, points = isolated_at(result, half_tangent)
     wrong += _told("isolated, is no slit", without(segments, exact.slits))
     wrong += _told("isolated, is on a trapezoid", common(segments, reached))
@@ -81,34 +81,34 @@ def slice_segments(result: Boundary, half_tangent: Fraction | None, side: int = 
 
 def slice_ends(result: Boundary, half_tangent: Fraction | None, side: int) -> Iterator[tuple[Point, Point]]:
     """Both ends of each trapezoid at an angle, the same where it closes there."""
-    at, columns = Orientation.of(half_tangent, side), result.trapezoids
-    for k in trapezoids_at(result, at, side):
+    angle, columns = Orientation.of(half_tangent, side), result.trapezoids
+    for k in trapezoids_at(result, angle, side):
         own = own_code(result, int(columns.patch[k]))
-        low, high = (limit(result, own, int(curve[k]), at) for curve in (columns.lower, columns.upper))
-        assert 0 <= low <= high <= 1, f"trapezoid {k} at {at}: t from {low} to {high}"
-        yield _on(result, own, low, at), _on(result, own, high, at)
+        low, high = (limit(result, own, int(curve[k]), angle) for curve in (columns.lower, columns.upper))
+        assert 0 <= low <= high <= 1, f"trapezoid {k} at {angle}: t from {low} to {high}"
+        yield _on(result, own, low, angle), _on(result, own, high, angle)
 
 
-def limit(result: Boundary, own: int, curve: int, at: Orientation) -> Fraction:
-    """Where a curve is on a patch's line: t = N / D, its limit where both vanish."""
-    numerator, denominator = _quotient(result, own, curve, at)
+def limit(result: Boundary, own: int, curve: int, angle: Orientation) -> Fraction:
+    """Value t = N / D of a curve on a patch's line; its limit where both vanish."""
+    numerator, denominator = _quotient(result, own, curve, angle)
     if denominator:
         return Fraction(numerator, denominator)
-    # N and D are quadratics in tau: their values and their first and second differences say what they do near by
-    (n0, d0), (n1, d1) = (_quotient(result, own, curve, at._replace(tau=at.tau + step)) for step in (-1, 1))
+    # N and D are quadratics in tau: their values, first and second differences determine them near by
+    (n0, d0), (n1, d1) = (_quotient(result, own, curve, angle._replace(tau=angle.tau + step)) for step in (-1, 1))
     before = numerator
     for n, d in ((n1 - n0, d1 - d0), (n1 + n0, d1 + d0)):  # the values themselves are 0
-        assert before == 0, f"{contact(result, curve)} has no limit on {contact(result, own)} at {at}"
+        assert before == 0, f"{contact(result, curve)} has no limit on {contact(result, own)} at {angle}"
         if d:
             return Fraction(n, d)
         before = n
     raise AssertionError(f"{contact(result, curve)} lies on the surface of {contact(result, own)}")
 
 
-def _quotient(result: Boundary, own: int, curve: int, at: Orientation) -> tuple[int, int]:
+def _quotient(result: Boundary, own: int, curve: int, angle: Orientation) -> tuple[int, int]:
     """N and D, as polynomials in tau, times a positive constant: one for all tau with the same denominator."""
-    first, second = _placed(result.features, own, at), _placed(result.features, curve, at)
-    (origin, along), (point, direction), w = first, second, _w(at)
+    first, second = _placed(result.features, own, angle), _placed(result.features, curve, angle)
+    (origin, along), (point, direction), w = first, second, _w(angle)
     u = minus(point, origin)
     if curve >> 61 == Kind.VERTEX_VERTEX:
         assert cross(u, along) == 0, f"{contact(result, curve)} is not on the surface of {contact(result, own)}"
@@ -120,15 +120,15 @@ def _quotient(result: Boundary, own: int, curve: int, at: Orientation) -> tuple[
 
 
 @lru_cache(maxsize=10_000)
-def _placed(features: SceneFeatures, code: int, at: Orientation) -> tuple[Whole, Whole]:
-    """A packed pair's point and direction in a slice, forbidden on its left; of two edges, their directions.
+def _placed(features: SceneFeatures, code: int, angle: Orientation) -> tuple[Whole, Whole]:
+    """Point and direction of a packed pair in a slice, forbidden on its left; for two edges, their directions.
 
-    In integers, times the scale and w. By number and not by place: corners of the frame have none.
+    In integers, times the scale and w. Named by number and not by place: corners of the frame have none.
     """
     kind, i, j = unpacked(code)
     robot, obstacles = features.robot, features.obstacles
-    p, q = at.tau.numerator, at.tau.denominator
-    w, sign = _w(at), -1 if at.chart else 1
+    p, q = angle.tau.numerator, angle.tau.denominator
+    w, sign = _w(angle), -1 if angle.chart else 1
     turn = sign * (q * q - p * p), sign * 2 * p * q
 
     def fixed(vector: Whole) -> Whole:
@@ -149,28 +149,28 @@ def _placed(features: SceneFeatures, code: int, at: Orientation) -> tuple[Whole,
     return minus(fixed(b), turned(turn, a)), direction
 
 
-def _w(at: Orientation) -> int:
-    return at.tau.numerator**2 + at.tau.denominator**2
+def _w(angle: Orientation) -> int:
+    return angle.tau.numerator**2 + angle.tau.denominator**2
 
 
-def _on(result: Boundary, own: int, t: Fraction, at: Orientation) -> Point:
+def _on(result: Boundary, own: int, t: Fraction, angle: Orientation) -> Point:
     """The point t of a contact's line."""
-    (x, y), (u, v) = _placed(result.features, own, at)
+    (x, y), (u, v) = _placed(result.features, own, angle)
     n, d = t.numerator, t.denominator
-    size = result.features.scale * _w(at) * d
+    size = result.features.scale * _w(angle) * d
     return Fraction(d * x + n * u, size), Fraction(d * y + n * v, size)
 
 
 def isolated_at(result: Boundary, half_tangent: Fraction | None) -> tuple[Segments, set[Point]]:
     """Isolated segments, in both directions, and isolated points at an angle; a curve is a point there."""
     parts, segments, points = result.isolated, [], set[Point]()
-    for at in {Orientation.of(half_tangent, side) for side in (BEFORE, AFTER)}:
-        for k in rows_near(parts, at):
-            orders = [angle_order(result, parts, k, end, at.tau) for end in ("from", "to")]
+    for angle in {Orientation.of(half_tangent, side) for side in (BEFORE, AFTER)}:
+        for k in rows_near(parts, angle):
+            orders = [angle_order(result, parts, k, end, angle.tau) for end in ("from", "to")]
             if orders[0] < 0 or orders[1] > 0:
                 continue
             p, q = (
-                _point(result, int(patch[k]), int(curve[k]), at)
+                _point(result, int(patch[k]), int(curve[k]), angle)
                 for patch, curve in ((parts.lower_patch, parts.lower), (parts.upper_patch, parts.upper))
             )
             if p == q:
@@ -180,29 +180,29 @@ def isolated_at(result: Boundary, half_tangent: Fraction | None) -> tuple[Segmen
     return united(segments), points
 
 
-def _point(result: Boundary, patch: int, curve: int, at: Orientation) -> Point:
+def _point(result: Boundary, patch: int, curve: int, angle: Orientation) -> Point:
     own = own_code(result, patch)
-    return _on(result, own, limit(result, own, curve, at), at)
+    return _on(result, own, limit(result, own, curve, angle), angle)
 
 
-def trapezoids_at(result: Boundary, at: Orientation, side: int) -> list[int]:
-    """Those that are there just before or just after an angle."""
+def trapezoids_at(result: Boundary, angle: Orientation, side: int) -> list[int]:
+    """Trapezoids that exist just before or just after an angle."""
     chosen = []
-    for k in rows_near(result.trapezoids, at):
-        start, stop = (angle_order(result, result.trapezoids, k, end, at.tau) for end in ("from", "to"))
+    for k in rows_near(result.trapezoids, angle):
+        start, stop = (angle_order(result, result.trapezoids, k, end, angle.tau) for end in ("from", "to"))
         if start >= (side == BEFORE) and stop <= -(side == AFTER):
             chosen.append(k)
     return chosen
 
 
-def rows_near(columns: Trapezoids, at: Orientation) -> list[int]:
-    near = (columns.from_lo <= float(at.tau) + 1e-9) & (columns.to_hi >= float(at.tau) - 1e-9)
-    rows: list[int] = np.flatnonzero(near & (columns.chart == at.chart)).tolist()
+def rows_near(columns: Trapezoids, angle: Orientation) -> list[int]:
+    near = (columns.from_lo <= float(angle.tau) + 1e-9) & (columns.to_hi >= float(angle.tau) - 1e-9)
+    rows: list[int] = np.flatnonzero(near & (columns.chart == angle.chart)).tolist()
     return rows
 
 
 def angle_order(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Fraction) -> int:
-    """-1, 0 or 1: tau is before, at or after a critical angle of a row."""
+    """Order of tau and a critical angle of a row: -1 before, 0 at, 1 after it."""
     lo, hi = (Fraction(float(getattr(columns, f"{end}_{name}")[k])) for name in ("lo", "hi"))
     if not lo <= tau <= hi:
         return 1 if tau > hi else -1
@@ -220,23 +220,23 @@ def angle_order(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Fr
 
 def rational_angles(result: Boundary, digits: int = 3) -> list[Fraction | None]:
     """Half-angle tangents of few digits that are, or are very near to, critical angles."""
-    columns, found = result.trapezoids, set[Fraction | None]()
+    columns, angles = result.trapezoids, set[Fraction | None]()
     for end in ("from", "to"):
         rows = zip(columns.chart, getattr(columns, f"{end}_lo"), getattr(columns, f"{end}_hi"), strict=True)
         for chart, lo, hi in {(int(chart), float(lo), float(hi)) for chart, lo, hi in rows}:
             tau = Fraction(lo).limit_denominator(10**digits)
             if lo <= tau <= hi:
-                found.add((-1 / tau if tau else None) if chart else tau)
-    return sorted(found, key=lambda tau: (tau is None, tau or 0))
+                angles.add((-1 / tau if tau else None) if chart else tau)
+    return sorted(angles, key=lambda tau: (tau is None, tau or 0))
 
 
 def condition(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Fraction) -> int:
-    """Zero where a row begins or ends: edges parallel, a helix on its surface, three lines through one point."""
+    """Condition, zero where a row begins or ends: parallel edges, a helix on its surface, three concurrent lines."""
     codes = [int(getattr(columns, f"{end}_{name}")[k]) for name in ("first", "second")]
     patch = getattr(columns, f"{end}_patch", columns.patch)  # an isolated part's angles may be named on others
-    at = Orientation(int(columns.chart[k]), tau)
+    angle = Orientation(int(columns.chart[k]), tau)
     own, first, *second = (
-        _placed(result.features, code, at) for code in (own_code(result, int(patch[k])), *codes) if code
+        _placed(result.features, code, angle) for code in (own_code(result, int(patch[k])), *codes) if code
     )
     if codes[0] >> 61 == Kind.EDGE_EDGE:
         return cross(*first)

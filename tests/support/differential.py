@@ -1,4 +1,4 @@
-"""The core's predicates against those of `reference`, one random query after another."""
+"""Compare the core's predicates with those of `reference`, one random query after another."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ def pack(feature: Sequence[int]) -> int:
     return kind << 61 | robot << 31 | obstacle
 
 
-def value(at: Sample) -> Fraction:
-    tau, fine = at
+def value(sample: Sample) -> Fraction:
+    tau, fine = sample
     return Fraction(tau) if fine is None else Fraction(fine[0], 2 ** fine[1])
 
 
@@ -67,7 +67,7 @@ def prepared(rings: Rings) -> tuple[ShapeFeatures, ShapeFeatures]:
 
 
 class Surface:
-    """One surface of a scene in one chart, as the core and as the reference see it."""
+    """One surface of a scene in one chart, for the core and for the reference."""
 
     def __init__(self, rings: Rings, contact: Feature, chart: int) -> None:
         self.rings, self.contact, self.chart = rings, contact, chart
@@ -84,16 +84,16 @@ class Surface:
         return f"Surface({self.rings}, {self.contact}, {self.chart})"
 
     def angle(self, event: Event) -> Angle:
-        """The exact angle that an event of the core stands for."""
+        """Exact angle that an event of the core stands for."""
         if event not in self.angles:
             first, second, lo, hi, _ = event
             features = Feature(*unpacked(first)), Feature(*unpacked(second))
-            found = self.reference.roots_within(*features, Fraction(lo), Fraction(hi))
+            roots = self.reference.roots_within(*features, Fraction(lo), Fraction(hi))
             place = self.core.place(event)
-            assert len(found) == 1 if place == 0 else place <= len(found), (event, place, found)
-            self.angles[event] = angle = found[place - 1] if place else found[0]
+            assert len(roots) == 1 if place == 0 else place <= len(roots), (event, place, roots)
+            self.angles[event] = angle = roots[place - 1] if place else roots[0]
             assert self.reference.place(angle, *features, Fraction(lo), Fraction(hi)) == place
-            # what a file keeps is enough to have it back
+            # the columns of a file suffice to restore it
             again = self.core.restored((first, second, lo, hi, -1), place)
             assert self.core.order(event, again) == 0 or not first
         return self.angles[event]
@@ -103,7 +103,7 @@ class Surface:
         return events
 
     def poles(self, curve: Feature) -> list[Event] | None:
-        """Where a curve's denominator is zero; None if it is everywhere."""
+        """Zeros of a curve's denominator; None if it is zero everywhere."""
         if self.reference.curve(curve)[1] == 0:
             return None
         if curve.kind in (self.contact.kind, VERTEX_VERTEX):
@@ -124,12 +124,12 @@ class Surface:
         ordered = sorted(events, key=cmp_to_key(lambda x, y: self.angle(x).compare(self.angle(y))))
         return ordered[:1] + [y for x, y in pairwise(ordered) if self.angle(x) < self.angle(y)]
 
-    # --- one predicate each; what they are asked is all in the arguments ---
+    # --- one predicate each; the arguments hold the whole query ---
 
-    def check_offset(self, s: int, v: int, at: Sequence[Sample], from_: Event, to: Event) -> list[Event]:
+    def check_offset(self, s: int, v: int, samples: Sequence[Sample], from_: Event, to: Event) -> list[Event]:
         f, true = self.core.offset(s, v), self.reference.offset(s, v)
         self.check_filtered(f, true, from_, to)
-        for sample in at:
+        for sample in samples:
             expected = self.reference.offset_sign(s, v, value(sample))
             assert self.core.offset_sign(s, v, sample) == expected, ("offset_sign", s, v, sample)
         events, all_zero = self.core.offset_roots(s, v, from_, to)
@@ -137,16 +137,16 @@ class Surface:
         assert all_zero == zero, ("offset_roots", s, v)
         return self.check_roots(events, expected)
 
-    def check_parallel(self, g: int, f: int, at: Sequence[Sample], from_: Event, to: Event) -> list[Event]:
+    def check_parallel(self, g: int, f: int, samples: Sequence[Sample], from_: Event, to: Event) -> list[Event]:
         self.check_filtered(self.core.parallel(g, f), self.reference.parallel(g, f), from_, to)
-        for sample in at:
+        for sample in samples:
             expected = self.reference.parallel_sign(g, f, value(sample))
             assert self.core.parallel_sign(g, f, sample) == expected, ("parallel_sign", g, f, sample)
         events, _ = self.core.parallel_roots(g, f, from_, to)
         return self.check_roots(events, self.reference.parallel_roots(g, f, self.angle(from_), self.angle(to))[0])
 
     def check_filtered(self, f: Sequence[float], true: Any, from_: Event, to: Event) -> None:
-        """The doubles are as near to the truth as they say, at every knot; a certain sign is right."""
+        """Check that doubles are as near to the exact values as claimed, at every knot; a certain sign is right."""
         a, b, c, err = f
         knots = sorted({-1.0, 1.0, from_[2], from_[3], to[2], to[3]})
         scale = Fraction(1, 4**self.shift)
@@ -181,18 +181,23 @@ class Surface:
         assert self.core.order(x, y) == expected, ("order", x, y, expected)
         return expected
 
-    def check_order_at(self, x: Event, at: Sample) -> None:
-        expected = self.reference.order(self.angle(x), value(at))
-        assert self.core.order(x, at) == expected, ("order", x, at, expected)
+    def check_order_at(self, x: Event, sample: Sample) -> None:
+        expected = self.reference.order(self.angle(x), value(sample))
+        assert self.core.order(x, sample) == expected, ("order", x, sample, expected)
 
     def check_between(self, x: Event, y: Event, attempt: int) -> Sample:
-        at = self.core.between(x, y, attempt)
-        tau = value(at)
-        assert self.angle(x).compare(Angle.of(tau)) < 0 < self.angle(y).compare(Angle.of(tau)), ("between", x, y, at)
-        return at
+        sample = self.core.between(x, y, attempt)
+        tau = value(sample)
+        assert self.angle(x).compare(Angle.of(tau)) < 0 < self.angle(y).compare(Angle.of(tau)), (
+            "between",
+            x,
+            y,
+            sample,
+        )
+        return sample
 
     def check_compare(self, p: Feature, q: Feature, from_: Event, to: Event) -> list[Event]:
-        """On an interval where the denominators of both curves have a sign; they are flipped to be positive."""
+        """Check on an interval where the denominators of both curves have a sign; they are flipped to be positive."""
         start, end = self.angle(from_), self.angle(to)
         middle = self.reference.between(start, end)
         flipped = [self.reference.curve(x)[1](rational(middle)) < 0 for x in (p, q)]
@@ -200,15 +205,15 @@ class Surface:
         cuts, true = self.reference.compare(p, q, start, end)
         self.check_roots(events, cuts)
         assert signs == true, ("compare", p, q, from_, to, events, signs, true)
-        if strict:  # at the ends, too
+        if strict:  # also at the ends
             difference = self.reference.polynomial(p, q)
             assert sign_at(difference, start) != 0 != sign_at(difference, end), ("strict", p, q, from_, to)
-        at = self.core.between(from_, to, 1)
-        assert self.core.order_at(pack(p), pack(q), at) == self.reference.order_at(p, q, value(at)), (
+        sample = self.core.between(from_, to, 1)
+        assert self.core.order_at(pack(p), pack(q), sample) == self.reference.order_at(p, q, value(sample)), (
             "order_at",
             p,
             q,
-            at,
+            sample,
         )
         return events
 
@@ -232,7 +237,7 @@ def samples_near(surface: Surface, events: Sequence[Event], rng: random.Random) 
 
 
 def ask(surface: Surface, rng: random.Random, queries: int = 12) -> int:
-    """Ask every predicate some questions; the number of them. An AssertionError says which was answered wrong."""
+    """Query every predicate some times; return the number of queries. An AssertionError names the wrong answer."""
     A, O = surface.shapes
     on_edge = surface.contact.kind == VERTEX_EDGE
     events, asked = [FIRST_WALL, LAST_WALL], 0
@@ -273,16 +278,16 @@ def ask(surface: Surface, rng: random.Random, queries: int = 12) -> int:
 
     for _ in range(queries):
         s, v, g, f = vertex(A), vertex(O), edge(A), edge(O)
-        at = list(samples_near(surface, events, rng))
-        events += surface.check_offset(s, v, at, *some_span())
-        events += surface.check_parallel(g, f, at, *some_span())
+        samples = list(samples_near(surface, events, rng))
+        events += surface.check_offset(s, v, samples, *some_span())
+        events += surface.check_parallel(g, f, samples, *some_span())
         surface.check_cross(True, g, edge(A))
         surface.check_cross(False, f, edge(O))
         for kind in (VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE) * 2:
             x, other = any_feature(kind), any_feature(kind)  # one of the two features the same
             surface.check_code(x, x._replace(**rng.choice([{"robot": other.robot}, {"obstacle": other.obstacle}])))
         surface.check_range_end(g, f, rng.random() < 0.5)
-        for sample in at:
+        for sample in samples:
             surface.check_order_at(rng.choice(events), sample)
         for _ in range(4):
             x, y = rng.choice(events), rng.choice(events)
@@ -292,7 +297,7 @@ def ask(surface: Surface, rng: random.Random, queries: int = 12) -> int:
             order = surface.check_order(x, y)
             if order:
                 surface.check_between(*((x, y) if order < 0 else (y, x)), rng.randrange(40))
-        asked += 3 * len(at) + 25
+        asked += 3 * len(samples) + 25
         for _ in range(2):
             p, q = any_curve(), any_curve()
             spans = surface.spans(p, q)
@@ -306,7 +311,7 @@ def ask(surface: Surface, rng: random.Random, queries: int = 12) -> int:
 
 
 def ask_junctions(surface: Surface, rng: random.Random, queries: int = 20) -> Counter[str]:
-    """Ask about several lines at some critical angles of a surface; how often each question had which answer."""
+    """Query several lines at some critical angles of a surface; count the answers to each question."""
     A, O = surface.shapes
     vertices, edges = (range(len(A.vertices)), range(len(O.vertices))), (range(len(A.edges)), range(len(O.edges)))
     asked: Counter[str] = Counter()

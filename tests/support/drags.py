@@ -1,4 +1,4 @@
-"""Goals dragged in the page at random, and whether it says of them what Python says.
+"""Drag goals in the page at random, and compare its verdicts with Python's.
 
 `python tests/support/drags.py --count 1000 SCENE.json ...` tries more than the tests do.
 """
@@ -30,7 +30,7 @@ FRAME = """(page) => new Promise((ready) => {
   document.body.append(frame);
 })"""
 SHOW = "given => frames[0].postMessage({ cfree: 'show', given }, '*')"
-SAID = {  # how what is said begins, and what Python's answer then is
+SAID = {  # beginnings of the page's texts, and Python's answers for them
     "A motion exists": "path",
     "No motion, not even touching": "closed",
     "No motion with clearance": "interior",
@@ -49,7 +49,7 @@ class Dragged:
         self.way = self.frame.locator("#way:not(.old):not(:empty)").filter(has_not_text="Looking for")
 
     def open(self, path: Path) -> None:
-        """Another scene, which has a name and bounds."""
+        """Open another scene, which has a name and bounds."""
         text = path.read_text()
         scene = scene_from_text(path.name, text)
         self.planner, self.checker = cfree.Planner(scene), cfree.MotionChecker(scene)
@@ -67,7 +67,7 @@ class Dragged:
         return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
     def drag(self) -> tuple[str, str, dict[str, Any]]:
-        """Somewhere else: what the page says, what Python answers, and what is seen."""
+        """Drag the goal somewhere else; return the page's text, Python's answer, and the drawn state."""
         x, y, w, h = (self.floor[name] for name in ("x", "y", "width", "height"))
         self.page.evaluate("window.before = JSON.stringify(seen.goal)")
         target = x + w * self.random.uniform(0.05, 0.95), y + h * self.random.uniform(0.05, 0.95)
@@ -82,8 +82,8 @@ class Dragged:
         return next((kind for words, kind in SAID.items() if said.startswith(words)), said), self.expected(seen), seen
 
     def expected(self, seen: dict[str, Any]) -> str:
-        """In words of `SAID`, by Python; a path that the page has found is checked."""
-        ends = [cfree.Pose(of["x"], of["y"], {"tau": of["tau"]}) for of in (seen["start"], seen["goal"])]
+        """Verdict of Python in the words of `SAID`; a path that the page has found is checked."""
+        ends = [cfree.Pose(end["x"], end["y"], {"tau": end["tau"]}) for end in (seen["start"], seen["goal"])]
         if seen["poses"]:
             poses = [cfree.Pose(x, y, {"tau": tau}) for x, y, tau in map(str.split, seen["poses"].splitlines())]
             path = cfree.Path(poses[0], [cfree.motion_between(a, b) for a, b in pairwise(poses)])
@@ -102,24 +102,24 @@ def main() -> int:
     parser.add_argument("scenes", nargs="+", type=Path)
     parser.add_argument("--count", type=int, default=1000, help="of drags in all")
     parser.add_argument("--seed", type=int, default=0)
-    given = parser.parse_args()
-    differ, each = 0, -(-given.count // len(given.scenes))
+    options = parser.parse_args()
+    differ, each = 0, -(-options.count // len(options.scenes))
     with sync_playwright() as running:
         browser = running.chromium.launch(executable_path=str(CHROMIUM), args=SWIFTSHADER)
-        dragged = Dragged(browser, given.seed)
-        for path in given.scenes:
+        dragged = Dragged(browser, options.seed)
+        for path in options.scenes:
             dragged.open(path)
-            found, began = Counter[str](), time.perf_counter()
+            counts, began = Counter[str](), time.perf_counter()
             for _ in range(each):
                 said, expected, seen = dragged.drag()
-                found[expected] += 1
+                counts[expected] += 1
                 if said != expected:
                     differ += 1
                     print(f"{path.stem}, goal {seen['goal']}: the page says {said}, Python {expected}", flush=True)
             seconds = (time.perf_counter() - began) / each
             memory = dragged.page.evaluate("performance.memory.usedJSHeapSize / 1e6")
-            print(f"{path.stem}: {dict(found)}, {1000 * seconds:.0f} ms a drag, {memory:.0f} MB", flush=True)
-    print(f"{differ} of {each * len(given.scenes)} differ")
+            print(f"{path.stem}: {dict(counts)}, {1000 * seconds:.0f} ms a drag, {memory:.0f} MB", flush=True)
+    print(f"{differ} of {each * len(options.scenes)} differ")
     return differ > 0
 
 

@@ -1,4 +1,4 @@
-"""Small files of each kind that cfree reads, as a person would draw or write them."""
+"""Small files of each kind that cfree reads, in the manner of hand-made ones."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ NESTING = """{"name": "swim", "items": [
 
 @cache
 def dxf() -> str:
-    """A drawing with a curve of each kind, blocks, a hatch, layers that are roles or off."""
+    """A drawing with a curve of each kind, blocks, a hatch, and layers that are roles or off."""
     import ezdxf
 
     document = ezdxf.new("R2010")
@@ -97,7 +97,7 @@ def dxf() -> str:
 
 
 def files() -> dict[str, bytes]:
-    """Names with contents."""
+    """Contents of the files by name."""
     head = f'<!DOCTYPE svg [<!ENTITY ns "{NAMESPACE}">]>'
     named = head + SVG[SVG.index("<svg") :].replace(NAMESPACE, "&ns;")
     texts = {"a.svg": SVG, "nav.yaml": NAV2, "r.urdf": URDF, "n.json": NESTING, "a.dxf": dxf(), "map.yaml": MAP}

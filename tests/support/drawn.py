@@ -1,4 +1,4 @@
-"""What is drawn in the figures, read back from the artists: shapes, lines, texts, and pieces in space."""
+"""Read back the contents of figures from the artists: shapes, lines, texts, and pieces in space."""
 
 from __future__ import annotations
 
@@ -38,28 +38,28 @@ def outlines(ax: Axes, colour: str) -> list[np.ndarray]:
 
 def lines(ax: Axes, colour: str) -> list[np.ndarray]:
     """Points of the lines drawn in a colour; dots are none."""
-    found = [np.asarray(line.get_xydata()) for line in ax.lines if to_hex(line.get_color()) == to_hex(colour)]
-    return [points for points in found if len(points) > 1]
+    drawn = [np.asarray(line.get_xydata()) for line in ax.lines if to_hex(line.get_color()) == to_hex(colour)]
+    return [points for points in drawn if len(points) > 1]
 
 
 def named(ax: Axes) -> dict[str, np.ndarray]:
-    """Where texts are put."""
+    """Places of texts."""
     return {text.get_text(): np.array(text.xy) for text in ax.texts if hasattr(text, "xy")}
 
 
 def pieces(number: int, k: int = 0) -> Pieces:
-    """All that is painted on axes."""
+    """All pieces painted on axes."""
     (painting,) = [c for c in figure(number).axes[k].collections if isinstance(c, Painting)]
     return painting._pieces
 
 
 def strokes(number: int, colour: str, k: int = 0) -> np.ndarray:
     """Ends of the parts of curves painted in a colour, (n, 2, 3), theta in degrees."""
-    found = pieces(number, k)
-    return found.corners[(found.sort == CURVE) & (np.abs(found.rgb - to_rgb(colour)).max(axis=1) < 1e-12)][:, :2]
+    painted = pieces(number, k)
+    return painted.corners[(painted.sort == CURVE) & (np.abs(painted.rgb - to_rgb(colour)).max(axis=1) < 1e-12)][:, :2]
 
 
 def faces(number: int, k: int = 0) -> Pieces:
-    """The faces of surfaces among all that is painted."""
-    found = pieces(number, k)
-    return found.chosen(found.sort == SURFACE)
+    """Faces of surfaces among all painted pieces."""
+    painted = pieces(number, k)
+    return painted.chosen(painted.sort == SURFACE)

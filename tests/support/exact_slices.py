@@ -1,7 +1,7 @@
 """The forbidden slice at a rational tau, exactly: its boundary as oriented segments, and its isolated free points.
 
-Shares nothing with the package: convex pieces by recursive cuts, sums as hulls of all pairwise sums, and every edge of
-every sum cut by all the others. C_forb is open, so what remains of an edge is closed: segments, and single points.
+It shares nothing with the package: convex pieces by recursive cuts, sums as hulls of all pairwise sums, and every edge
+of every sum cut by all the others. C_forb is open, so the remainder of an edge is closed: segments, and single points.
 
     Segments    {line: [(low, high), ...]}, disjoint closed intervals in ascending order
     line        (ux, uy, offset): primitive integer direction u, u x p = offset; forbidden is on its left
@@ -39,15 +39,15 @@ class ExactSlice(NamedTuple):
 
     @property
     def slits(self) -> Segments:
-        """Free segments of no width, each once in either direction. With the points, they are what is free but not in
-        the closure of the interior of what is free."""
+        """Free segments of no width, each once in either direction. With the points, they are the free part outside the
+        closure of the interior of free space."""
         return common(self.segments, reverse(self.segments))
 
 
 class Region(NamedTuple):
     """An open convex set of integer points, where ux * y - uy * x > offset for all (ux, uy, offset) of `sides`.
 
-    `rim` are the sides that can be seen, `box` surrounds it if it is bounded.
+    `rim` are the visible sides, `box` surrounds it if it is bounded.
     """
 
     sides: list[tuple[int, int, int]]
@@ -62,7 +62,7 @@ class Region(NamedTuple):
 
 
 def exact_slice(plain: PlainScene, tau: Fraction | None) -> ExactSlice:
-    """What bounds the forbidden slice at tan(theta/2) = tau; None is the half turn."""
+    """Boundary of the forbidden slice at tan(theta/2) = tau; None is the half turn."""
     c, s = exact_rotation(tau)
     turned = [[(c * x - s * y, s * x + c * y) for x, y in part] for part in _pieces(plain.robot)]
     walls = _pieces(_walls(plain))
@@ -85,7 +85,7 @@ def exact_slice(plain: PlainScene, tau: Fraction | None) -> ExactSlice:
 
 def _visible(regions: Sequence[Region], scale: int) -> ExactSlice:
     """Parts of the rims that are in no region."""
-    found: list[tuple[Line, Interval]] = []
+    parts: list[tuple[Line, Interval]] = []
     single: set[Point] = set()
     for region in regions:
         for p, q in region.rim:
@@ -95,10 +95,10 @@ def _visible(regions: Sequence[Region], scale: int) -> ExactSlice:
             start, length = ux // g * p[0] + uy // g * p[1], (ux * ux + uy * uy) // g
             for low, high in _uncovered(p, q, regions):
                 if low < high:
-                    found.append((line, ((start + low * length) / scale, (start + high * length) / scale)))
+                    parts.append((line, ((start + low * length) / scale, (start + high * length) / scale)))
                 else:
                     single.add((Fraction(p[0] + low * ux) / scale, Fraction(p[1] + low * uy) / scale))
-    segments = united(found)
+    segments = united(parts)
     return ExactSlice(segments, {p for p in single if not on_some(p, segments)})
 
 
@@ -146,7 +146,7 @@ def _inside(p: Point, q: Point, sides: Sequence[tuple[int, int, int]]) -> tuple[
 
 
 def _sum(wall: Sequence[Point], part: Sequence[Point]) -> Ring:
-    """wall (+) -part."""
+    """Sum wall (+) -part."""
     return exact_hull((bx - ax, by - ay) for (bx, by), (ax, ay) in product(wall, part))
 
 
@@ -160,7 +160,7 @@ def _pieces(shapes: Iterable[Shape]) -> list[Ring]:
 
 
 def _walls(plain: PlainScene) -> list[Shape]:
-    """All that the robot must not overlap."""
+    """Polygons that the robot must not overlap."""
     solids = list(plain.obstacles)
     if plain.workspace:
         outer, holes = plain.workspace
@@ -170,7 +170,7 @@ def _walls(plain: PlainScene) -> list[Shape]:
 
 
 def _limits(plain: PlainScene) -> list[tuple[Any, Any, Any, Any]]:
-    """Where the reference point must be: the bounds, and near the workspace, whose complement is a finite frame."""
+    """Boxes that hold the reference point: the bounds, and one around the workspace, whose complement is a frame."""
     return [*([plain.bounds] if plain.bounds else []), *([_around(plain, 2)] if plain.workspace else [])]
 
 
@@ -194,22 +194,22 @@ def _fractions(shape: Shape) -> tuple[Ring, ...]:
 
 @lru_cache(maxsize=10_000)
 def convex_pieces(rings: tuple[Ring, ...]) -> tuple[Ring, ...]:
-    """Convex rings that tile a polygon with holes: cut from a reflex vertex to one it sees, until there is none.
+    """Convex rings that tile a polygon with holes: cut from a reflex vertex to a visible one, until there is none.
 
     A cut to a hole joins its ring to the first; a cut within the first divides it, and each hole goes to its part.
     Where rings touch, the cut has no length; those come first, so that no hole touches a ring that is divided.
     """
     corners = {p for ring in rings for p in ring}
     parts = [tuple(_with_touches(ring, corners) for ring in rings)]
-    found = []
+    pieces = []
     while parts:
         rings = parts.pop()
         cut = _next_cut(rings)
         if cut is None:
-            found.append(rings[0])
+            pieces.append(rings[0])
         else:
             parts += _divided(rings, *cut)
-    return tuple(found)
+    return tuple(pieces)
 
 
 def _with_touches(ring: Ring, corners: set[Point]) -> Ring:
@@ -221,7 +221,7 @@ def _with_touches(ring: Ring, corners: set[Point]) -> Ring:
     return tuple(whole)
 
 
-Visit = tuple[int, int]  # which ring, which of its vertices
+Visit = tuple[int, int]  # ring, and vertex of it
 
 
 def _next_cut(rings: Sequence[Ring]) -> tuple[Visit, Visit] | None:
@@ -238,7 +238,7 @@ def _next_cut(rings: Sequence[Ring]) -> tuple[Visit, Visit] | None:
 
 
 def _divided(rings: Sequence[Ring], one: Visit, other: Visit) -> list[tuple[Ring, ...]]:
-    """The polygon cut open from one visit to the other: with a hole less, or its two parts."""
+    """Polygon cut open from one visit to the other: with a hole less, or its two parts."""
     (r, k), (s, m) = (one, other) if one[0] == 0 else (other, one)
     first, second = (rings[n][v:] + rings[n][:v] for n, v in ((r, k), (s, m)))
     bridge = int(first[0] != second[0])  # a cut without length has its ends but once
@@ -255,14 +255,14 @@ def _corner(ring: Ring, k: int) -> Any:
 
 
 def _touch(rings: Sequence[Ring], one: Visit, other: Visit) -> bool:
-    """Is one in the corner at the other, at the same point?"""
+    """True if one is in the corner at the other, at the same point."""
     ring, k = rings[one[0]], one[1]
     near, m = rings[other[0]], other[1]
     return ring[k] == near[m] and any(_in_corner(ring, k, p) for p in (near[m - 1], near[(m + 1) % len(near)]))
 
 
 def _sees(rings: Sequence[Ring], one: Visit, other: Visit) -> bool:
-    """Is the open segment between two vertices inside the polygon, touching nothing?"""
+    """True if the open segment between two vertices is inside the polygon, touching nothing."""
     p, q = rings[one[0]][one[1]], rings[other[0]][other[1]]
     if p == q or not (_in_corner(rings[one[0]], one[1], q) and _in_corner(rings[other[0]], other[1], p)):
         return False
@@ -270,13 +270,13 @@ def _sees(rings: Sequence[Ring], one: Visit, other: Visit) -> bool:
 
 
 def _in_corner(ring: Ring, k: int, p: Point) -> bool:
-    before, at, after = ring[k - 1], ring[k], ring[(k + 1) % len(ring)]
-    left = orient(before, at, p) > 0, orient(at, after, p) > 0
+    before, here, after = ring[k - 1], ring[k], ring[(k + 1) % len(ring)]
+    left = orient(before, here, p) > 0, orient(here, after, p) > 0
     return any(left) if _corner(ring, k) < 0 else all(left)
 
 
 def _blocks(a: Point, b: Point, p: Point, q: Point) -> bool:
-    """Does the edge ab meet the open segment pq?"""
+    """True if the edge ab meets the open segment pq."""
     sides = orient(p, q, a), orient(p, q, b)
     if sides[0] == 0 or sides[1] == 0:
         return any(side == 0 and _between(p, v, q) for side, v in zip(sides, (a, b), strict=True)) or (
@@ -286,12 +286,12 @@ def _blocks(a: Point, b: Point, p: Point, q: Point) -> bool:
 
 
 def _between(p: Point, v: Point, q: Point) -> bool:
-    """Is v, on the line pq, strictly between p and q?"""
+    """True if v, on the line pq, is strictly between p and q."""
     return (v[0] - p[0]) * (v[0] - q[0]) + (v[1] - p[1]) * (v[1] - q[1]) < 0
 
 
 def _contains(ring: Ring, p: Point) -> bool:
-    """Is p, not on the ring, inside it? By crossings with the ray to the right."""
+    """True if p, not on the ring, is inside it, by crossings with the ray to the right."""
     crossings = 0
     for a, b in edges(ring):
         if (a[1] > p[1]) != (b[1] > p[1]):
@@ -303,7 +303,7 @@ def _contains(ring: Ring, p: Point) -> bool:
 
 
 def united(parts: Iterable[tuple[Line, Interval]]) -> Segments:
-    """Each line's intervals, those that touch or overlap as one."""
+    """Intervals of each line; those that touch or overlap are joined."""
     gathered: dict[Line, list[Interval]] = {}
     for line, interval in parts:
         gathered.setdefault(line, []).append(interval)
@@ -341,7 +341,7 @@ def ends(segments: Segments) -> list[tuple[Point, Point]]:
 
 
 def area(segments: Segments) -> Fraction:
-    """Area of what is forbidden if that is bounded, else minus the area of what is free."""
+    """Area of the forbidden part if it is bounded, else minus the area of the free part."""
     return sum((p[0] * q[1] - p[1] * q[0] for p, q in ends(segments)), Fraction(0)) / 2
 
 
@@ -353,7 +353,9 @@ def reverse(segments: Segments) -> Segments:
 
 
 def both(first: Segments, second: Segments) -> Segments:
-    return united((line, each) for segments in (first, second) for line, kept in segments.items() for each in kept)
+    return united(
+        (line, each) for segments in (first, second) for line, intervals in segments.items() for each in intervals
+    )
 
 
 def common(first: Segments, second: Segments) -> Segments:
@@ -367,7 +369,7 @@ def common(first: Segments, second: Segments) -> Segments:
 
 
 def without(first: Segments, second: Segments) -> Segments:
-    """What of the first is not in the second, closed again."""
+    """Remainder of the first outside the second, closed again."""
     parts = []
     for line, intervals in first.items():
         taken = second.get(line, [])

@@ -1,8 +1,8 @@
-"""What is known of the scenes in `cases`, and its update.
+"""Facts about the scenes in `cases`, and their update.
 
-python tests/support/expected.py                    what differs from the files
-python tests/support/expected.py --write            fill in what the files do not say yet
-python tests/support/expected.py --write --force    replace what differs; review the difference
+python tests/support/expected.py                    list differences from the files
+python tests/support/expected.py --write            fill in facts that the files lack
+python tests/support/expected.py --write --force    replace facts that differ; review the difference
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def half_tangent(text: str) -> Fraction | None:
 
 
 def topology(result: Boundary) -> dict[str, Any]:
-    """What no motion, scaling or mirroring of a scene changes."""
+    """Facts that no motion, scaling or mirroring of a scene changes."""
     kinds = result.isolated.kind
     return {
         "patches": result.stats.patches,
@@ -47,7 +47,7 @@ def topology(result: Boundary) -> dict[str, Any]:
 
 
 def live_surfaces(result: Boundary) -> dict[str, int]:
-    """Surfaces with a live patch, by kind; which patch owns a piece that several have may depend on the axes."""
+    """Surfaces with a live patch, by kind; the patch that owns a piece shared by several may depend on the axes."""
     live = np.unique(result.trapezoids.patch)
     kind, i, j = (
         column[live].astype(np.uint64)
@@ -55,14 +55,16 @@ def live_surfaces(result: Boundary) -> dict[str, int]:
     )
     codes = kind << np.uint64(61) | i << np.uint64(31) | j
     codes = result.features.core.named(codes)
-    found = {(KINDS[PatchKind(kind)], code) for kind, code in zip(result.patch_kind[live], codes.tolist(), strict=True)}
-    return {name: sum(kind == name for kind, _ in found) for name in KINDS.values()}
+    surfaces = {
+        (KINDS[PatchKind(kind)], code) for kind, code in zip(result.patch_kind[live], codes.tolist(), strict=True)
+    }
+    return {name: sum(kind == name for kind, _ in surfaces) for name in KINDS.values()}
 
 
 def slice_facts(plain: PlainScene, tau: str) -> dict[str, Any]:
-    """The exact slice: maximal oriented segments, slits and isolated points among what is free, area.
+    """Facts of the exact slice: maximal oriented segments, slits and isolated points of the free part, area.
 
-    The area is that of what is forbidden, if that is bounded, else minus that of what is free.
+    The area is that of the forbidden part, if it is bounded, else minus that of the free part.
     """
     exact = exact_slice(plain, half_tangent(tau))
     return {
@@ -78,13 +80,13 @@ def facts(path: Path) -> dict[str, Any]:
     """The `check` of a case as it should be."""
     scene = load_scene(path)
     result, plain = boundary(scene, threads=1), plain_of(scene)
-    slices = [slice_facts(plain, at["tau"]) for at in scene.check["slices"]]
+    slices = [slice_facts(plain, entry["tau"]) for entry in scene.check["slices"]]
     return {**topology(result), "live_patches": result.stats.live_patches, "slices": slices}
 
 
 def text_of(check: dict[str, Any]) -> str:
-    """As JSON, a slice a line."""
-    slices = ",\n".join("    " + json.dumps(at) for at in check["slices"])
+    """Facts in JSON, a slice a line."""
+    slices = ",\n".join("    " + json.dumps(entry) for entry in check["slices"])
     return json.dumps({**check, "slices": []}).replace('"slices": []', f'"slices": [\n{slices}\n  ]')
 
 
@@ -96,16 +98,16 @@ def main() -> int:
     differing = 0
     for path in cases():
         text, known = path.read_text(), load_scene(path).check
-        found = facts(path)
-        if known == found:
+        current = facts(path)
+        if known == current:
             continue
-        is_new = set(known) == {"slices"} and all(set(at) == {"tau"} for at in known["slices"])
+        is_new = set(known) == {"slices"} and all(set(entry) == {"tau"} for entry in known["slices"])
         if options.write and (is_new or options.force):
-            path.write_text(re.sub(r'"check": .*', "", text, flags=re.DOTALL) + f'"check": {text_of(found)}\n}}\n')
+            path.write_text(re.sub(r'"check": .*', "", text, flags=re.DOTALL) + f'"check": {text_of(current)}\n}}\n')
             print(f"{path.relative_to(CASES)}: written")
         else:
             differing += 1
-            print(f"{path.relative_to(CASES)}: {'says nothing yet' if is_new else 'differs'}\n  {known}\n  {found}")
+            print(f"{path.relative_to(CASES)}: {'has no facts yet' if is_new else 'differs'}\n  {known}\n  {current}")
     return int(differing > 0)
 
 

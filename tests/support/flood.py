@@ -1,8 +1,8 @@
 """Cells by brute force: slices at many orientations, joined where that is certain, and where it is possible at all.
 
 Between two slices a point of the robot moves by at most radius times step. A position with more room than that in one
-slice is free up to the next: the parts it is in there are certainly one. And where the robot is free in between, the
-same without a rim so wide is free in the slice: parts of that which do not meet are certainly not joined.
+slice is free up to the next: the parts it is in there are certainly one. If the robot is free in between, the same
+robot without a rim so wide is free in the slice. Parts of that which do not meet are certainly not joined.
 """
 
 from __future__ import annotations

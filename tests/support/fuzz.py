@@ -37,7 +37,7 @@ PATIENCE = 20.0  # seconds for one boundary
 
 
 def mistakes(plain: PlainScene, seed: str) -> tuple[list[str], int]:
-    """What is wrong with a scene's boundary, and the number of slices compared; none if the scene is not valid."""
+    """Faults of a scene's boundary, and the number of slices compared; none if the scene is not valid."""
     try:
         scene = scene_of(plain)
     except InvalidPolygonError:
@@ -280,7 +280,7 @@ def crowds(rng: random.Random) -> PlainScene:
 
 
 def far(rng: random.Random) -> PlainScene:
-    """Turned by a long rational, at an offset of 1e9, the reference point 100 or a million away: all, or some of it."""
+    """Scene turned by a long rational, offset by 1e9, its reference point 100 or a million away: all, or some of it."""
     plain = rng.choice([boxes, lattices, corridor, fit, parts])(rng)
     tau, tilt = (rng.choice([Fraction(0), rational(rng, rng.randint(2, 20))]) for _ in range(2))
     x, y = rng.choice([(0, 0), (10**9, -(10**9)), (2**40, Fraction(1, 3))])
@@ -339,7 +339,7 @@ KINDS: dict[str, Callable[[random.Random], PlainScene]] = {
 
 
 def reduced(plain: PlainScene, is_wrong: Callable[[PlainScene], bool]) -> PlainScene:
-    """Something smaller that is still wrong, of which nothing more can be left out or made simpler."""
+    """Smaller scene that is still wrong; nothing more can be left out or made simpler."""
     while True:
         smaller = next((other for other in simpler(plain) if other != plain and is_wrong(other)), None)
         if smaller is None:

@@ -1,10 +1,10 @@
-"""Questions asked both ways and in other words, answers saved, loaded, verified and replayed, until a time is up.
+"""Ask questions in both directions and in other words; save, load, verify and replay the answers, until a time is up.
 
     python tests/support/fuzz_answers.py --seconds 600 --seed 7 --families slot room tiny
     python tests/support/fuzz_answers.py SCENE.json
 
-Question k of family f is the same for ever; the first have the number `--seed`, and the last line says where to go on.
-A fault is shown when its kind is new in a family, and made small when it is new at all; the summary counts it.
+Question k of family f is the same for ever. The first have the number `--seed`, and the last line gives the next one. A
+fault is shown when its kind is new in a family, and made small when it is new at all; the summary counts it.
 """
 
 from __future__ import annotations
@@ -34,25 +34,25 @@ from replay import CLOSE, collisions, deviation
 from shapes import PlainScene
 from workers import Lost, Worker, limited
 
-PATIENCE = 20.0  # seconds of CPU for one answer with all that is checked of it
+PATIENCE = 20.0  # seconds of CPU for one answer with all its checks
 SHRINKING = 15.0  # seconds of CPU for making a question small
 EVERY = 300.0  # seconds between two summaries
-LAWS = 2  # other questions for each, beside the way back, and where it comes from
+LAWS = 2  # other questions for each, beside the way back, and its origin
 WAYS: tuple[dict[str, Any], ...] = ({"improve": 0}, {"objective": "short"}, {"objective": "clear", "improve": 0})
 
-Fault = tuple[str, str]  # kind, for counting; what exactly
+Fault = tuple[str, str]  # kind, for counting; details
 
 
 @dataclass
 class Outcome:
-    """What came of a question and its relatives."""
+    """Results of a question and its relatives."""
 
     verdicts: list[str] = field(default_factory=list)
     faults: list[Fault] = field(default_factory=list)
 
 
 def examined(asked: Question, seed: str, most: int = LAWS) -> Outcome:
-    """The question, its way back, and a few of its other relatives."""
+    """Ask the question, its way back, and a few of its other relatives."""
     rng, outcome = random.Random(seed), Outcome()
     verdict = _answered(asked, outcome, **rng.choices(WAYS, [8, 1, 1])[0])
     if asked.known and verdict and verdict not in (asked.known, "refused"):
@@ -71,13 +71,13 @@ def examined(asked: Question, seed: str, most: int = LAWS) -> Outcome:
 
 
 def _answered(asked: Question, outcome: Outcome, **way: Any) -> str | None:
-    """The verdict, after its evidence was looked at; None if there was a fault instead."""
+    """Verdict, after its evidence was checked; None if there was a fault instead."""
     try:
         with limited(PATIENCE):
             scene = asked.scene
-            found = plan(scene, **(way or WAYS[0]))
-            outcome.faults += evidence(scene, found)
-            verdict = "path" if isinstance(found, Path) else found.of
+            answer = plan(scene, **(way or WAYS[0]))
+            outcome.faults += evidence(scene, answer)
+            verdict = "path" if isinstance(answer, Path) else answer.of
     except InvalidPoseError:
         verdict = "forbidden"
     except UnsupportedError:
@@ -90,25 +90,25 @@ def _answered(asked: Question, outcome: Outcome, **way: Any) -> str | None:
     return verdict
 
 
-def evidence(scene: Scene, found: Path | Separated) -> list[Fault]:
-    """What is wrong with an answer in a file."""
+def evidence(scene: Scene, answer: Path | Separated) -> list[Fault]:
+    """Faults of an answer in a file."""
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder) / "answer.json"
-        save(found, file)
-        faults = [] if load_answer(file) == found else [("another answer after loading", "")]
+        save(answer, file)
+        faults = [] if load_answer(file) == answer else [("another answer after loading", "")]
         result = second_opinion.verified(scene, file)
         if not result.verified:
             kinds = sorted({finding.kind for finding in result.findings})
             faults.append((f"not verified: {', '.join(kinds)}", "; ".join(map(str, result.findings[:2]))))
-        if isinstance(found, Path) and (astray := deviation(scene, found, file)) > CLOSE:
+        if isinstance(answer, Path) and (astray := deviation(scene, answer, file)) > CLOSE:
             faults.append(("decimals lead astray", f"by {astray:.3g} robot sizes"))
-        if isinstance(found, Path) and (count := collisions(scene, file)):
+        if isinstance(answer, Path) and (count := collisions(scene, file)):
             faults.append(("decimals collide", f"{count} poses of those that are called free"))
         return faults
 
 
 def _kind(error: Exception) -> str:
-    """The error, and the innermost place in the package."""
+    """Name of the error, and the innermost place in the package."""
     places = [frame for frame in traceback.extract_tb(error.__traceback__) if "cfree" in frame.filename]
     place = f" in {FilePath(places[-1].filename).stem}.{places[-1].name}" if places else ""
     return f"{type(error).__name__}{place}: {re.sub(r'[0-9]+|[^ ]*/[^ ]*', '.', str(error))[:60]}"
@@ -118,7 +118,7 @@ def _kind(error: Exception) -> str:
 
 
 def reduced(asked: Question, seed: str, kind: str) -> Question:
-    """Something smaller with the same fault, found in time."""
+    """Smaller question with the same fault, found in time."""
     end = time.process_time() + SHRINKING
 
     def fails(plain: PlainScene) -> bool:
@@ -139,7 +139,7 @@ def reduced(asked: Question, seed: str, kind: str) -> Question:
 
 
 def work(name: tuple[str, int, str | None]) -> tuple[Outcome | None, str]:
-    """What comes of a question and its scene; with a kind of fault, of it made small."""
+    """Results of a question, and its scene; with a kind of fault, of the question made small."""
     family, number, kind = name
     asked, seed = question(family, number), f"laws {family} {number}"
     if asked is None:
@@ -174,7 +174,7 @@ def _listed(counts: Counter[str]) -> str:
 
 
 def run(families: list[str], seed: int, seconds: float, most: int) -> int:
-    """Ask until a time is up or so many scenes were; families share the time alike. Returns 1 if there was a fault."""
+    """Ask until a time is up or so many scenes are done; families share the time alike. Return 1 after a fault."""
     end, tally, worker = time.monotonic() + seconds, Tally(), Worker(work, 10 * PATIENCE)
     numbers, spent = dict.fromkeys(families, seed), dict.fromkeys(families, 0.0)
     shown = time.monotonic()
@@ -197,7 +197,7 @@ def run(families: list[str], seed: int, seconds: float, most: int) -> int:
 
 
 def _report(outcome: Outcome, text: str, name: tuple[str, int], tally: Tally, worker: Worker) -> None:
-    """Count what came of a question; show what is new."""
+    """Count the results of a question; show new faults."""
     family, seen = name[0], {kind for counts in tally.faults.values() for kind in counts}
     if "interior" in outcome.verdicts and not tally.verdicts[family]["interior"]:
         print(f"--- {family} {name[1]}: interior", text, sep="\n", flush=True)

@@ -1,10 +1,10 @@
-"""Answers among random round shapes, against dense sampling and their own checker.
+"""Compare answers among random round shapes with dense sampling and their own checker.
 
     python tests/support/fuzz_curves.py --count 1000 --seed 0
 
-A path is looked at every hundredth of a robot, with shapes a little smaller: nothing may overlap. Of what is said to be
-parted, a flood over a grid of poses, with shapes so much larger that the robot is free between two of them, may not go
-from start to goal. Each answer is checked by `cfree.verify`.
+A path is sampled every hundredth of a robot, with shapes a little smaller: nothing may overlap. For separated poses, a
+flood over a grid of poses may not go from start to goal; its shapes are so much larger that the robot is free between
+two of them. Each answer is checked by `cfree.verify`.
 """
 
 from __future__ import annotations
@@ -30,19 +30,19 @@ STEP, TURNS = 0.25, 24  # of the grid
 
 def ends(scene: cfree.Scene, rng: random.Random) -> list[cfree.Pose]:
     """Two poses at which there is a little room."""
-    around, found = Sampled(scene, 0.01), list[cfree.Pose]()
+    around, poses = Sampled(scene, 0.01), list[cfree.Pose]()
     for _ in range(400):
-        far = 4.5 if found else rng.choice([1.0, 4.5])
+        far = 4.5 if poses else rng.choice([1.0, 4.5])
         row = [round(rng.uniform(-far, far), 2), round(rng.uniform(-far, far), 2), round(rng.uniform(0, 6), 2)]
         if around.overlap([row])[0] == 0:
-            found.append(cfree.Pose(*row))
-            if len(found) == 2:
-                return found
+            poses.append(cfree.Pose(*row))
+            if len(poses) == 2:
+                return poses
     return []
 
 
 def is_joined(scene: cfree.Scene, start: cfree.Pose, goal: cfree.Pose) -> bool:
-    """Does a flood of the grid lead from start to goal, certainly?"""
+    """True if a flood of the grid certainly leads from start to goal."""
     reach = max(size_of(part) for part in scene.robot) * 1.5
     by = STEP / 2 + reach * math.pi / TURNS
     around = Sampled(scene, by * 0.75)
@@ -61,7 +61,7 @@ def is_joined(scene: cfree.Scene, start: cfree.Pose, goal: cfree.Pose) -> bool:
         return free[cell]
 
     def near(pose: cfree.Pose) -> list[tuple[int, int, int]]:
-        """Cells to which a pose moves freely for sure: the robot has the room at the cell that the way needs."""
+        """Cells to which a pose certainly moves freely: the robot has the room at the cell that the path needs."""
         i, j = (round((float(c) + 5) / STEP) for c in (pose.x, pose.y))
         k = round(pose.theta / math.tau * TURNS) % TURNS
         return [(i, j, k)] if is_free((i, j, k)) else []
@@ -81,13 +81,13 @@ def is_joined(scene: cfree.Scene, start: cfree.Pose, goal: cfree.Pose) -> bool:
 
 
 def fault(seed: int) -> tuple[str, str]:
-    """What came, and what is wrong with it."""
+    """Kind of the answer, and its fault."""
     scene = random_scene(seed)
-    found = ends(scene, random.Random(f"round ends {seed}"))
-    if not found:
+    pair = ends(scene, random.Random(f"round ends {seed}"))
+    if not pair:
         return "no room", ""
     try:
-        answer = cfree.plan(scene, *found, improve=0.0)
+        answer = cfree.plan(scene, *pair, improve=0.0)
     except cfree.UndecidedError:
         return "undecided", ""
     kind = type(answer).__name__ + getattr(answer, "of", "")
@@ -98,7 +98,7 @@ def fault(seed: int) -> tuple[str, str]:
         poses = answer.sample(0.01, 0.02)
         areas = Sampled(scene, -SMALLER).overlap(np.column_stack([poses.xy, poses.theta]).tolist())
         return kind, f"overlaps by {areas.max():g}" if areas.max() > 0 else ""
-    return kind, "a flood joins them" if is_joined(scene, *found) else ""
+    return kind, "a flood joins them" if is_joined(scene, *pair) else ""
 
 
 def main() -> None:

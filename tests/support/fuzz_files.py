@@ -1,10 +1,10 @@
-"""Files with flipped bits and right checksums: refused, or used without a crash or a hang.
+"""Use files with flipped bits and right checksums: refused, or used without a crash or a hang.
 
 Three in four are of boundaries and cells, the others answers and scenes.
 
     python tests/support/fuzz_files.py --seconds 600 --seed 7
 
-File k is the same for ever. What is neither an error of cfree nor an answer is shown; the last line counts what came.
+File k is the same for ever. Results other than answers and errors of cfree are shown; the last line counts all.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from workers import Lost, Worker
 
 PATIENCE = 60.0  # seconds for all that is done with one file
 KINDS = ("boxes", "corridor", "chain", "fit")
-SCENES = 12  # of which there are files
+SCENES = 12  # scenes that have files
 
 
 @cache
@@ -63,7 +63,7 @@ def _plain(number: int) -> PlainScene:
 
 
 def damaged(rng: random.Random) -> tuple[str, dict[str, Any]]:
-    """One to three flipped bits in one column, or a column that is cut or too long; its name, and all of them."""
+    """Damage a column by one to three flipped bits, or cut or lengthen it; return its name, and all columns."""
     arrays = dict(saved(rng.randrange(SCENES)))
     name = rng.choice([key for key, array in arrays.items() if array.size])
     array = arrays[name].copy()
@@ -80,7 +80,7 @@ def damaged(rng: random.Random) -> tuple[str, dict[str, Any]]:
 
 
 def sealed(arrays: dict[str, Any]) -> dict[str, Any]:
-    """With the digest that fits, if the header can be read."""
+    """Columns with the matching digest, if the header can be read."""
     try:
         header = json.loads(arrays["header"].tobytes())
         header = signed(header, {name: array for name, array in arrays.items() if name != "header"})
@@ -91,7 +91,7 @@ def sealed(arrays: dict[str, Any]) -> dict[str, Any]:
 
 @cache
 def texts() -> list[tuple[str, Scene, bytes]]:
-    """Files of answers and of scenes: what they are, the scene, the bytes."""
+    """Files of answers and of scenes: their kind, the scene, the bytes."""
     closed = scene_of(PlainScene([box(0, 0, 1, 2)], [box(0, -3, 1, 9)], bounds=(-9, -2, 9, 5)))
     start, goal = Pose(-5, 0), Pose(5, 0)
     pairs: list[tuple[Scene, Any]] = [corridor(), tee(), (closed, plan(closed, start, goal, improve=0))]
@@ -100,7 +100,7 @@ def texts() -> list[tuple[str, Scene, bytes]]:
 
 
 def used(number: int) -> tuple[str, str, str]:
-    """The column of a damaged file, or what is in it, what came of using it, and what is wrong with that."""
+    """Column of a damaged file, or its kind, the result of using it, and its fault."""
     rng = random.Random(f"file {number}")
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder) / ("damaged.json" if number % 4 == 3 else "damaged.npz")
@@ -125,16 +125,16 @@ def used(number: int) -> tuple[str, str, str]:
 
 
 def _everything(file: FilePath, rng: random.Random) -> str:
-    """Questions of all kinds to a file."""
-    given = load_boundary(file)
+    """Ask questions of all kinds to a file."""
+    stored = load_boundary(file)
     taus = [rng.choice([0, 1, None, "1/3", "-7/5"]) for _ in range(2)]
     ask = {
-        "slice": lambda: [given.slice({"tau": tau}).forbidden for tau in taus],
-        "cells": lambda: given.complex.euler,
-        "areas": lambda: trapezoid_areas(given),
-        "verify": lambda: cfree.verify.boundary(given, slices=2),
+        "slice": lambda: [stored.slice({"tau": tau}).forbidden for tau in taus],
+        "cells": lambda: stored.complex.euler,
+        "areas": lambda: trapezoid_areas(stored),
+        "verify": lambda: cfree.verify.boundary(stored, slices=2),
         "space": lambda: _space(load_space(file)),
-        "glued": lambda: _space(free_space(given)),
+        "glued": lambda: _space(free_space(stored)),
     }
     names = rng.sample(list(ask), 3)
     for name in names:

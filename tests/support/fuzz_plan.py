@@ -1,8 +1,7 @@
-"""Questions on random scenes, degenerate ones among them: ``python tests/support/fuzz_plan.py 10000 --seed 1``.
+"""Ask questions on random scenes, degenerate ones included: ``python tests/support/fuzz_plan.py 10000 --seed 1``.
 
-Of each scene, pairs of poses in one cell, walked from one to the other without a search, and pairs in different cells,
-separated and verified by both checkers. What a flood knows for certain has to agree. Prints what is wrong, and exits
-with 1.
+Each scene has pairs of poses in one cell, walked from one to the other without a search, and pairs in different cells,
+separated and verified by both checkers. Certain results of a flood must agree. It prints faults, and exits with 1.
 """
 
 from __future__ import annotations
@@ -40,8 +39,8 @@ def questions(scene: Scene, rng: random.Random, count: int) -> tuple[Planner, li
     ]
     poses += [Pose(rng.randint(int(x0), int(x1)), rng.randint(int(y0), int(y1)), f"{90 * k}deg") for k in range(4)]
     cells = space.locate(poses).tolist()
-    kept = [k for k, cell in enumerate(cells) if cell >= 0]
-    return Planner(space.boundary.scene, space), [poses[k] for k in kept], [cells[k] for k in kept]
+    free = [k for k, cell in enumerate(cells) if cell >= 0]
+    return Planner(space.boundary.scene, space), [poses[k] for k in free], [cells[k] for k in free]
 
 
 def _box(scene: Scene) -> tuple[float, float, float, float]:
@@ -54,12 +53,12 @@ def _box(scene: Scene) -> tuple[float, float, float, float]:
 
 
 def scene_named(kind: str, number: int) -> PlainScene:
-    """One of `fuzz`, or of `shapes`."""
+    """Scene of `fuzz`, or of `shapes`."""
     return fuzz.scene(kind, number) if kind in fuzz.KINDS else random_scene(number, kind)
 
 
 def mistakes(kind: str, number: int, tally: Counter[str], most: int = 3) -> list[str]:
-    """What is wrong with the answers in one random scene."""
+    """Faults of the answers in one random scene."""
     rng, plain = random.Random(f"{kind} {number}"), scene_named(kind, number)
     scene = scene_of(plain)
     planner, poses, cells = questions(scene, rng, 12)
@@ -74,9 +73,9 @@ def mistakes(kind: str, number: int, tally: Counter[str], most: int = 3) -> list
         if not (walked.is_free(checker) and walked.start == poses[i] and walked.goal == poses[j]):
             wrong.append(f"walk from {poses[i]} to {poses[j]} is not free")
     for i, j in [(i, j) for i, j in pairs if cells[i] != cells[j]][:most]:
-        found = planner.plan(poses[i], poses[j])
-        tally["contact paths" if isinstance(found, Path) else found.of] += 1
-        result = verified_in_a_file(scene, found)
+        answer = planner.plan(poses[i], poses[j])
+        tally["contact paths" if isinstance(answer, Path) else answer.of] += 1
+        result = verified_in_a_file(scene, answer)
         if not result.verified:
             wrong.append(f"from {poses[i]} to {poses[j]}: {result.findings[:3]}")
     if number % 10 == 0:

@@ -1,7 +1,7 @@
-"""The core's predicates, for as long as one likes: ``python tests/support/fuzz_predicates.py --seconds 60 --seed 1``.
+"""Query the core's predicates for any time: ``python tests/support/fuzz_predicates.py --seconds 60 --seed 1``.
 
-Prints how much was asked of each family of scenes. Stops at the first answer that differs from the reference, prints
-the scene and what was asked, and exits with 1; `--family` and `--seed` as printed repeat it.
+It prints the number of queries for each family of scenes. It stops at the first answer that differs from the reference,
+prints the scene and the query, and exits with 1; `--family` and `--seed` as printed repeat it.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
-"""Damaged and hostile drawings, maps and footprints: read, or refused with one error, in little time and memory.
+"""Check readers with damaged and hostile drawings, maps and footprints: each is read, or refused with one error.
 
     python tests/support/fuzz_readers.py --count 100000 --seed 7
 
-File k is the same for ever. What is neither shapes nor an error of cfree is shown; the last line counts what came.
+File k is the same for ever, and may take little time and memory. Results other than shapes and errors of cfree are
+shown; the last line counts all.
 """
 
 from __future__ import annotations
@@ -95,7 +96,7 @@ def changed(rng: random.Random, content: bytes) -> bytes:
 
 
 def used(number: int, folder: Path) -> tuple[str, str, str]:
-    """The name of a damaged file, what came of reading it, and what is wrong with that."""
+    """Name of a damaged file, the result of reading it, and its fault."""
     name, content, image = damaged(number)
     (folder / name).write_bytes(content)
     (folder / "map.pgm").write_bytes(image)
@@ -106,7 +107,7 @@ def used(number: int, folder: Path) -> tuple[str, str, str]:
             shapes.scene()
         came, wrong = "shapes", ""
     except CfreeError as error:
-        came, wrong = type(error).__name__, "" if str(error) else "an error that says nothing"
+        came, wrong = type(error).__name__, "" if str(error) else "an error without a message"
     except Exception as error:
         came, wrong = type(error).__name__, traceback.format_exc()
     if time.process_time() - begin > PATIENCE:

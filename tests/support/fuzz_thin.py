@@ -1,9 +1,9 @@
-"""Polygons for thin and flat round shapes, and verdicts about poses among them, against exact points of their rims.
+"""Compare polygons for thin and flat round shapes, and verdicts about poses, with exact points of their rims.
 
     python tests/support/fuzz_thin.py --count 100000 --seed 0
 
-A case is an exact point of a rim. It may not be outside of the polygon around the shape, nor inside of the other one.
-A pose at which a corner is a little beyond the rim, or a little within, may not be told to be what it is not.
+A case is an exact point of a rim. It may not be outside of the polygon around the shape, nor inside of the other one. A
+pose at which a corner is a little beyond the rim, or a little within, may not get the wrong verdict.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ SCENE = [(0, 0), (1, 0), (0, 1)]
 
 
 def faults(seed: int) -> tuple[Counter[str], list[str]]:
-    """How many cases of each kind one shape gives, and what is wrong."""
+    """Numbers of cases of each kind for one shape, and its faults."""
     rng = random.Random(f"thin {seed}")
     family, thin = rng.choice(FAMILIES), Fraction(1, 2 ** rng.randrange(5, 81))
     shape = thin_shape(rng, family, thin)
@@ -41,23 +41,23 @@ def faults(seed: int) -> tuple[Counter[str], list[str]]:
         for ring in (shape.path, *shape.holes):
             for p in rim_points(ring, rng, POINTS):
                 counted["points"] += 1
-                at = side(p, polygons[0].exact_rings)
-                if at > 0 if inside else at < 0:
+                place = side(p, polygons[0].exact_rings)
+                if place > 0 if inside else place < 0:
                     kind = "inner" if inside else "outer"
                     wrong.append(f"{family} {float(thin):g}: {kind}({error:g}) has {p} on the wrong side")
         scene = cfree.Scene(SCENE, [shape])
         text = [*mismatches(scene, scene.inner(error) if inside else scene.outer(error), outward=not inside)]
         counted["polygons verified"] += 1
-        wrong += [f"{family} {float(thin):g}: {found}" for found in text]
+        wrong += [f"{family} {float(thin):g}: {verdict}" for verdict in text]
     for scene, pose, is_free, kind in touching(rng, thin):
         try:
-            found = cfree.is_free(scene, pose)
+            verdict = cfree.is_free(scene, pose)
         except cfree.UnsupportedError:
             counted["beyond the range of numbers"] += 1
             continue
-        counted[f"poses, {kind}: {'undecided' if found is None else 'decided'}"] += 1
-        if found is (not is_free):
-            wrong.append(f"{kind} {float(thin):g}: {pose} in {scene} is said to be {'free' if found else 'forbidden'}")
+        counted[f"poses, {kind}: {'undecided' if verdict is None else 'decided'}"] += 1
+        if verdict is (not is_free):
+            wrong.append(f"{kind} {float(thin):g}: {pose} in {scene} is called {'free' if verdict else 'forbidden'}")
     return counted, wrong
 
 
@@ -69,8 +69,8 @@ def main() -> None:
     counted, begin, seed, bad = Counter[str](), time.monotonic(), options.seed, 0
     with suppress(KeyboardInterrupt):
         while sum(counted.values()) < options.count:
-            found, wrong = faults(seed)
-            counted += found
+            counts, wrong = faults(seed)
+            counted += counts
             bad += len(wrong)
             for text in wrong:
                 print(f"seed {seed}: {text}", flush=True)

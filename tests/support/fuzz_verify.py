@@ -1,7 +1,7 @@
-"""The scenes of `fuzz.py`, verified: ``python tests/support/fuzz_verify.py 10000 --seed 1``.
+"""Verify the scenes of `fuzz.py`: ``python tests/support/fuzz_verify.py 10000 --seed 1``.
 
-Euler numbers are compared with those of the core's cell complex, too. Prints what is found and, at the end, the first
-scene with a finding made small; exits with 1 if there is one.
+Euler numbers are also compared with those of the core's cell complex. It prints findings and, at the end, the first
+scene with a finding made small; it exits with 1 if there is one.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from shapes import PlainScene
 
 
 def findings(plain: PlainScene, slices: int, seed: int) -> list[str] | None:
-    """What `verify` finds; None if the scene is not valid."""
+    """Findings of `verify`; None if the scene is not valid."""
     try:
         scene = scene_of(plain)
     except InvalidPolygonError:

@@ -1,6 +1,6 @@
 """Scenes made to be hard for predicates, family by family.
 
-A scene is rings of numbers; they need not be polygons, as the predicates see vertices and edges alone.
+A scene is rings of numbers; they need not be polygons, as the predicates use vertices and edges alone.
 """
 
 from __future__ import annotations
@@ -209,7 +209,7 @@ def near_walls(rng: random.Random) -> Rings:
 
 
 def turned_far(rng: random.Random) -> Rings:
-    """A degenerate scene turned by a rational of 5 to 40 digits, far from the origin; the reference point far, too."""
+    """A degenerate scene turned by a rational of 5 to 40 digits, with origin and reference point far away."""
     p, q = (rng.randrange(10 ** rng.randint(4, 40)) + 1 for _ in range(2))
     c, s, w = q * q - p * p, 2 * p * q, p * p + q * q
     x0, y0 = rng.choice([(0, 0), (10**9, -(10**9)), (2**40, Fraction(1, 3))])
@@ -230,7 +230,7 @@ def turned_far(rng: random.Random) -> Rings:
 
 
 def distinct(rings: Rings) -> Rings:
-    """Vertices that fell together are dropped; a ring of fewer than three becomes a triangle."""
+    """Drop vertices that fell together; a ring of fewer than three becomes a triangle."""
 
     def part(those: list[Ring]) -> list[Ring]:
         unique = [list(dict.fromkeys(ring)) for ring in those]

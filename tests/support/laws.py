@@ -1,4 +1,4 @@
-"""What answers to related questions have to do with each other."""
+"""Relations between the answers to related questions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Relation = Literal["same", "no harder", "no easier"]
 
 
 class Law(NamedTuple):
-    """A question whose answer is the same as another's; or a path if that is one; or none if that is none."""
+    """A related question: its answer is the same, or a path if the other is one, or none if the other is none."""
 
     name: str
     other: Question
@@ -26,7 +26,7 @@ class Law(NamedTuple):
 
 
 def laws(rng: random.Random, question: Question) -> Iterator[Law]:
-    """In the order in which they should be tried; numbers of the same generator are the same laws."""
+    """Laws in the order in which they should be tried; numbers of the same generator give the same laws."""
     yield Law("reversed", question.reversed, "same")
     if question.origin:
         yield Law("carried back", question.origin, "same")
@@ -51,7 +51,7 @@ def laws(rng: random.Random, question: Question) -> Iterator[Law]:
 
 
 def broken(law: Law, verdict: Verdict, other: Verdict) -> str | None:
-    """What a pair of answers contradicts, if it does; "interior" is an answer that is not complete."""
+    """Contradiction of a pair of answers, if there is one; "interior" is an answer that is not complete."""
     if law.relation == "same":
         return None if verdict == other else f"{law.name}: {verdict}, then {other}"
     easy, hard = (other, verdict) if law.relation == "no harder" else (verdict, other)
@@ -59,7 +59,7 @@ def broken(law: Law, verdict: Verdict, other: Verdict) -> str | None:
 
 
 def mirror_image(question: Question) -> Question:
-    """In the y-axis: of the world, and of the robot's frame."""
+    """Mirror a question in the y-axis: of the world, and of the robot's frame."""
     plain = question.plain
     bounds = plain.bounds and (-plain.bounds[2], plain.bounds[1], -plain.bounds[0], plain.bounds[3])
     image = PlainScene(

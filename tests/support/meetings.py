@@ -18,7 +18,7 @@ LARGE, THIRD, TINY = Fraction(10**9), Fraction(1, 3), Fraction(7, 10**12)
 
 
 def line_at(surface: Surface, tau: Fraction | None) -> Line:
-    """A point and a vector: where the reference point is for t = 0, and how far it goes until t = 1."""
+    """Point and vector: the reference point for t = 0, and its displacement until t = 1."""
     (px, py), (qx, qy) = surface.p, surface.q
     (ax, ay), (gx, gy) = M(tau, surface.a), M(tau, surface.g)
     return (px - ax, py - ay), (qx - gx, qy - gy)
@@ -33,7 +33,7 @@ def difference(p: Vec, q: Vec) -> Vec:
 
 
 def parameter(line: Line, point: Vec) -> Fraction | None:
-    """t of a point, None if it is not on the line."""
+    """Parameter t of a point, None if it is not on the line."""
     P, U = line
     offset = difference(point, P)
     if cross(offset, U):
@@ -42,7 +42,7 @@ def parameter(line: Line, point: Vec) -> Fraction | None:
 
 
 def crossing(one: Line, other: Line) -> Vec | None:
-    """None if they are parallel."""
+    """Point where two lines meet; None if they are parallel."""
     D = cross(one[1], other[1])
     if D == 0:
         return None
@@ -52,15 +52,15 @@ def crossing(one: Line, other: Line) -> Vec | None:
 
 @st.composite
 def surfaces(draw: st.DrawFn, count: int) -> tuple[Surface, ...]:
-    """Of small shapes, many edges parallel, vertices shared, shapes congruent; some far away or with long numbers."""
+    """Draw surfaces of small shapes: parallel edges, shared vertices, congruent; some far away or with long numbers."""
     robot = draw(strategies.polygons())
     others = [draw(st.one_of(st.just(robot), strategies.polygons())) for _ in range(draw(st.integers(1, 2)))]
     offset, scale = draw(st.sampled_from([(Fraction(0), Fraction(1)), (LARGE, Fraction(1)), (THIRD, TINY)]))
     A = Polygon(*robot)
-    found = []
+    drawn = []
     for _ in range(count):
         O = Polygon(*shapes.moved(shapes.scaled(draw(st.sampled_from(others)), scale), offset, -offset))
         kind = draw(st.sampled_from((VertexEdge, EdgeVertex)))
         contact = kind(draw(st.integers(0, len(A) - 1)), draw(st.integers(0, len(O) - 1)))
-        found.append(contact_surface(A, O, contact))
-    return tuple(found)
+        drawn.append(contact_surface(A, O, contact))
+    return tuple(drawn)

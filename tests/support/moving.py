@@ -48,7 +48,7 @@ CURVE = [0, 0, -2, 2], [0, 2, -2], [1, 0, 1]
 
 
 def turning(tau: object = 1) -> Slide:
-    """From one corridor as wide as the square into the other: by up to a quarter turn."""
+    """Slide from one corridor as wide as the square into the other: by up to a quarter turn."""
     return Slide((ON_FLOOR, ON_CORNER), *CURVE, tau)  # type: ignore[arg-type]
 
 

@@ -1,4 +1,4 @@
-"""Boundaries with one thing wrong; `python mutations.py SCENE.json ...` prints how many `verify` detects, by kind."""
+"""Boundaries with one thing wrong; `python mutations.py SCENE.json ...` counts those that `verify` detects, by kind."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ ANGLE = ("first", "second", "lo", "hi", "place")
 
 
 def columns_of(good: Boundary) -> Columns:
-    """Copies; the columns of isolated parts are one of them."""
+    """Copy the columns; those of isolated parts are one of them."""
     columns = {name: getattr(good.trapezoids, name).copy() for name in COLUMNS}
     columns |= {name: getattr(good, name).copy() for name in CONTACT}
     return columns | {"isolated": {name: getattr(good.isolated, name).copy() for name in ISOLATED_COLUMNS}}
@@ -178,7 +178,7 @@ def move_an_interval(rng: random.Random, good: Boundary, columns: Columns) -> bo
 
 
 def narrow_an_interval(rng: random.Random, good: Boundary, columns: Columns) -> bool:
-    """To one of its ends: no root is left, if the end is none."""
+    """Narrow it to one of its ends: no root is left, if the end is none."""
     k, end = pick(rng, good), rng.choice(["from", "to"])
     lo, hi = columns[f"{end}_lo"], columns[f"{end}_hi"]
     was_wide = bool(lo[k] < hi[k])
@@ -187,7 +187,7 @@ def narrow_an_interval(rng: random.Random, good: Boundary, columns: Columns) -> 
 
 
 def widen_an_interval(rng: random.Random, good: Boundary, columns: Columns) -> bool:
-    """To the whole chart, where that holds two roots or more."""
+    """Widen it to the whole chart, where that holds two roots or more."""
     for _ in range(50):
         k, end = pick(rng, good), rng.choice(["from", "to"])
         if roots_in_chart(good, k, end) > 1:
@@ -248,7 +248,7 @@ def duplicate_an_isolated_part(rng: random.Random, good: Boundary, columns: Colu
 
 
 def invent_a_point(rng: random.Random, good: Boundary, columns: Columns) -> bool:
-    """Of a trapezoid: its corner; below, one of its walls, or one of its curves."""
+    """Make one from a trapezoid: its corner; below, one of its walls, or one of its curves."""
     if (part := part_of(good, rng)) is None:
         return False
     part |= {f"to_{name}": part[f"from_{name}"] for name in (*ANGLE, "patch")} | {"upper": part["lower"]}
@@ -268,7 +268,7 @@ def invent_a_curve(rng: random.Random, good: Boundary, columns: Columns) -> bool
 
 
 def lengthen_or_shorten_a_segment(rng: random.Random, good: Boundary, columns: Columns) -> bool:
-    """To another curve of its patch: one of the lengths of a v-e, e-v or v-v pair of the scene."""
+    """Move an end to another curve of its patch: one of the lengths of a v-e, e-v or v-v pair of the scene."""
     if not len(good.isolated):
         return False
     isolated, t = columns["isolated"], good.trapezoids
@@ -284,7 +284,7 @@ def lengthen_or_shorten_a_segment(rng: random.Random, good: Boundary, columns: C
 
 
 def turn_an_isolated_part(rng: random.Random, good: Boundary, columns: Columns) -> bool:
-    """To another critical angle, of a trapezoid or of another part; its curves stay."""
+    """Turn it to another critical angle, of a trapezoid or of another part; its curves stay."""
     if not len(good.isolated):
         return False
     isolated = columns["isolated"]
@@ -306,7 +306,7 @@ def turn_an_isolated_part(rng: random.Random, good: Boundary, columns: Columns) 
 
 
 def change_the_patch_of_an_isolated_part(rng: random.Random, good: Boundary, columns: Columns) -> bool:
-    """To one of another line."""
+    """Change the patch to one of another line."""
     if not len(good.isolated):
         return False
     patch, k = columns["isolated"]["patch"], rng.randrange(len(good.isolated))
@@ -321,16 +321,16 @@ def reader_of(good: Boundary) -> Reader:
 
 
 def part_of(good: Boundary, rng: random.Random) -> dict[str, Any] | None:
-    """A trapezoid as an isolated part."""
+    """Make an isolated part from a trapezoid."""
     if not len(good.trapezoids):
         return None
     k = pick(rng, good)
     part = {name: getattr(good.trapezoids, name)[k] for name in COLUMNS}
-    return part | {f"{of}_patch": part["patch"] for of in ("lower", "upper", "from", "to")}
+    return part | {f"{column}_patch": part["patch"] for column in ("lower", "upper", "from", "to")}
 
 
 def with_ends(good: Boundary, part: dict[str, Any]) -> dict[str, Any] | None:
-    """The rounded t of its ends made right; None if there are none."""
+    """Correct the rounded t of its ends; None if there are none."""
     reader = reader_of(good)
     # a table of one row, for the reader
     row: Any = SimpleNamespace(**{name: np.array([value]) for name, value in part.items()})
@@ -373,22 +373,22 @@ MUTATIONS = OF_TRAPEZOIDS + OF_ISOLATED_PARTS
 
 
 def roots_in_chart(good: Boundary, k: int, end: str) -> int:
-    """How many roots in [-1, 1] the polynomial has that names an angle."""
+    """Number of roots in [-1, 1] of the polynomial that names an angle."""
     t = good.trapezoids
     first, second = (int(getattr(t, f"{end}_{name}")[k]) for name in ("first", "second"))
     if not first:
         return 0
     reader = reader_of(good)
     defining = reader.defining(first, second, reader.surface(int(t.patch[k])), int(t.chart[k]))
-    found = np.roots([float(c) for c in reversed(defining)])
-    return int(np.sum((abs(found.imag) < 1e-9) & (abs(found.real) < 1)))
+    values = np.roots([float(c) for c in reversed(defining)])
+    return int(np.sum((abs(values.imag) < 1e-9) & (abs(values.real) < 1)))
 
 
 # --- trying them ---
 
 
 def mutants(good: Boundary, mutate: Mutation, count: int, seed: int = 0) -> Iterator[Boundary]:
-    """At most `count` boundaries that differ from a good one in what they say."""
+    """Yield at most `count` boundaries that differ from a good one in content."""
     rng = random.Random(f"{mutate.__name__} {seed}")
     for _ in range(4 * count):
         columns = columns_of(good)
@@ -404,7 +404,7 @@ def detected(bad: Boundary, slices: int = 2) -> Verification:
 
 
 def says_the_same(good: Boundary, bad: Boundary) -> bool:
-    """Other names for the same curves and angles: it is in the same places everywhere. Judged by the core."""
+    """True if the core judges that only names of curves and angles differ, and all places are the same."""
     t, s = good.trapezoids, bad.trapezoids
     if len(t) != len(s) or any(np.any(getattr(t, name) != getattr(s, name)) for name in ("patch", "chart")):
         return False
@@ -423,7 +423,7 @@ def says_the_same(good: Boundary, bad: Boundary) -> bool:
 
 
 def part_ends(boundary: Boundary, k: int) -> list[float]:
-    """Of an isolated part, x, y and the direction theta of both ends."""
+    """Ends of an isolated part: x, y and the direction theta of both."""
     ends = boundary.isolated_part(k).ends
     return [number for x, y, theta in ends for number in (x, y, math.cos(theta), math.sin(theta))]
 
@@ -431,7 +431,7 @@ def part_ends(boundary: Boundary, k: int) -> list[float]:
 def main(paths: list[str], count: int = 10) -> None:
     tried: Counter[str] = Counter()
     same: Counter[str] = Counter()
-    found: Counter[str] = Counter()
+    caught: Counter[str] = Counter()
     by: dict[str, Counter[str]] = {}
     for path in paths:
         good = boundary(load_scene(Path(path)))
@@ -441,15 +441,15 @@ def main(paths: list[str], count: int = 10) -> None:
                 result = detected(bad, 12 if mutate in OF_ISOLATED_PARTS else 2)
                 tried[name] += 1
                 if not result.verified:
-                    found[name] += 1
+                    caught[name] += 1
                     by.setdefault(name, Counter()).update({finding.kind for finding in result.findings})
                 elif says_the_same(good, bad):
                     same[name] += 1
     print("| mutation | tried | detected | only renamed | missed | found by |", "|---|--:|--:|--:|--:|---|", sep="\n")
     for name, number in tried.items():
         checks = ", ".join(f"{check} {n}" for check, n in by.get(name, Counter()).most_common(2))
-        missed = number - same[name] - found[name]
-        print(f"| {name} | {number} | {found[name]} | {same[name]} | {missed} | {checks} |")
+        missed = number - same[name] - caught[name]
+        print(f"| {name} | {number} | {caught[name]} | {same[name]} | {missed} | {checks} |")
 
 
 if __name__ == "__main__":

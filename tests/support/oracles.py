@@ -32,7 +32,7 @@ Box = tuple[Any, Any, Any, Any]
 
 
 class AtALoss(Exception):
-    """In floating point the answer would not be the scene's."""
+    """A floating-point answer that would not be the scene's."""
 
 
 # --- floating point, by shapely ---
@@ -45,7 +45,7 @@ def forbidden_slice(
     bounds: Box | None = None,
     workspace: Polygon | None = None,
 ) -> shapely.Geometry:
-    """Where the reference point may not be at one theta: the union of O_k (+) -R A_p over convex pieces.
+    """Forbidden places of the reference point at one theta: the union of O_k (+) -R A_p over convex pieces.
 
     With `bounds` or `workspace` the true region has no end; it is then given up to the rim of `window`.
     """
@@ -62,7 +62,7 @@ def forbidden_slice(
 
 
 def _union(shapes: Sequence[shapely.Geometry]) -> shapely.Geometry:
-    """Once more on a fine grid: rarely, rounding takes one of its holes from a union of needles."""
+    """Unite once more on a fine grid: rarely, rounding takes one of its holes from a union of needles."""
     union = shapely.union_all(shapes)
     size = np.fmax.reduce(np.abs(union.bounds), initial=1)
     if abs(union.area - shapely.union_all(shapes, grid_size=2.0**-40 * size).area) > 1e-9 * size**2:
@@ -103,7 +103,7 @@ def overlap_area(robot: Sequence[Polygon], obstacles: Sequence[Polygon], pose: S
 
 
 def overlaps(robot: Sequence[Polygon], obstacles: Sequence[Polygon], pose: Sequence[float]) -> bool:
-    """Do the interiors intersect? For poses off contact; on contact ask `exact_overlaps`."""
+    """True if the interiors intersect. This is for poses off contact; on contact use `exact_overlaps`."""
     return overlap_area(robot, obstacles, pose) > 0
 
 
@@ -210,7 +210,7 @@ def exact_hulls(
 
 
 def in_some_hull(point: Sequence[Any], hulls: Iterable[ExactRing]) -> bool:
-    """Is the rational point strictly inside one of the convex counter-clockwise rings?"""
+    """True if the rational point is strictly inside one of the convex counter-clockwise rings."""
     p = (Fraction(point[0]), Fraction(point[1]))
     return any(all(orient(a, b, p) > 0 for a, b in edges(hull)) for hull in hulls)
 
@@ -218,7 +218,7 @@ def in_some_hull(point: Sequence[Any], hulls: Iterable[ExactRing]) -> bool:
 def exact_overlaps(
     robot: Sequence[Polygon], obstacles: Sequence[Polygon], x: Any, y: Any, tau: Fraction | None
 ) -> bool:
-    """Do the interiors intersect? By separating axes on pairs of triangles; holds at contact too."""
+    """True if the interiors intersect, by separating axes on pairs of triangles; holds also at contact."""
     parts = [exact_place(part, Fraction(x), Fraction(y), tau) for part in exact_triangles(robot)]
     x0, y0, x1, y1 = exact_box(point for part in parts for point in part)
     for wall in exact_triangles(obstacles):
@@ -237,7 +237,7 @@ def exact_is_forbidden(
     bounds: Box | None = None,
     workspace: Polygon | None = None,
 ) -> bool:
-    """Is the pose in C_forb: an obstacle or the outside of the workspace overlapped, or the bounds left?"""
+    """True if the pose is in C_forb: an obstacle or the outside of the workspace overlapped, or the bounds left."""
     x, y = Fraction(x), Fraction(y)
     if bounds:
         x0, y0, x1, y1 = map(Fraction, bounds)
@@ -263,7 +263,7 @@ def exact_triangles(polygons: Sequence[Polygon]) -> list[ExactRing]:
 
 
 def exact_area(polygons: Sequence[Polygon]) -> Fraction:
-    """Sum of the areas, holes taken out; overlaps count twice."""
+    """Sum of the areas without holes; overlaps count twice."""
     total = Fraction()
     for outer, holes in map(_fractions, polygons):
         total += abs(ring_area(outer)) - sum(abs(ring_area(hole)) for hole in holes)
@@ -290,7 +290,7 @@ def exact_box(points: Iterable[ExactPoint]) -> tuple[Fraction, Fraction, Fractio
 
 
 def interiors_meet(first: ExactRing, second: ExactRing) -> bool:
-    """Do the interiors of two convex counter-clockwise rings intersect?"""
+    """True if the interiors of two convex counter-clockwise rings intersect."""
     for one, other in ((first, second), (second, first)):
         if any(all(orient(a, b, p) <= 0 for p in other) for a, b in edges(one)):
             return False
@@ -311,7 +311,7 @@ def ring_area(ring: Sequence[Any]) -> Any:
     return sum(p[0] * q[1] - q[0] * p[1] for p, q in edges(ring)) / 2
 
 
-# --- preparation, remembered because the same scene is asked about at many poses ---
+# --- preparation, cached because the same scene is queried at many poses ---
 
 
 def _floats(polygons: Sequence[Polygon]) -> tuple[Any, ...]:

@@ -1,4 +1,4 @@
-"""Texts of a picture that touch: boxes of everything that is really written, slanting ones as they stand."""
+"""Texts of a picture that touch: boxes of all drawn texts, slanting ones at their angle."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -10,22 +10,22 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from shapely.affinity import rotate
 
-SHARED = 0.5  # pixels by which boxes may be into each other: their edges are rounded
+SHARED = 0.5  # pixels by which boxes may overlap: their edges are rounded
 
 
 def written(figure: Figure) -> list[tuple[str, shapely.Polygon]]:
     """All texts that are drawn, and their boxes in pixels."""
-    found: list[tuple[str, shapely.Polygon]] = []
+    texts: list[tuple[str, shapely.Polygon]] = []
     draw = Text.draw
 
     def noted(self: Text, renderer: RendererBase) -> None:
         draw(self, renderer)
         if self.get_visible() and self.get_text().strip():
-            found.append((self.get_text().strip(), _box(self, renderer)))
+            texts.append((self.get_text().strip(), _box(self, renderer)))
 
     with patch.object(Text, "draw", noted):
         figure.draw_without_rendering()
-    return found
+    return texts
 
 
 def touching(figure: Figure) -> Iterator[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""The page in a browser: what is done and seen in it."""
+"""The page in a browser: actions on it, and its state."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ SWIFTSHADER = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 
 
 def bare_page(folder: Path) -> Path:
-    """The page of the package, without a scene of one's own, as a file."""
+    """Page of the package, without a scene of one's own, as a file."""
     page = folder / "page.html"
     page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
     return page
 
 
 class Tried:
-    """A page of a scene; closing it sees that nothing was complained of and nothing asked for from outside."""
+    """A page of a scene; closing it checks that there were no complaints and no requests to the outside."""
 
     def __init__(self, browser: Any, path: Path, fragment: str = "", **device: Any) -> None:
         self.context = browser.new_context(**{"viewport": {"width": 1280, "height": 800}} | device)
@@ -38,18 +38,18 @@ class Tried:
         self.page.locator(f"body[data-ready='{name}']").wait_for(timeout=120_000)
 
     def give(self, text: str, name: str = "scene.json") -> None:
-        """A file, by the button that opens files."""
+        """Give it a file, by the button that opens files."""
         self.page.set_input_files("#file", {"name": name, "mimeType": "application/json", "buffer": text.encode()})
 
     def say(self, which: str, text: str) -> None:
         self.page.locator(which).filter(has_text=text).wait_for(timeout=30_000)
 
     def drag(self, who: str, dx: float, dy: float) -> None:
-        """The point of the robot, or of a ghost, by pixels."""
+        """Drag the point of the robot, or of a ghost, by pixels."""
         self.pull(self.page.locator(f".body.{who} .point"), dx, dy)
 
     def pull(self, handle: Any, dx: float, dy: float) -> None:
-        """Whatever is dragged, by pixels from its middle."""
+        """Drag a handle by pixels from its middle."""
         box = handle.bounding_box()
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
         self.page.mouse.move(x, y)
@@ -59,7 +59,7 @@ class Tried:
         self.page.mouse.up()
 
     def built(self, act: Callable[[], object]) -> None:
-        """Does something and waits until another boundary is there."""
+        """Act, and wait until another boundary is there."""
         before = int(self.page.evaluate("document.body.dataset.built"))
         act()
         self.page.wait_for_timeout(300)
@@ -93,7 +93,7 @@ Place = tuple[float, float]
 
 
 class Fingers:
-    """Fingers on a page, whose touches go the way of the browser's own: it may take them for scrolling."""
+    """Fingers on a page, whose touches go through the browser's own handling: it may take them for scrolling."""
 
     def __init__(self, page: Any) -> None:
         self.page = page
@@ -105,20 +105,20 @@ class Fingers:
         self.client.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})
 
     def glide(self, begin: Sequence[Place], end: Sequence[Place]) -> None:
-        """Fingers that are down, from places to others in ten steps."""
+        """Move fingers that are down from places to others in ten steps."""
         for step in range(1, 11):
             self.touch("Move", *(_between(a, b, step / 10) for a, b in zip(begin, end, strict=True)))
             self.page.wait_for_timeout(15)
 
     def drag(self, begin: Place, dx: float, dy: float, end: str = "End") -> None:
-        """One finger, by pixels; it is lifted, or its touch is cancelled."""
+        """Drag one finger by pixels; it is lifted, or its touch is cancelled."""
         to = begin[0] + dx, begin[1] + dy
         self.touch("Start", begin)
         self.glide([begin], [to])
         self.touch(end)
 
     def pinch(self, middle: Place, first: float, last: float, end: str = "End") -> None:
-        """Two fingers side by side, from one distance to another."""
+        """Move two fingers side by side from one distance to another."""
         (x, y), apart = middle, (first / 2, last / 2)
         begin, to = ([(x - half, y), (x + half, y)] for half in apart)
         self.touch("Start", begin[0])

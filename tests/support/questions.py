@@ -22,12 +22,12 @@ Verdict = Literal["path", "closed", "interior", "forbidden"]
 
 @dataclass(frozen=True)
 class Question:
-    """Is there a way from start to goal?
+    """A query for a path from start to goal.
 
     Attributes
     ----------
-    known : the right answer, None if nobody knows
-    origin : the question that this one is, carried elsewhere
+    known : the right answer, None if it is unknown
+    origin : the question of which this is a carried copy
     """
 
     plain: PlainScene
@@ -56,9 +56,9 @@ class Question:
 
 
 def carried(question: Question, world: Pose, size: Fraction = Fraction(1), body: Pose | None = None) -> Question:
-    """All of it scaled, then the world moved, then the robot's frame changed to one that stands in it as `body`.
+    """Scale all of it, then move the world, then change the robot's frame to one that stands in it as `body`.
 
-    Bounds keep to the axes, and to their reference point: with them the world turns by right angles and the frame's
+    Bounds keep to the axes and to their reference point. With them the world turns by right angles and the frame's
     origin stays.
     """
     body = body or Pose(0, 0)
@@ -93,7 +93,7 @@ def _at(pose: Pose, x: Fraction | int, y: Fraction | int) -> Point:
 
 
 def elsewhere(rng: random.Random, question: Question) -> Question:
-    """Turned by a long rational, far from the origin, in another size, its reference point somewhere else: or not."""
+    """Carry it elsewhere, or not: turned by a long rational, far off, in another size, with another reference point."""
     tau: Fraction | None = rng.choice([Fraction(0), Fraction(1), None, fuzz.rational(rng, rng.randint(1, 8))])
     if rng.random() < 0.2:
         tau = fuzz.rational(rng, rng.randint(5, 40))
@@ -110,7 +110,7 @@ def elsewhere(rng: random.Random, question: Question) -> Question:
     return carried(question, Pose(*shift, {"tau": tau}), size, reach)
 
 
-# --- answers that are known: fits that are exact, or not by a hair ---
+# --- known answers: fits that are exact, or not by a hair ---
 
 
 def hair(rng: random.Random, *, negative: bool = True) -> Fraction:
@@ -137,7 +137,7 @@ def blocks(rng: random.Random, a: Fraction | int, b: Fraction | int) -> list[Sha
 
 def within(rng: random.Random, robot: list[Shape], ring: list[Point], start: Pose, goal: Pose, known: Verdict | None
            ) -> Question:  # fmt: skip
-    """In a region: the workspace, a hole of an obstacle, or (of a lattice region) nothing else."""
+    """Put a question in a region: the workspace, a hole of an obstacle, or (of a lattice region) nothing else."""
     if rng.random() < 0.5:
         return Question(PlainScene(robot, [], None, (ring, [])), start, goal, known)
     xs, ys = zip(*ring, strict=True)
@@ -181,7 +181,7 @@ def _in_box(rng: random.Random, w: int, h: int) -> list[Shape]:
 
 
 def channel(rng: random.Random) -> Question:
-    """Round one or two right-angled corners, or through a junction, in channels as wide as the robot: only pushed."""
+    """Push through channels as wide as the robot: round one or two right-angled corners, or through a junction."""
     w, h = rng.choice([(1, 1), (1, 1), (2, 2), (1, 2), (3, 2)])
     x, y, more = w + rng.randint(1, 4), h + rng.randint(1, 4), rng.randint(1, 3)
     # a wider channel may let the robot turn; it is a path still
@@ -254,11 +254,11 @@ def gap(rng: random.Random) -> Question:
     return Question(plain, Pose(-10, 5), Pose(10, -5, "30deg"), "path" if d >= 0 else "closed")
 
 
-# --- answers nobody knows ---
+# --- unknown answers ---
 
 
 def random_question(rng: random.Random, plain: PlainScene) -> Question | None:
-    """With two free poses, often on the lattice, at right angles, or in contact; if possible not simply joined."""
+    """Question of two free poses, often on the lattice, at right angles, or in contact; if possible no simple path."""
     try:
         checker = MotionChecker(scene_of(plain))
     except InvalidPolygonError:
@@ -309,7 +309,7 @@ FAMILIES = (*KNOWN, *fuzz.KINDS)
 
 
 def question(family: str, number: int) -> Question | None:
-    """A question of a family; None where the scene is not valid, or free poses were not found."""
+    """Question of a family; None where the scene is not valid, or free poses were not found."""
     rng = random.Random(f"{family} {number}")
     if family in KNOWN:
         asked: Question | None = KNOWN[family](rng)

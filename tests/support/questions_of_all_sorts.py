@@ -1,4 +1,4 @@
-"""Questions for pictures: seeded scenes with a start and a goal, as different to the eye as scenes are."""
+"""Questions for pictures: seeded scenes with a start and a goal, in great variety."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The beginning of a program in which all of the core is missing but what reads scenes."""
+"""The beginning of a program whose core has only the reader of scenes."""
 
 READING_ONLY = """
 import sys, types

@@ -1,12 +1,13 @@
-"""The core's predicates again, in plain Python: the second opinion that the core is compared with.
+"""The core's predicates again, in plain Python: a second opinion for comparison with the core.
 
-Written from ``docs/theory/lines.md`` and ``docs/theory/degrees.md``, with the names of
-``cfree/predicates/predicates.hpp``. Numbers are integers, fractions and polynomials in tau (python-flint); a critical
-angle is a root of an irreducible polynomial, so that two are equal exactly if polynomial and place among its roots
+It is written from ``docs/theory/lines.md`` and ``docs/theory/degrees.md``, with the names of
+``cfree/predicates/predicates.hpp``. Numbers are integers, fractions and polynomials in tau (python-flint). A critical
+angle is a root of an irreducible polynomial. So two are equal exactly if the polynomial and the place among its roots
 are. No float decides anything.
 
-In chart k, tau = tan((theta - k pi) / 2) is in [-1, 1], and everything is multiplied by w = 1 + tau^2 > 0:
-w R = (-1)^k (1 - tau^2, -2 tau; 2 tau, 1 - tau^2).
+In chart k, tau = tan((theta - k pi) / 2) is in [-1, 1]. Everything is multiplied by w = 1 + tau^2 > 0:
+
+    w R = (-1)^k (1 - tau^2, -2 tau; 2 tau, 1 - tau^2).
 """
 
 from __future__ import annotations
@@ -185,7 +186,7 @@ def isolating(
 
 
 def same_feature(robot: Shape, obstacles: Shape, x: Feature, y: Feature) -> bool:
-    """What `code` says: one vertex by its point, one edge by its directed line, parallels by direction."""
+    """True if `code` is the same: one vertex by its point, one edge by its directed line, parallels by direction."""
 
     def same_point(s: Shape, p: int, q: int) -> bool:
         return s.vertices[p] == s.vertices[q]
@@ -232,12 +233,12 @@ class Predicates:
         return W * u[0], W * u[1]
 
     def placed(self, s: int, v: int) -> Vector:
-        """Where the reference point is when robot vertex s is at obstacle vertex v: b_v - R a_s."""
+        """Position b_v - R a_s of the reference point when robot vertex s is at obstacle vertex v, times w."""
         b, a = self.fixed(self.O.vertices[v]), self.turned(self.A.vertices[s])
         return b[0] - a[0], b[1] - a[1]
 
     def offset(self, s: int, v: int) -> fmpz_poly:
-        """Of b_v - R a_s from the line, positive on its left, times w: a quadratic."""
+        """Offset of b_v - R a_s from the line, positive on its left, times w: a quadratic."""
         x, y = self.placed(s, v)
         return exact_quotient(cross(self.U, (x - self.P[0], y - self.P[1])))
 
@@ -262,7 +263,7 @@ class Predicates:
         return exact_quotient(-cross(V, away)), exact_quotient(cross(V, self.U))
 
     def polynomial(self, first: Feature, second: Feature) -> fmpz_poly:
-        """Whose root the angle is that two features define; see `Event` in predicates.hpp."""
+        """Polynomial whose root is the angle that two features define; see `Event` in predicates.hpp."""
         if second.kind != NONE:
             (N1, D1), (N2, D2) = self.curve(first), self.curve(second)
             return N1 * D2 - N2 * D1
@@ -302,22 +303,22 @@ class Predicates:
         return rational_between(x, y)
 
     def roots_within(self, first: Feature, second: Feature, lo: Fraction, hi: Fraction) -> list[Angle]:
-        """All that an event may mean: different roots of its polynomial in a closed interval."""
+        """All angles that an event may mean: different roots of its polynomial in a closed interval."""
         if first.kind == NONE:
             return [Angle.of(lo)]
-        found = [root.angle for root in real_roots(self.polynomial(first, second))]
-        return [x for x in found if x.compare(Angle.of(lo)) >= 0 >= x.compare(Angle.of(hi))]
+        angles = [root.angle for root in real_roots(self.polynomial(first, second))]
+        return [x for x in angles if x.compare(Angle.of(lo)) >= 0 >= x.compare(Angle.of(hi))]
 
     def place(self, x: Angle, first: Feature, second: Feature, lo: Fraction, hi: Fraction) -> int:
-        """0 if the angle is alone in its interval, else its number there, from 1."""
-        found = self.roots_within(first, second, lo, hi)
-        return 0 if len(found) == 1 else 1 + found.index(x)
+        """Place of an angle: 0 if it is alone in its interval, else its number there, from 1."""
+        angles = self.roots_within(first, second, lo, hi)
+        return 0 if len(angles) == 1 else 1 + angles.index(x)
 
     # roots between two angles
 
     @staticmethod
     def roots(polynomial: fmpz_poly, from_: Angle, to: Angle) -> list[Angle]:
-        """Of a polynomial that is not zero, strictly between two angles; a touch, too."""
+        """Roots of a polynomial that is not zero, strictly between two angles, touches included."""
         return [x for x, _ in real_roots(polynomial) if from_ < x and x < to]
 
     def offset_roots(self, s: int, v: int, from_: Angle, to: Angle) -> tuple[list[Angle], bool]:
@@ -328,7 +329,7 @@ class Predicates:
         return self.roots(self.parallel(g, f), from_, to), False
 
     def compare(self, p: Feature, q: Feature, from_: Angle, to: Angle) -> tuple[list[Angle], list[int]]:
-        """Where two curves meet, and the sign of t_p - t_q before, between and after; both are finite in between."""
+        """Meetings of two curves, and signs of t_p - t_q before, between and after; both are finite in between."""
         difference = self.polynomial(p, q)
         cuts = [] if difference == 0 else self.roots(difference, from_, to)
         samples = [rational_between(x, y) for x, y in pairwise([from_, *cuts, to])]
@@ -337,8 +338,8 @@ class Predicates:
     def order_at(self, p: Feature, q: Feature, tau: Fraction) -> int:
         """Order of two curves at a tau where both are finite."""
         (N1, D1), (N2, D2) = self.curve(p), self.curve(q)
-        at = rational(tau)
-        return sign(N1(at) / D1(at) - N2(at) / D2(at))
+        x = rational(tau)
+        return sign(N1(x) / D1(x) - N2(x) / D2(x))
 
     def range_end(self, g: int, f: int, is_start: bool) -> tuple[int, Angle]:
         """Chart and tau of the angle from E_g to -E_f; at the end of a chart those of the range that starts or ends."""
@@ -359,7 +360,7 @@ Place = tuple[fmpz_poly, fmpz_poly, fmpz_poly]  # x and y over a denominator tha
 
 
 class Junction:
-    """What contact lines look like at one critical angle, and just before and after it."""
+    """Contact lines at one critical angle, and just before and after it."""
 
     def __init__(self, robot: Shape, obstacles: Shape, chart: int, angle: Angle) -> None:
         self.angle = angle
@@ -369,23 +370,23 @@ class Junction:
         return sign_at(polynomial, self.angle)
 
     def turn(self, x: Feature, y: Feature) -> int:
-        """1 if the direction of y is to the left of that of x, -1 to its right, 0 if they are parallel."""
+        """Side of the direction of y from that of x: 1 to its left, -1 to its right, 0 parallel."""
         return self.sign(cross(self.on(x).U, self.on(y).U))
 
     def parallel(self, x: Feature, y: Feature) -> int:
-        """1 the same direction, -1 the opposite, 0 not parallel."""
+        """Parallelism: 1 the same direction, -1 the opposite, 0 not parallel."""
         U, V = self.on(x).U, self.on(y).U
         return 0 if self.sign(cross(U, V)) else self.sign(dot(U, V))
 
     def side(self, x: Feature, y: Feature) -> int:
-        """Of parallel lines: y is left of x (1), right of it (-1), or on it."""
+        """Side of parallel lines: y is left of x (1), right of it (-1), or on it (0)."""
         return self.side_of_place(x, (*self.on(y).P, fmpz_poly([1])))
 
     def side_of_helix(self, x: Feature, a: int, b: int) -> int:
         return self.sign(self.on(x).offset(a, b))
 
     def place(self, surface: Feature, curve: Feature) -> Place | None:
-        """Where a curve on a surface arrives, by continuity; None if that is at infinity."""
+        """Place where a curve on a surface arrives, by continuity; None if that is at infinity."""
         on = self.on(surface)
         N, D = on.curve(curve)
         if D == 0:
@@ -396,11 +397,11 @@ class Junction:
 
     @staticmethod
     def same_place(p: Place, q: Place) -> bool:
-        """At every angle: the curves are one."""
+        """True if the curves are one at every angle."""
         return all(p[k] * q[2] == q[k] * p[2] for k in (0, 1))
 
     def lies_on(self, place: Place, surface: Feature) -> bool:
-        """At every angle: the curve is on a surface."""
+        """True if the curve is on a surface at every angle."""
         (X, Y, D), on = place, self.on(surface)
         return bool(cross(on.U, (X - on.P[0] * D, Y - on.P[1] * D)) == 0)
 
@@ -418,7 +419,7 @@ class Junction:
         return self.sign(n * e - m * d) * self.sign(d) * self.sign(e)
 
     def order_to(self, line: Feature, place: Place, t: Fraction) -> int:
-        """Of a place and the one at t."""
+        """Order of a place and the one at t."""
         n, d = self.along(line, place)
         return self.sign(n * t.denominator - t.numerator * d) * self.sign(d)
 
@@ -427,7 +428,7 @@ class Junction:
         return self.sign(n) * self.sign(d) >= 0 and self.sign(d - n) * self.sign(d) >= 0
 
     def across(self, x: Feature, y: Feature, p: Place, q: Place, after: bool) -> int:
-        """Of two surfaces with one line here: is x left of y between two places, just after the angle or before it?"""
+        """Side of x from y, with one line here, between two places, just after or before the angle; 1 is left."""
         t = self.rational_between(x, p, q)
         u, v = self.on(x), self.on(y)
         point = [c * t.denominator + t.numerator * d for c, d in zip(u.P, u.U, strict=True)]
@@ -455,7 +456,7 @@ class Junction:
             lo, hi = (mid, hi) if sum(both) > 0 else (lo, mid)
 
     def value(self, line: Feature, place: Place) -> Fraction:
-        """About t."""
+        """Approximate t of a place."""
         n, d = self.along(line, place)
         x = Angle(self.angle.polynomial, self.angle.lo, self.angle.hi)
         least = Fraction(1, 2**40)
@@ -463,17 +464,17 @@ class Junction:
             lo = rational(x.lo)
             if d(lo):
                 t = n(lo) / d(lo)
-                found = Fraction(int(t.p), int(t.q))
-                sides = (n * b.denominator - b.numerator * d for b in (found - least, found + least))
+                middle = Fraction(int(t.p), int(t.q))
+                sides = (n * b.denominator - b.numerator * d for b in (middle - least, middle + least))
                 below, above = (self.sign(side) * self.sign(d) for side in sides)
                 if below > 0 > above:
-                    return found
+                    return middle
             for _ in range(32):
                 x.halve()
 
 
 def exact_quotient(polynomial: fmpz_poly) -> fmpz_poly:
-    """By w, of what was multiplied by w twice."""
+    """Divide by w a polynomial that was multiplied by w twice."""
     quotient, remainder = divmod(polynomial, W)
     assert remainder == 0
     return quotient

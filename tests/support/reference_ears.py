@@ -48,7 +48,7 @@ def clip_ears(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[tup
 
 
 def _is_ear(v: Sequence[IntPoint], a: int, b: int, c: int, ring: Sequence[int]) -> bool:
-    """Is the triangle abc free of other vertices? Its corners may occur again, at joints."""
+    """True if the triangle abc is free of other vertices. Its corners may occur again, at joints."""
     if orient(v[a], v[b], v[c]) is not Orientation.LEFT:
         return False
     return not any(
@@ -101,18 +101,18 @@ def _cycles(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[list[
 
 
 def _opens(v: Sequence[IntPoint], ring: Sequence[int], place: int, towards: int) -> bool:
-    """Does the direction from a place of the ring towards a vertex run inside?"""
+    """True if the direction from a place of the ring towards a vertex runs inside."""
     here, before, after = (v[ring[p]] for p in (place, place - 1, (place + 1) % len(ring)))
     d, start, end = ((x - here[0], y - here[1]) for x, y in (v[towards], after, before))
     return locate_in_sector(d, start, end) is Location.INSIDE
 
 
 def _visible_place(v: Sequence[IntPoint], parts: Sequence[list[int]], h: int) -> tuple[list[int], int]:
-    """Part and place in it of the nearest vertex that sees h from before it."""
+    """Part and place in it of the nearest vertex before h from which h is visible."""
     edges = [edge for part in parts for edge in zip(part, (*part[1:], part[0]), strict=True)]
 
-    def distance(found: tuple[list[int], int]) -> int:
-        part, place = found
+    def distance(visit: tuple[list[int], int]) -> int:
+        part, place = visit
         (x, y), (hx, hy) = v[part[place]], v[h]
         return (x - hx) ** 2 + (y - hy) ** 2
 

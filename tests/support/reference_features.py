@@ -1,4 +1,4 @@
-"""What the core numbers in a scene, in Python: integer coordinates, and an identity for every feature.
+"""Features of a scene in the numbering of the core, in Python: integer coordinates, and an identity for each.
 
 Coordinates are multiplied by one common denominator. Coincident vertices get one *point*, directed edges on one line
 with one direction one *line*, parallel edges one *direction*: equality of features is settled here, exactly, once. The
@@ -48,7 +48,7 @@ class ShapeFeatures:
     previous : (r,) int32
         The vertex before, for the vertices of rings, which come first.
     owner_polygon, owner_vertex : (r,) int32
-        Whose they are; polygon is `BOUNDS` or `WORKSPACE` for those of no user's polygon.
+        Their owners; polygon is `BOUNDS` or `WORKSPACE` if they belong to no user's polygon.
     """
 
     def __init__(self, scale: int) -> None:
@@ -153,20 +153,20 @@ class SceneFeatures:
 
     @cached_property
     def core(self) -> _core.Scene:
-        """The same as the core has it: what is made of the scene there shares it."""
+        """Return the same features in the core; objects made of the scene there share them."""
         a, b = self.robot, self.obstacles
         shapes = _core.Shape(**a.core), _core.Shape(**b.core)
         return _core.Scene(*shapes, self.scale, a.shift, self.rim is not None, a.origin, b.origin, a.near_shift)
 
     @cached_property
     def frame(self) -> tuple[float, float, float, float]:
-        """The origins of the obstacles and of the robot: what is near by has doubles from these."""
+        """Origins of the obstacles and of the robot: shapes near by have doubles from these."""
         (x, y), (a, b) = self.obstacles.origin, self.robot.origin
         return x / self.scale, y / self.scale, a / self.scale, b / self.scale
 
 
 def scene_features(scene: Scene) -> SceneFeatures:
-    """Number everything the core needs to know of a scene."""
+    """Number everything in a scene that the core needs."""
     polygons = [*scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])]
     numbers = [p.denominator for p in polygons] + [b.denominator for b in scene.bounds or ()]
     scale = math.lcm(*numbers)
@@ -192,7 +192,7 @@ def scene_features(scene: Scene) -> SceneFeatures:
         reach = 1 + sum(max(abs(c) for c in axis) for axis in zip(*robot.vertices, strict=True))
         bounds = [int(b * scale) for b in scene.bounds or ()]
         x0, y0, x1, y1 = box([*obstacles.vertices, *zip(bounds[::2], bounds[1::2], strict=True)])
-        reach += max(x1 - x0, y1 - y0) // 8  # so that doubles see the difference
+        reach += max(x1 - x0, y1 - y0) // 8  # so that doubles resolve the difference
         outer = x0 - reach, y0 - reach, x1 + reach, y1 + reach
         rim = (outer[0] / scale, outer[1] / scale, outer[2] / scale, outer[3] / scale)
         if bounds:
@@ -208,7 +208,7 @@ def scene_features(scene: Scene) -> SceneFeatures:
 
 
 def complement(rings: Sequence[Iterable[Point]], robot: Box, around: Box, scale: int) -> list[Polygon]:
-    """What the robot must stay out of: a frame around the workspace, thicker than the robot, and its holes."""
+    """Polygons that the robot must stay out of: a frame around the workspace, thicker than the robot, and its holes."""
     thickness = 1 + 2 * sum(map(abs, robot))
     x0, y0, x1, y1 = around
     frame = rectangle(x0 - thickness, y0 - thickness, x1 + thickness, y1 + thickness)
@@ -242,7 +242,7 @@ def rectangle(x0: int, y0: int, x1: int, y1: int) -> list[Point]:
 
 
 def add_bounds(robot: ShapeFeatures, obstacles: ShapeFeatures, bounds: Sequence[int], outer: Sequence[int]) -> None:
-    """The reference point against the complement of the bounds: overlapping rectangles that reach past every pillar."""
+    """Add the reference point and the complement of the bounds: overlapping rectangles that reach past every pillar."""
     common: dict[str, list[Any]] = {"layer": [REFERENCE], "emit": [True], "owner_polygon": [BOUNDS]}
     robot.add_ring([(0, 0)], convex=[True], owner_vertex=[0], **common)
     robot.add_piece([len(robot.vertices) - 1], REFERENCE)
@@ -297,7 +297,7 @@ def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:
         lines.append((dx, dy, dx * y - dy * x) if dx or dy else (v,))
         directions.append((dx, dy) if (dx, dy) > (0, 0) else (-dx, -dy))
     point, line = classes(vertices), classes(lines)
-    # geometry, not numbering, decides who owns what coincides
+    # geometry, not numbering, decides the owner of coincident features
     ends = [(vertices[v], vertices[w]) for v, w in edges[: len(previous)]]
     around = [(w, vertices[p]) for (_, w), p in zip(ends, previous, strict=True)]
     ints = {

@@ -1,7 +1,7 @@
 """The core's convex pieces of a polygon, by other means.
 
 1. Triangulate: constrained Delaunay in doubles, by GEOS, which may be wrong; its cover is then checked exactly.
-2. If the check fails (points closer than doubles can tell), clip ears exactly: O(n^2), rarely needed.
+2. If the check fails (points too close for doubles), clip ears exactly: O(n^2), rarely needed.
 3. Flip edges until the triangles are the constrained Delaunay ones that the core has, whatever was there before.
 4. Remove diagonals while both sides stay convex (Hertel and Mehlhorn: at most 4 times the least number).
 
@@ -49,12 +49,12 @@ def convex_pieces(polygon: Polygon) -> tuple[tuple[int, ...], ...]:
 
 
 def is_cover(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Iterable[Triangle]) -> bool:
-    """Do triangles cover the region of rings, each point inside once? Exact.
+    """True if triangles cover the region of rings, each point inside once. Exact.
 
     Notes
     -----
-    If all triangles are counter-clockwise, and each of their edges meets its reverse or is an edge of the
-    rings, all of which occur, then the triangles' indicators add up to the winding number of the rings.
+    Let all triangles be counter-clockwise, and let each of their edges meet its reverse or be an edge of the rings, all
+    of which occur. Then the triangles' indicators add up to the winding number of the rings.
     """
     used = [edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))]
     directed, own = set(used), set(_edges(rings))
@@ -100,12 +100,12 @@ def delaunay(v: Sequence[IntPoint], rings: Sequence[Ring]) -> list[Triangle]:
     framed = [[((v[k][0] - x0) / (x1 - x0), (v[k][1] - y0) / (y1 - y0)) for k in ring] for ring in rings]
     names = dict(zip(chain(*framed), chain(*rings), strict=True))
     if len(names) < len(set(chain(*rings))):
-        return []  # doubles cannot tell the points apart
+        return []  # doubles cannot separate the points
     try:
-        found = shapely.constrained_delaunay_triangles(shapely.Polygon(framed[0], framed[1:]))
+        collection = shapely.constrained_delaunay_triangles(shapely.Polygon(framed[0], framed[1:]))
     except shapely.GEOSException:
         return []
-    corners = shapely.get_coordinates(found).reshape(-1, 4, 2)[:, :3].tolist()
+    corners = shapely.get_coordinates(collection).reshape(-1, 4, 2)[:, :3].tolist()
     try:
         triangles = [(names[tuple(a)], names[tuple(b)], names[tuple(c)]) for a, b, c in corners]
     except KeyError:
@@ -139,7 +139,7 @@ def flipped(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Tr
 
 
 def _merge(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Triangle]) -> list[tuple[int, ...]]:
-    """Faces left after removing diagonals while both their ends stay convex."""
+    """Faces left after diagonals are removed while both their ends stay convex."""
     # half-edge 3k + m runs from corner m of triangle k to its next corner
     origin = [k for triangle in triangles for k in triangle]
     following = [h + 1 if h % 3 < 2 else h - 2 for h in range(len(origin))]
@@ -148,7 +148,7 @@ def _merge(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Tri
     alive = [True] * len(origin)
 
     def is_convex_without(h: int, back: int) -> bool:
-        """The corner at the origin of h, once h and its reverse are gone (below 2 pi, as at every vertex)."""
+        """True if the corner at the origin of h is convex without h and its reverse (below 2 pi at every vertex)."""
         before, after = origin[preceding[h]], origin[following[following[back]]]
         return orient(v[before], v[origin[h]], v[after]) is not Orientation.RIGHT
 

@@ -1,4 +1,4 @@
-"""What the core does with rings, in Python: read, clean, check, turn around."""
+"""The core's treatment of rings, in Python: read, clean, check, turn around."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class _Ring:
 
 
 def read_rings(outer: Points, holes: Sequence[Points]) -> Rings:
-    """Check and normalise the rings of one polygon; see `Polygon` for what is accepted.
+    """Check and normalise the rings of one polygon; see `Polygon` for the accepted input.
 
     Examples
     --------
@@ -127,24 +127,24 @@ def _clean(ring: int, points: list[IntPoint]) -> _Ring:
     source = [k for k in range(len(points)) if k not in repeated]
     if len(source) < 3:
         raise _fault(ring, "fewer than 3 different points; give at least 3")
-    kept, spikes = [], []
+    corners, spikes = [], []
     for before, k, after in zip([source[-1], *source], source, [*source[1:], source[0]], strict=False):
         p, q, r = points[before], points[k], points[after]
         if orient(p, q, r) is not Orientation.COLLINEAR:
-            kept.append(k)
+            corners.append(k)
         elif is_opposed(_minus(q, p), _minus(r, q)):
             spikes.append(k)
         else:
             removed.append(Removed(ring, k, "collinear"))
-    if not kept:
+    if not corners:
         raise _fault(ring, "its points lie on one line, its area is zero; give points that bound an area")
     if spikes:
         raise _fault(ring, f"the angle at point {spikes[0]} is zero; remove this spike", spikes[0])
-    return _Ring([points[k] for k in kept], kept, sorted(removed, key=lambda r: r.index))
+    return _Ring([points[k] for k in corners], corners, sorted(removed, key=lambda r: r.index))
 
 
 def _is_convex(points: Sequence[IntPoint]) -> bool:
-    """Does a ring without straight vertices turn to one side only, and once round?"""
+    """True if a ring without straight vertices turns to one side only, and once round."""
     edges = [_minus(q, p) for p, q in zip(points, (*points[1:], points[0]), strict=True)]
     following = (*edges[1:], edges[0])
     sides = {turn(u, v) for u, v in zip(edges, following, strict=True)}
@@ -155,12 +155,12 @@ def _is_convex(points: Sequence[IntPoint]) -> bool:
 def _check(rings: Sequence[_Ring], areas: Sequence[int], denominator: int) -> None:
     """Refuse rings whose edges meet and holes that are not right inside the outer ring."""
     offsets = tuple(accumulate((len(ring.points) for ring in rings), initial=0))
-    found = sweep([point for ring in rings for point in ring.points], offsets)
+    nesting = sweep([point for ring in rings for point in ring.points], offsets)
     places = [(r, k) for r, ring in enumerate(rings) for k in range(len(ring.points))]
-    if isinstance(found, EdgesMeet):
-        first, second = sorted(places[e] for e in found.edges)
+    if isinstance(nesting, EdgesMeet):
+        first, second = sorted(places[e] for e in nesting.edges)
         raise _meeting(rings, first, second, denominator)
-    container = containers(areas, found, [r for r, _ in places])
+    container = containers(areas, nesting, [r for r, _ in places])
     for hole in range(1, len(rings)):
         around = container[hole]
         if container[0] == hole:
@@ -190,7 +190,7 @@ def containers(areas: Sequence[int], nesting: Nesting, ring_of: Sequence[int]) -
 def _meeting(
     rings: Sequence[_Ring], first: tuple[int, int], second: tuple[int, int], denominator: int
 ) -> InvalidPolygonError:
-    """The fault of two edges, each (ring, position in the ring), that meet."""
+    """Fault of two edges, each (ring, position in the ring), that meet."""
     (p, q), (r, s) = (
         (rings[ring].points[k], rings[ring].points[(k + 1) % len(rings[ring].points)]) for ring, k in (first, second)
     )
@@ -200,13 +200,13 @@ def _meeting(
         common = crossing_point(p, q, r, s)
     elif kind is Meeting.TOUCH:
         common = ({p, q} & {r, s}).pop()
-    at = _show((Fraction(common[0]) / denominator, Fraction(common[1]) / denominator))
+    place = _show((Fraction(common[0]) / denominator, Fraction(common[1]) / denominator))
     one, other = rings[first[0]].source[first[1]], rings[second[0]].source[second[1]]
     if first[0] == second[0]:
-        message = f"edges {one} and {other} {kind.value} at {at}; split it into simple polygons"
+        message = f"edges {one} and {other} {kind.value} at {place}; split it into simple polygons"
         return _fault(first[0], message, one, other)
     verb = {Meeting.CROSS: "crosses", Meeting.TOUCH: "touches", Meeting.OVERLAP: "overlaps"}[kind]
-    message = f"edge {other} {verb} edge {one} of {_name(first[0])} at {at}; keep the rings apart"
+    message = f"edge {other} {verb} edge {one} of {_name(first[0])} at {place}; keep the rings apart"
     return _fault(second[0], message, other, one)
 
 

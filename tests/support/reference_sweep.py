@@ -1,4 +1,4 @@
-"""The core's sweep over the edges of rings: do any cross, where do rings touch, and which ring lies in which?
+"""The core's sweep over the edges of rings, which finds crossings, touches of rings, and their nesting.
 
 Shamos and Hoey's sweep from left to right (the vertical line leans, so that points are met in the order of
 their pairs of coordinates). It keeps the edges it cuts in their order from below to above; edges that cross
@@ -29,14 +29,14 @@ class EdgesMeet:
 
 @dataclass(frozen=True, slots=True)
 class Nesting:
-    """How rings that do not cross lie in each other.
+    """Nesting of rings that do not cross.
 
     Attributes
     ----------
     below : dict
         For each ring, from left to right, the edge right below its first point, None if there is none.
     rightward : list of bool
-        Does the sweep run along edge k from its start to its end?
+        True if the sweep runs along edge k from its start to its end.
     touching : dict
         For each edge that points of other rings lie on, ends excepted: these points.
     """
@@ -47,7 +47,7 @@ class Nesting:
 
 
 def sweep(points: Sequence[IntPoint], offsets: Sequence[int]) -> EdgesMeet | Nesting:
-    """Find two edges that meet as they must not, or else how the rings are nested.
+    """Find two edges that must not meet and do, or else the nesting of the rings.
 
     Parameters
     ----------
@@ -80,8 +80,8 @@ def sweep(points: Sequence[IntPoint], offsets: Sequence[int]) -> EdgesMeet | Nes
     def may_not_meet(e: int, f: int) -> bool:
         if following[e] == f or following[f] == e:
             return False  # neighbours in a ring without spikes share one point only
-        found = meet(start[e], end[e], start[f], end[f])
-        return found is not Meeting.APART and (found is not Meeting.TOUCH or ring_of[e] == ring_of[f])
+        meeting = meet(start[e], end[e], start[f], end[f])
+        return meeting is not Meeting.APART and (meeting is not Meeting.TOUCH or ring_of[e] == ring_of[f])
 
     vertices_at = defaultdict(list)
     for k, point in enumerate(points):
@@ -142,7 +142,7 @@ def _from_below(point: IntPoint, edges: list[int], end: Sequence[IntPoint]) -> l
 
 
 def _interleave(point: IntPoint, one: Sequence[IntPoint], other: Sequence[IntPoint]) -> bool:
-    """Do two rings cross or overlap at a point both pass through, given their neighbouring points there?"""
+    """True if two rings cross or overlap at a point both pass through, with their neighbouring points there."""
     (a, b), (c, d) = ([(x - point[0], y - point[1]) for x, y in pair] for pair in (one, other))
     c_side, d_side = locate_in_sector(c, a, b), locate_in_sector(d, a, b)
     return c_side is not d_side or c_side is Location.BOUNDARY

@@ -1,4 +1,4 @@
-"""Cell complexes that are glued otherwise: wrong partners, wrong labels of vertices."""
+"""Cell complexes glued in another way: wrong partners, wrong labels of vertices."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def classes(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int32]:
 
 
 def reglued(cells: CellComplex, twin: NDArray[np.int32]) -> CellComplex:
-    """The closed surfaces that other twins make of the same faces."""
+    """Closed surfaces that other twins make of the same faces."""
     h = np.arange(len(twin))
     before = np.array([cells.before(k) for k in h])
     vertex = classes(len(h), np.stack([h, twin[before]], axis=1))

@@ -1,6 +1,6 @@
-"""The decimals of an answer file, applied motion by motion as a program without fractions would: do they lead along?
+"""Apply the decimals of an answer file motion by motion, like a program without fractions, and check where they lead.
 
-Numbers are read as they are written, and applied with 900 bits, so that what is measured is what the file says.
+Numbers are read in their own digits, and applied with 900 bits, so that only the file's own errors are measured.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from cfree import Path, Pose, Scene
 from cfree.collision.pose_checker import PoseChecker
 
 BITS = 900
-CLOSE = 1e-9  # of the robot's size: how far decimals may lead astray
+CLOSE = 1e-9  # of the robot's size: largest error of decimals
 
 Placed = tuple[arb, arb, arb]  # x, y, theta
 
 
 def deviation(scene: Scene, path: Path, file: FilePath) -> float:
-    """The largest distance of a vertex of the robot from where it exactly is, after any motion, in robot sizes."""
+    """Largest distance of a vertex of the robot from its exact place, after any motion, in robot sizes."""
     old, ctx.prec = ctx.prec, BITS
     try:
         corners = [(_arb(x), _arb(y)) for part in scene.robot for x, y in part.exact_vertices]
@@ -41,7 +41,7 @@ def deviation(scene: Scene, path: Path, file: FilePath) -> float:
 
 
 def collisions(scene: Scene, file: FilePath) -> int:
-    """How many of some poses on the way of the decimals, read as doubles, are forbidden, if the file says none is."""
+    """Number of forbidden poses, of some on the decimals' path, read as doubles, if the file claims there are none."""
     old, ctx.prec = ctx.prec, BITS
     try:
         read = json.loads(file.read_text())
@@ -64,7 +64,7 @@ def _along(read: dict[str, Any]) -> Iterator[Placed]:
 
 
 def _after(motion: dict[str, Any], share: arb, x: arb, y: arb, theta: arb) -> Placed:
-    """Where a share of a motion leads; of a slide, of which decimals say no more, all of it."""
+    """Pose after a share of a motion; after all of a slide, whose decimals give no more."""
     angle = share * _arb(motion.get("angle", 0))
     if motion["type"] == "rotation":
         u, v = (_arb(c) for c in motion["pole"])
@@ -82,7 +82,7 @@ def _pose(x: arb, y: arb, theta: arb) -> Pose:
 
 
 def _fraction(value: arb) -> Fraction:
-    """Nearly the middle: what matters is far larger than 2^-200 of it."""
+    """Fraction near the middle: the error sought is far larger than 2^-200 of it."""
     mantissa, exponent = value.mid().man_exp()
     exact = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
     digits = max(0, 200 - exact.numerator.bit_length() + exact.denominator.bit_length())
@@ -90,7 +90,7 @@ def _fraction(value: arb) -> Fraction:
 
 
 def _both(path: Path, read: dict[str, Any]) -> Iterator[tuple[Pose, Placed]]:
-    """After each motion: where the robot is, where adding up leads, and where the file says it is."""
+    """Robot's pose after each motion, the sum of the decimals, and the pose in the file."""
     x, y, theta = (_arb(v) for v in read["start"])
     yield path.start, (x, y, theta)
     for motion, pose in zip(read["motions"], path.poses[1:], strict=True):

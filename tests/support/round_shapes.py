@@ -1,4 +1,4 @@
-"""Round shapes at random, and where their rims are, in doubles and from what they are given by alone."""
+"""Round shapes at random, and their rims in doubles, from their definitions alone."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def rim(ring: Any, many: int = MANY) -> Floats:
         return np.column_stack([c * x - d * y, d * x + c * y]) + np.array(ring.center, float)
     points, place = [np.array([ring[0]], float)], np.array(ring[0], float)
     for item in ring[1:]:
-        found = _segment(place, item, s)
-        points.append(found[1:])
+        samples = _segment(place, item, s)
+        points.append(samples[1:])
         place = np.array(
             item.to if isinstance(item, Arc) else item if isinstance(item, tuple) else item.points[-1], float
         )
@@ -58,14 +58,14 @@ def _segment(start: Floats, item: Any, s: Floats) -> Floats:
 
 
 def _basis(knots: Any, k: int, degree: int, t: Floats) -> Floats:
-    """Cox and de Boor."""
+    """Basis function of Cox and de Boor."""
     if degree == 0:
         return ((knots[k] <= t) & (t < knots[k + 1])).astype(float)
-    found = np.zeros_like(t)
+    values = np.zeros_like(t)
     for low, high, part in ((knots[k], knots[k + degree], k), (knots[k + degree + 1], knots[k + 1], k + 1)):
         if high != low:
-            found += (t - low) / (high - low) * _basis(knots, part, degree - 1, t)
-    return found
+            values += (t - low) / (high - low) * _basis(knots, part, degree - 1, t)
+    return values
 
 
 def _arc(start: Floats, arc: Arc, s: Floats) -> Floats:
@@ -91,12 +91,12 @@ def region(shape: Any, many: int = MANY) -> Any:
     """The shape in doubles, as a shapely geometry: vertices are on its rim."""
     if isinstance(shape, cfree.Polygon):
         return shape.to_shapely()
-    found = shapely.make_valid(shapely.Polygon(rim(shape.path, many), [rim(hole, many) for hole in shape.holes]))
-    return found.buffer(float(shape.grown), quad_segs=many) if shape.grown else found
+    polygon = shapely.make_valid(shapely.Polygon(rim(shape.path, many), [rim(hole, many) for hole in shape.holes]))
+    return polygon.buffer(float(shape.grown), quad_segs=many) if shape.grown else polygon
 
 
 def random_shape(rng: random.Random, size: float = 1.0) -> Any:
-    """A round one, or now and then a polygon, about the origin."""
+    """Round shape, or now and then a polygon, about the origin."""
 
     def number(low: float, high: float) -> Fraction:
         return Fraction(round(rng.uniform(low, high) * 1000 * size), 1000)
@@ -131,21 +131,21 @@ def random_shape(rng: random.Random, size: float = 1.0) -> Any:
 
 
 def placed(shape: Any, x: Fraction, y: Fraction) -> Any:
-    """The same somewhere else."""
+    """Same shape somewhere else."""
     if isinstance(shape, cfree.Polygon):
         return cfree.Polygon([(p + x, q + y) for p, q in shape.exact_vertices])
 
     def point(p: Any) -> Any:
         return p and (p[0] + x, p[1] + y)
 
-    def ring(given: Any) -> Any:
-        match given:
+    def ring(shape: Any) -> Any:
+        match shape:
             case Circle(center, radius):
                 return Circle(point(center), radius)
             case Ellipse(center, radii, turned):
                 return Ellipse(point(center), radii, {"tau": turned.tau})
         items: list[Any] = []
-        for item in given:
+        for item in shape:
             match item:
                 case Arc():
                     items.append(
@@ -182,7 +182,7 @@ def random_scene(seed: int) -> cfree.Scene:
 
 
 class Sampled:
-    """A scene in doubles: is a pose free for shapes a little smaller, or a little larger?"""
+    """A scene in doubles, to check that a pose is free for shapes a little smaller, or a little larger."""
 
     def __init__(self, scene: cfree.Scene, by: float) -> None:
         self.robot = shapely.union_all([region(part) for part in scene.robot]).buffer(by)
@@ -194,11 +194,11 @@ class Sampled:
         self.bounds = scene.bounds
 
     def overlap(self, rows: Sequence[Sequence[float]]) -> Floats:
-        """Area of what overlaps at poses x, y, theta."""
-        found = []
+        """Areas of overlap at poses x, y, theta."""
+        areas = []
         for x, y, theta in rows:
             placed = shapely.affinity.affine_transform(
                 self.robot, [math.cos(theta), -math.sin(theta), math.sin(theta), math.cos(theta), x, y]
             )
-            found.append(placed.intersection(self.bodies).area if self.bodies.intersects(placed) else 0.0)
-        return np.array(found)
+            areas.append(placed.intersection(self.bodies).area if self.bodies.intersects(placed) else 0.0)
+        return np.array(areas)

@@ -1,4 +1,4 @@
-"""An answer checked by `cfree.verify` and by `tools/check_answer.py`, which have to say the same."""
+"""Check an answer by `cfree.verify` and by `tools/check_answer.py`, which must agree."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ check_answer = _loaded()
 
 
 def verified(scene: Scene, file: FilePath) -> Verification:
-    """What `cfree.verify` says of an answer in a file.
+    """Verification of an answer in a file by `cfree.verify`.
 
     Raises
     ------
     AssertionError
-        If the other checker says something else.
+        If the other checker disagrees.
     FormatError, UnsupportedError
         If both cannot read the file.
     """
@@ -50,9 +50,9 @@ def verified(scene: Scene, file: FilePath) -> Verification:
     return result
 
 
-def verified_in_a_file(scene: Scene, found: Path | Separated) -> Verification:
-    """The same of an answer in memory, which is saved first."""
-    known = replace(found, scene=scene) if isinstance(found, Path) else found
+def verified_in_a_file(scene: Scene, answer: Path | Separated) -> Verification:
+    """Verification of an answer in memory, which is saved first."""
+    known = replace(answer, scene=scene) if isinstance(answer, Path) else answer
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder, "answer.json")
         save(known, file)

@@ -1,7 +1,7 @@
 """Named shapes and seeded random scenes, as plain coordinates: `(outer, holes)`, rings as lists of points.
 
 Outer rings are counter-clockwise, holes clockwise; no vertex is collinear with its neighbours unless a
-docstring says so.
+docstring states it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Shape = tuple[list[Point], list[list[Point]]]
 
 
 class PlainScene(NamedTuple):
-    """What a scene is made of, without any class of the package."""
+    """A scene's polygons and bounds, without any class of the package."""
 
     robot: list[Shape]
     obstacles: list[Shape]
@@ -125,7 +125,7 @@ def moved(shape: Shape, dx: Any, dy: Any) -> Shape:
 
 
 def scaled(shape: Shape, factor: Any) -> Shape:
-    """Scaled about the origin by a positive factor."""
+    """Shape scaled about the origin by a positive factor."""
     return mapped(shape, lambda x, y: (x * factor, y * factor))
 
 
@@ -136,7 +136,7 @@ def quarter_turned(shape: Shape, quarters: int = 1) -> Shape:
 
 
 def mirrored(shape: Shape) -> Shape:
-    """Mirrored in the y-axis, rings reversed so that their orientation stays."""
+    """Shape mirrored in the y-axis, rings reversed so that their orientation stays."""
     outer, holes = mapped(shape, lambda x, y: (-x, y))
     return outer[::-1], [hole[::-1] for hole in holes]
 
@@ -182,7 +182,7 @@ def random_holed(rng: random.Random, centre: Point = (0.0, 0.0), radius: float =
     if rng.random() < 0.7:
         factor = rng.uniform(0.3, 0.8)
         holes = [[(factor * x, factor * y) for x, y in outer]]
-    else:  # shrunk triangles of the fan about the origin, which sees the whole star
+    else:  # shrunk triangles of the fan about the origin, from which the whole star is visible
         holes = []
         for k in (0, 2):
             fan = [(0.0, 0.0), outer[k], outer[k + 1]]
@@ -235,7 +235,7 @@ def _scatter(rng: random.Random, make: Callable[..., Shape], count: int, side: f
 
 
 def _robot(rng: random.Random, make: Callable[..., Shape], radius: float = 0.6) -> Shape:
-    """With a reference point that may lie outside it."""
+    """Robot with a reference point that may lie outside it."""
     return make(rng, (rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5)), radius)
 
 

@@ -1,8 +1,8 @@
-"""Cells of an arrangement from slices, in doubles: what is planar between two critical angles does not change.
+"""Cells of an arrangement from slices, in doubles: the planar part between two critical angles does not change.
 
 At each orientation the sums of obstacles and turned, mirrored robot parts, triangle by triangle, are overlaid by
-shapely. A planar cell is followed from slice to slice by the edges around it, and across a critical angle by what it
-has in common with the cells beyond. Shares nothing with the package but the critical angles, which are found to be
+shapely. A planar cell is followed from slice to slice by the edges around it, and across a critical angle by its
+overlap with the cells beyond. It shares nothing with the package but the critical angles. These are found to be
 complete: without one of them the slices to its sides would differ.
 """
 
@@ -19,8 +19,8 @@ import shapely
 
 from shapes import PlainScene, Shape
 
-NEAR = 5e-6  # how far from a critical angle its neighbours are looked at
-THIN = 5e-5  # what is narrower at it is not counted
+NEAR = 5e-6  # distance of the neighbours of a critical angle from it
+THIN = 5e-5  # narrower parts at it are not counted
 SLIVER, ROUNDED = 1e-13, 1e-10
 
 
@@ -33,16 +33,16 @@ class Planar(NamedTuple):
 
     @property
     def euler(self) -> int:
-        """Of the open region: a hole that touches the rim in a point is none."""
+        """Euler number of the open region: a hole that touches the rim in a point is none."""
         return _euler(shapely.buffer(self.region, -ROUNDED))
 
 
 class Unclear(Exception):
-    """Too close for doubles."""
+    """A case too close for doubles."""
 
 
 def sliced_cells(plain: PlainScene, angles: Sequence[float]) -> Counter[tuple[frozenset[tuple[int, int]], int]]:
-    """How many cells there are, by the pairs that hold them and their Euler characteristic, but for the outer one.
+    """Numbers of cells, by the pairs that hold them and their Euler characteristic, except for the outer one.
 
     A cell is made of prisms over planar cells, which meet in planar regions at critical angles: its characteristic is
     that of the former minus that of the latter.
@@ -76,15 +76,15 @@ def sliced_cells(plain: PlainScene, angles: Sequence[float]) -> Counter[tuple[fr
     for k, (middle, _, _) in enumerate(slabs):
         for m, cell in enumerate(middle):
             euler[root((k, m))] += cell.euler
-    for at, meeting in meetings:
-        euler[root(at)] -= meeting
+    for node, meeting in meetings:
+        euler[root(node)] -= meeting
     pairs = {root((k, m)): cell.pairs for k, slab in enumerate(slabs) for m, cell in enumerate(slab[0])}
     outer = {root((k, m)) for k, slab in enumerate(slabs) for m, cell in enumerate(slab[0]) if not cell.edges}
     return Counter((pairs[x], euler[x]) for x in pairs if x not in outer)
 
 
 def overlay(plain: PlainScene, theta: float) -> list[Planar]:
-    """Planar cells at an orientation; that beyond everything has no edges."""
+    """Planar cells at an orientation; the outer one has no edges."""
     sums: dict[tuple[int, int], list[shapely.Geometry]] = {}
     names, sides = [], []
     for pair, ring in _sums(plain, theta):
@@ -95,25 +95,27 @@ def overlay(plain: PlainScene, theta: float) -> list[Planar]:
             sides.append(shapely.LineString([p, q]))
     forbidden = {pair: shapely.union_all(parts) for pair, parts in sums.items()}
     box = shapely.box(*shapely.buffer(shapely.union_all(list(forbidden.values())), 1).bounds)
-    found = [(frozenset[tuple[int, int]](), box)]
+    regions = [(frozenset[tuple[int, int]](), box)]
     for pair, solid in forbidden.items():
-        parts = [(of | {pair}, region & solid) for of, region in found] + [(of, region - solid) for of, region in found]
-        found = [(of, part) for of, whole in parts for part in _polygons(whole)]
+        parts = [(pairs | {pair}, region & solid) for pairs, region in regions] + [
+            (pairs, region - solid) for pairs, region in regions
+        ]
+        regions = [(pairs, part) for pairs, whole in parts for part in _polygons(whole)]
     tree = shapely.STRtree(sides)
     cells = []
-    for of, region in found:
+    for pairs, region in regions:
         edges = set()
         for ring in (region.exterior, *region.interiors):
             for p, q in pairwise(ring.coords):
                 middle = shapely.Point((p[0] + q[0]) / 2, (p[1] + q[1]) / 2)
                 edges |= {names[k] for k in tree.query(middle, predicate="dwithin", distance=1e-10)}
         outer = region.exterior.distance(box.exterior) == 0
-        cells.append(Planar(of, frozenset() if outer else frozenset(edges), region))
+        cells.append(Planar(pairs, frozenset() if outer else frozenset(edges), region))
     return cells
 
 
 def _sums(plain: PlainScene, theta: float) -> Iterator[tuple[tuple[int, int], list[Any]]]:
-    """Convex polygons that make up what a pair forbids: points, and the vertices that they are sums of."""
+    """Convex polygons whose union a pair forbids: points, and the vertices that they are sums of."""
     c, s = math.cos(theta), math.sin(theta)
     for (i, robot), (j, obstacle) in product(enumerate(plain.robot), enumerate(plain.obstacles)):
         for part, piece in product(_triangles(robot), _triangles(obstacle)):
@@ -156,7 +158,7 @@ def _matched(cells: list[Planar], others: list[Planar]) -> list[tuple[Planar, in
 
 
 def _common(one: shapely.Polygon, other: shapely.Polygon) -> int | None:
-    """Euler characteristic of what two planar cells have in common, None if that is nothing."""
+    """Euler characteristic of the overlap of two planar cells, None if there is none."""
     if not one.intersects(other):
         return None
     meeting = shapely.buffer(one & other, -THIN)

@@ -1,4 +1,4 @@
-"""Free spaces that several tests look at."""
+"""Free spaces that several tests use."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TIGHT = hollow((-5, -3, 5, 3), (-4, -2, 4, 2))  # the rod turns a little, but no
 
 
 def room(opening: Fraction | int | str) -> FreeSpace:
-    """A unit square's room of width 4 with an opening to the right, and what is around it."""
+    """Room of width 4 of a unit square, with an opening to the right, and its surroundings."""
     half = Fraction(opening) / 2
     wall = [(-3, -3), (3, -3), (3, -half), (2, -half), (2, -2), (-2, -2), (-2, 2), (2, 2), (2, half), (3, half)]
     return free_space(boundary(Scene(box("-1/2", "-1/2", "1/2", "1/2")[0], [[*wall, (3, 3), (-3, 3)]])))

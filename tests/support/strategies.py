@@ -111,8 +111,8 @@ def touching_scenes(draw: st.DrawFn) -> PlainScene:
     """A convex polygon cut along diagonals from one vertex, some parts left out."""
     ring = draw(convex_polygons(8).filter(lambda shape: len(shape[0]) > 3))[0]
     fan = [([ring[0], p, q], []) for p, q in pairwise(ring[1:])]
-    kept = draw(st.lists(st.sampled_from(range(len(fan))), min_size=1, unique=True))
-    return PlainScene([draw(simple_polygons(3))], [fan[k] for k in kept])
+    chosen = draw(st.lists(st.sampled_from(range(len(fan))), min_size=1, unique=True))
+    return PlainScene([draw(simple_polygons(3))], [fan[k] for k in chosen])
 
 
 def overlapping_scenes() -> st.SearchStrategy[PlainScene]:

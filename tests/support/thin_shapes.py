@@ -18,7 +18,7 @@ FAMILIES = ("ellipse", "stadium", "lens", "moon", "spline", "flat arc", "flat cu
 
 
 def thin_shape(rng: random.Random, family: str, thin: Fraction) -> Any:
-    """A shape about as long as 2 and as thin, or as flat, as is said; turned, and placed near or far."""
+    """A shape of length about 2 and the requested thinness or flatness; turned, and placed near or far."""
     a, h = Fraction(rng.randrange(50, 151), 100), thin
     ellipse = [(a, 0), Arc((-a, 0), center=(0, 0), conjugate=(0, h)), Arc((a, 0), center=(0, 0), conjugate=(0, -h))]
     lens = [(a, 0), Arc((-a, 0), through=(0, h)), Arc((a, 0), through=(0, -h / rng.randrange(1, 9)))]
@@ -110,7 +110,7 @@ def touching(rng: random.Random, thin: Fraction) -> Iterator[tuple[cfree.Scene, 
     Yields
     ------
     scene, pose, bool, str
-        The last two say whether the pose is free, and which part the shape plays.
+        The pose is free if the third is True; the last names the role of the shape.
     """
     a, h = Fraction(rng.randrange(50, 151), 100), thin
     family = rng.choice(["ellipse", "lens", "flat arc"])
@@ -154,7 +154,7 @@ def _turned(vectors: list[ExactPoint], tau: Fraction) -> list[ExactPoint]:
 
 
 def side(p: ExactPoint, rings: Any) -> int:
-    """1 if a point is inside a polygon of exact rings, 0 on its boundary, -1 outside."""
+    """Side of a polygon of exact rings: 1 if a point is inside, 0 on its boundary, -1 outside."""
     is_odd = False
     for ring in rings:
         for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):

@@ -1,4 +1,4 @@
-"""The same scene elsewhere: turned, mirrored, scaled and moved exactly, with the maps that lead there."""
+"""Equivalent scenes: turned, mirrored, scaled and moved exactly, with the maps that lead there."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class Variant:
 
     Attributes
     ----------
-    world : maps reference points, and obstacles
-    turn : tan(theta/2) of what is added to each orientation
-    mirrored : orientations change their sign, and left is right
-    same_axes : every edge keeps its direction, so that who owns what, and where charts meet, is the same
+    world : map of reference points, and of obstacles.
+    turn : tan(theta/2) of the angle added to each orientation.
+    mirrored : True if orientations change their sign, and left is right.
+    same_axes : True if every edge keeps its direction, so that owners and the ends of charts are the same.
     """
 
     name: str
@@ -33,7 +33,7 @@ class Variant:
     same_axes: bool = True
 
     def half_tangent(self, tau: Fraction | None) -> Fraction | None:
-        """tan(theta/2) in the variant of an orientation of the first scene."""
+        """Half-angle tangent in the variant of an orientation of the first scene."""
         return added(-tau if self.mirrored and tau else tau, self.turn)
 
     def image(self, segments: Segments) -> Segments:
@@ -78,7 +78,7 @@ def scaling(factor: Fraction) -> Map:
 
 
 def changed(plain: PlainScene, world: Map, robot: Map) -> PlainScene:
-    """One map for the robot, one for all else; corners of bounds stay corners."""
+    """Scene with one map for the robot, one for all else; corners of bounds stay corners."""
 
     def moved(shape: Shape, change: Map) -> Shape:
         return mapped(shape, lambda x, y: change((Fraction(x), Fraction(y))))

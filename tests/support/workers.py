@@ -11,18 +11,18 @@ from typing import Any
 
 
 class Lost(Exception):
-    """The work ended without an answer; says how."""
+    """The work ended without an answer; the message gives the reason."""
 
 
 class Worker:
-    """Runs `work` on what it is asked, in a process of its own.
+    """A process that runs `work` on its questions.
 
     Parameters
     ----------
     work : callable
-        Of what may be sent to a process, to what may be sent back.
+        Function from a value that can be sent to a process, to one that can be sent back.
     patience : float, seconds
-        After which it is killed.
+        Time after which it is killed.
     """
 
     def __init__(self, work: Callable[[Any], Any], patience: float) -> None:
@@ -37,7 +37,7 @@ class Worker:
         theirs.close()
 
     def ask(self, question: Any) -> Any:
-        """The answer; `Lost` if there is none in time, or the process has died."""
+        """Answer of the process; `Lost` if there is none in time, or the process has died."""
         self.connection.send(question)
         try:
             if self.connection.poll(self.patience):
@@ -54,7 +54,7 @@ class Worker:
 
 
 def _serve(work: Callable[[Any], Any], connection: Connection, other: Connection) -> None:
-    """Until the one who asks is gone, whose end a forked process has, too."""
+    """Serve until the other end is closed; a forked process has a copy of it, which is closed first."""
     other.close()
     with contextlib.suppress(EOFError, BrokenPipeError):
         while True:
@@ -63,7 +63,7 @@ def _serve(work: Callable[[Any], Any], connection: Connection, other: Connection
 
 @contextlib.contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """A TimeoutError in the middle after so much time of all cores, if Python is there to raise it."""
+    """Raise a TimeoutError in the middle after so much time of all cores, if Python is there to raise it."""
 
     def stop(*_: Any) -> None:
         raise TimeoutError(f"not finished after {seconds:g} s")

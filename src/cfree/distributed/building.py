@@ -48,25 +48,25 @@ def boundary(
     Parameters
     ----------
     source : Scene, path, or sequence of paths
-        Of several files the first is a scene, the others are GeoJSON (also one feature a line), WKT or GeoParquet of
+        The first of several files is a scene. The others are GeoJSON (also one feature a line), WKT or GeoParquet of
         more obstacles, which are read one after the other.
     folder : path
-        Where everything is kept. If it has the boundary of the same source, every file of it is looked at: what is
-        missing or damaged is made, and nothing else.
+        Where everything is kept. If it has the boundary of the same source, every file in it is checked: missing or
+        damaged files are made again, and no others.
     client : distributed.Client, optional
-        Whose workers see the same folder. Without one the same tasks run here, one after the other.
+        Its workers must share the folder. Without one the same tasks run here, one after the other.
     tile : int
-        About how many obstacle vertices a tile has.
+        Approximate number of obstacle vertices in a tile.
     tiles : int, optional
-        How many tiles instead.
+        Number of tiles instead.
     progress : callable, optional
-        Called with the name of the stage, and how many of how many tiles are done; while obstacles are read, with how
-        many there are so far, and 0.
+        Function called with the name of the stage, the number of tiles done and that of all tiles. While obstacles are
+        read, it is called with their number so far, and 0.
 
     Returns
     -------
     Sharded
-        With the same trapezoids for any tiles and workers, and the cells that one process finds.
+        The trapezoids are the same for any tiles and workers, and the cells are those that one process finds.
 
     Raises
     ------
@@ -75,13 +75,12 @@ def boundary(
     TaskError
         If a tile ends every worker that begins it.
     OSError
-        If the disk is full: what is finished is kept.
+        If the disk is full: finished files are kept.
 
     Notes
     -----
-    Time is about linear in the vertices, memory of a process in the vertices of a tile; beside that, the process that
-    asks holds about 90 bytes a vertex, and 1.2 kB a closed surface. Isolated parts, which have no
-    width, are not looked for.
+    Time is about linear in the vertices, memory of a process in the vertices of a tile. Besides, the calling process
+    holds about 90 bytes a vertex, and 1.2 kB a closed surface. Isolated parts, which have no width, are not looked for.
 
     Examples
     --------
@@ -122,7 +121,7 @@ class _Build:
         return Sharded(self.folder)
 
     def _claim(self) -> None:
-        """Make the folder, or see that it is that of the same computation."""
+        """Make the folder, or check that it is that of the same computation."""
         path, known = self.folder / "source.json", None
         for name in SIGNED:  # one of them may be damaged
             with suppress(FormatError):
@@ -142,7 +141,7 @@ class _Build:
             write_json(path, {"key": self.key, "version": VERSION})
 
     def _stored(self) -> SceneStore:
-        """The scene as files; `facts.json` is written last."""
+        """Scene as files; `facts.json` is written last."""
         place = self.folder / "scene"
         with suppress(FormatError):
             store = SceneStore(place)
@@ -177,15 +176,15 @@ class _Build:
             return divide_scene(store, tiles, place, self.key)
 
     def _describe(self, store: SceneStore, division: Division) -> None:
-        """What tasks need to know of all obstacles."""
+        """Write the facts about all obstacles that tasks need."""
         path = self.folder / "plan.json"
         if _is_sound(path) and read_json(path).get("measured"):
             return
         rounded = list(NO_ROUNDING)
         write_json(path, {"key": self.key, "rounded": rounded})
         if not is_small(store):
-            for _, found in self._each(tasks.rounding_task, "measure", range(len(division))):
-                rounded = [a or b for a, b in zip(rounded, found, strict=True)]
+            for _, flags in self._each(tasks.rounding_task, "measure", range(len(division))):
+                rounded = [a or b for a, b in zip(rounded, flags, strict=True)]
         write_json(path, {"key": self.key, "rounded": rounded, "measured": True})
 
     def _each(self, task: Any, stage: str, tiles: Iterable[int], *more: Any) -> Any:
@@ -197,22 +196,22 @@ class _Build:
             yield number, result
 
     def _run(self, task: Any, asked: Mapping[int, tuple[Any, ...]]) -> Iterator[tuple[int, Any]]:
-        """Results of a task for some tiles, each with what it is told beside its number."""
+        """Results of a task for some tiles, each with arguments beside its number."""
         stamp = tasks.stamp_of(self.folder)
         return run(task, [(tile, (str(self.folder), stamp, tile, *more)) for tile, more in asked.items()], self.client)
 
     def _trim(self, division: Division) -> dict[str, Any]:
         tiles = range(len(division))
-        found = dict(self._each(tasks.trim_task, "trim", tiles, False))
-        if any(one["slits"] for one in found.values()):
+        results = dict(self._each(tasks.trim_task, "trim", tiles, False))
+        if any(one["slits"] for one in results.values()):
             plan = read_json(self.folder / "plan.json")
             if not plan.get("slits"):
                 write_json(self.folder / "plan.json", plan | {"slits": True})
             for _ in self._each(tasks.trim_task, "trim again", tiles, True):
                 pass
         return {
-            "trapezoids": sum(one["trapezoids"] for one in found.values()),
-            "digest": f"{sum(int(one['digest'], 16) for one in found.values()) % MODULUS:064x}",
+            "trapezoids": sum(one["trapezoids"] for one in results.values()),
+            "digest": f"{sum(int(one['digest'], 16) for one in results.values()) % MODULUS:064x}",
         }
 
     def _glue(self, division: Division) -> dict[int, int]:
@@ -248,18 +247,18 @@ class _Build:
     def _measure(
         self, store: SceneStore, joined: JoinedSurfaces, present: dict[int, Any], count: int
     ) -> tuple[list[Fraction], list[Fraction], list[bool]]:
-        """Volumes between closed surfaces and their free sides, estimates of the errors, and who bounds them.
+        """Volumes between closed surfaces and their free sides, estimates of the errors, and flags.
 
-        The last is whether more than obstacles do.
+        A flag is True if more than obstacles bound the surface.
         """
         values, errors, foreign = [Fraction(0)] * count, [Fraction(0)] * count, [False] * count
         features = Features(store)
         x, y, *_ = store.rest.frame
         near = features.points(joined.lead) - np.array([x, y])
         asked = {tile: (tasks.surfaces_in(joined, tile), near[surfaces]) for tile, surfaces in present.items()}
-        for done, (_, found) in enumerate(self._run(tasks.measure_task, asked), 1):
+        for done, (_, volumes) in enumerate(self._run(tasks.measure_task, asked), 1):
             self.progress("volumes", done, len(asked))
-            for surface, (value, error, others) in found.items():
+            for surface, (value, error, others) in volumes.items():
                 values[surface] += value
                 errors[surface] += error
                 foreign[surface] |= others
@@ -300,7 +299,7 @@ class _Build:
 
 
 def _is_sound(path: Path) -> bool:
-    """True if it is as it was written."""
+    """True if the file is as it was written."""
     try:
         return bool(read_json(path))
     except FormatError:

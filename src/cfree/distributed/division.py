@@ -1,4 +1,4 @@
-"""How a stored scene is divided into tiles: which features each has, and which obstacles and tiles are near them."""
+"""A stored scene divided into tiles: the features of each, and the obstacles and tiles near them."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Division:
     ----------
     folder : Path
     first : mapping of name to (tiles + 1,) int64
-        Where each tile's part of a list begins: of its features, of the obstacles within reach of them, and of the
+        Beginning of each tile's part of a list: of its features, of the obstacles within reach of them, and of the
         tiles that have features within reach, itself among them.
     boxes : (tiles, 4) float64
-        Around the poses of each tile's patches.
+        Boxes around the poses of each tile's patches.
     spans : (tiles, 4) float64
-        Around all obstacles within reach of a tile's features.
+        Boxes around all obstacles within reach of a tile's features.
     """
 
     folder: Path
@@ -51,12 +51,12 @@ class Division:
 
     @classmethod
     def open(cls, folder: Path, key: str) -> Division:
-        """As `divide_scene` has written it.
+        """Open the division that `divide_scene` has written.
 
         Raises
         ------
         FormatError
-            If there is none of that key, or a file of it is damaged; it says how that is mended.
+            If there is none of that key, or a file of it is damaged; the error names the remedy.
         """
         table = read_shard(folder / "division.npz", key)
         check_sums(folder, dict(zip(FILES, table["sums"].tolist(), strict=True)))
@@ -80,18 +80,18 @@ class Features:
 
     @property
     def numbers(self) -> Ints:
-        """Of all of them."""
+        """Numbers of all features."""
         return np.concatenate([np.arange(self._count), self._emit + self._count])
 
     def points(self, numbers: Ints) -> Floats:
-        """(n, 2) where vertices are, rounded."""
+        """Vertices, (n, 2), rounded."""
         own = numbers < self._count
         xy = np.empty((len(numbers), 2))
         xy[own], xy[~own] = self._parts[0][0][numbers[own]], self._parts[1][0][numbers[~own] - self._count]
         return xy
 
     def boxes(self, numbers: Ints) -> Floats:
-        """(n, 4) boxes around the edges that start at vertices."""
+        """Boxes around the edges that start at vertices, (n, 4)."""
         own = numbers < self._count
         after = np.empty(len(numbers), np.int64)
         after[own], after[~own] = self._parts[0][1][numbers[own]], self._parts[1][1][numbers[~own] - self._count]

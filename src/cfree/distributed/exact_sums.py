@@ -1,4 +1,4 @@
-"""Sums of doubles without rounding, so that it does not matter who adds what up."""
+"""Sums of doubles without rounding, so that they do not depend on the order of addition."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-DIGITS, LOW = 53, 27  # of a double's mantissa, and of its lower part
-EXPONENT, LEAST = 12, 2048  # digits of an exponent, which is above minus that
+DIGITS, LOW = 53, 27  # digits of a double's mantissa, and of its lower part
+EXPONENT, LEAST = 12, 2048  # digits of an exponent; exponents are above -2048
 
 
 def exact_sums(values: NDArray[np.float64], group: NDArray[np.int64], groups: int) -> list[Fraction]:

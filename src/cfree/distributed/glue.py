@@ -15,21 +15,21 @@ FIRST, LAST = 0, 2  # sides of trapezoids: at its first angle, and at its last
 
 
 def glue_tile(rows: Rows, own: int) -> Shard:
-    """Where sides of a tile's trapezoids lead, and what there is of each closed surface in it.
+    """Partners of the sides of a tile's trapezoids, and the parts of closed surfaces in it.
 
     Parameters
     ----------
     rows : Rows
-        Of the tile, and of all features within reach of one of its own.
+        Rows of the tile, and of all features within reach of one of its own.
     own : int
         The tile's number.
 
     Returns
     -------
     dict of arrays
-        ``component``, ``lift``, (n,): of each row of the tile; joined over sides within the tile. Of each component
-        ``least``, (c, 2): its first feature and row, ``faces``, ``sides``, ``vertices`` and ``turns``. Of the sides to
-        other tiles ``border``, (b, 4): component, other tile, other row, and how often that is lifted by a turn against
+        ``component``, ``lift``, (n,): for each row of the tile; joined over sides within the tile. For each component
+        ``least``, (c, 2): its first feature and row, ``faces``, ``sides``, ``vertices`` and ``turns``. For the sides to
+        other tiles ``border``, (b, 4): component, other tile, other row, and the number of turns that lift it against
         the component.
     """
     is_own = rows.tile == own
@@ -41,7 +41,7 @@ def glue_tile(rows: Rows, own: int) -> Shard:
     inside = of_side >= 0
     mine = np.flatnonzero(is_own)
     number = component[mine]
-    # of a vertex the first side is the one that counts it
+    # the first side of a vertex counts it
     _, first = np.unique(cells.vertex, return_index=True)
     counting = first[is_own[face[first]]]
     out = np.flatnonzero(inside & ~is_own[face[np.where(inside, twin, 0)]])
@@ -63,7 +63,7 @@ def glue_tile(rows: Rows, own: int) -> Shard:
 
 
 def _leaves(cells: _core.CellComplex, rows: Rows, sides: NDArray[Any]) -> NDArray[np.int64]:
-    """Whether sides lead over theta = 3 pi / 2."""
+    """Flags, 1 for sides that lead over theta = 3 pi / 2."""
     twins, chart = cells.twin[sides], rows.core.trapezoids.chart
     ends = (cells.side[sides] == LAST) & (chart[cells.face[sides]] == 1)
     begins = (cells.side[twins] == FIRST) & (chart[cells.face[twins]] == 0)
@@ -71,12 +71,12 @@ def _leaves(cells: _core.CellComplex, rows: Rows, sides: NDArray[Any]) -> NDArra
 
 
 def _first_of(rows: Rows, which: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Of some rows the first one of their features."""
+    """First rows of the features of some rows."""
     return np.asarray(np.searchsorted(rows.feature, rows.feature[which]), np.int64)
 
 
 def _in_rows(rows: Rows, mine: NDArray[np.int64], values: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Values of the tile's own trapezoids by their rows in its shard."""
+    """Values of the tile's own trapezoids, by their rows in its shard."""
     result = np.empty(len(mine), np.int32)
     result[rows.row[mine]] = values
     return result

@@ -24,9 +24,9 @@ class JoinedSurfaces:
     first : (tiles + 1,) int64
         Components of tile k are first[k] to first[k + 1] - 1.
     surface, lift : (components,) int64
-        Of each component the surface, and by how many turns it is lifted against the first one.
+        For each component its surface, and the number of turns by which it is lifted against the first one.
     lead : (surfaces,) int64
-        Of each surface the feature of its first trapezoid.
+        For each surface the feature of its first trapezoid.
     faces, euler, turns : (surfaces,) int64
     """
 
@@ -43,13 +43,13 @@ class JoinedSurfaces:
 
 
 def join(tiles: int, glued: Callable[[int], Shard]) -> JoinedSurfaces:
-    """Join what `glue_tile` has found.
+    """Join the results of `glue_tile`.
 
     Parameters
     ----------
     tiles : int
     glued : callable
-        The shard of a tile; asked for one after the other, and for those around it.
+        Function that returns the shard of a tile, called for one after the other, and for those around it.
     """
     tables: list[Shard] = []
     for tile in range(tiles):
@@ -99,7 +99,7 @@ class _Forest:
     def __init__(self, count: int) -> None:
         self.parent = list(range(count))
         self.lift = [0] * count
-        self.divisors: dict[int, int] = {}  # of roots, by how many turns their loops go round
+        self.divisors: dict[int, int] = {}  # for roots, the number of turns of their loops
 
     def find(self, x: int) -> tuple[int, int]:
         path = []
@@ -113,7 +113,7 @@ class _Forest:
         return x, total
 
     def join(self, one: int, other: int, rise: int) -> None:
-        """Other is lifted by so much against one."""
+        """Join two sets; `other` is lifted by `rise` against `one`."""
         (a, p), (b, q) = self.find(one), self.find(other)
         if a == b:
             if p + rise != q:
@@ -124,6 +124,6 @@ class _Forest:
             self.divisors[a] = gcd(self.divisors.get(a, 0), self.divisors.pop(b))
 
     def settled(self) -> tuple[Ints, Ints]:
-        found = [self.find(x) for x in range(len(self.parent))]
-        roots, lifts = np.array(found, np.int64).reshape(-1, 2).T
+        pairs = [self.find(x) for x in range(len(self.parent))]
+        roots, lifts = np.array(pairs, np.int64).reshape(-1, 2).T
         return roots, lifts

@@ -1,9 +1,9 @@
-"""Cells of free poses, tile by tile: what the line from a pose towards -x crosses, at its orientation.
+"""Cells of free poses, tile by tile: the crossings of the line from a pose towards -x, at its orientation.
 
-The nearest crossing says the cell, if the line is in general position and the pose on no face: tiles are asked from the
-pose outwards, until none can hold a nearer one. For other poses all tiles on the line are asked. One on faces is in the
-first cell that they bound; else it is inside the closed surfaces that a line just after its orientation crosses an odd
-number of times, and the innermost of them says the cell. docs/theory/cells.md has the proofs.
+The nearest crossing decides the cell if the line is in general position and the pose on no face. Tiles are queried from
+the pose outwards, until none can hold a nearer one. For other poses all tiles on the line are queried. A pose on faces
+is in the first cell that they bound. Any other is inside the closed surfaces that a line just after its orientation
+crosses an odd number of times; the innermost of them decides the cell. docs/theory/cells.md has the proofs.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from cfree.free.space import FORBIDDEN, NO_CELL
 
 Ints = NDArray[np.int64]
 InChart = tuple[tuple[int, ...], int]
-"""A pose as the core has it: integers X, Y, W, p, r, and the chart."""
+"""A pose in the form of the core: integers X, Y, W, p, r, and the chart."""
 Around = tuple[list[int], list[int]]
-"""The surfaces of the faces that hold a pose; and those crossed just after its orientation, as often as they are."""
+"""The surfaces of the faces that hold a pose; and those crossed just after its orientation, once for each crossing."""
 Ask = Callable[[Any, Mapping[int, list[int]]], Iterable[tuple[int, list[Any]]]]
 
 
 class TileFaces:
-    """The faces of one tile, to be seen from poses."""
+    """The faces of one tile, to be crossed by lines from poses."""
 
     def __init__(self, work: Work, tile: int) -> None:
         rows = work.rows(tile, work.surfaces, around=False)
@@ -44,16 +44,16 @@ class TileFaces:
 
     @cached_property
     def _faces(self) -> _core.FreeSpace:
-        """Asked only for what is near by: its one surface means nothing."""
+        """Free space of the tile alone, used only for searches near a pose: its one surface means nothing."""
         one, each = np.ones(1, np.int32), np.zeros(len(self._component), np.int32)
         return _core.FreeSpace(self._boundary, _core.Surfaces(each, -one, one.astype(np.uint8), one, each))
 
     def crossings(self, pose: InChart, surface: Ints) -> list[Crossing] | None:
-        """What the line from a pose crosses; None if it is not in general position, or the pose on a face."""
-        found = self._lines.passages(*pose, NONE)
-        if found is None:
+        """Crossings of the line from a pose; None if it is not in general position, or the pose on a face."""
+        passages = self._lines.passages(*pose, NONE)
+        if passages is None:
             return None
-        return [Crossing(int(surface[self._component[row]]), Place.of(n, d), free) for row, n, d, free in found]
+        return [Crossing(int(surface[self._component[row]]), Place.of(n, d), free) for row, n, d, free in passages]
 
     def around(self, pose: InChart, surface: Ints) -> Around:
         on, _, crossed, _ = self._faces.nearby(*pose)
@@ -68,19 +68,19 @@ def tile_faces(folder: str, stamp: str, tile: int) -> TileFaces:
 def crossings_task(
     folder: str, stamp: str, tile: int, surface: Ints, poses: Sequence[InChart]
 ) -> list[list[Crossing] | None]:
-    """What lines cross in a tile; `surface` is that of each of its components."""
+    """Crossings of lines in a tile; `surface` is that of each of its components."""
     faces = tile_faces(folder, stamp, tile)
     return [faces.crossings(pose, surface) for pose in poses]
 
 
 def around_task(folder: str, stamp: str, tile: int, surface: Ints, poses: Sequence[InChart]) -> list[Around]:
-    """What is at poses and crossed just after their orientations in a tile."""
+    """Surfaces at poses, and those crossed just after their orientations, in a tile."""
     faces = tile_faces(folder, stamp, tile)
     return [faces.around(pose, surface) for pose in poses]
 
 
 def with_rational_tangents(poses: Poses) -> list[Pose]:
-    """What `FreeSpace.locate` takes doubles for: orientations are those of the rounded tangents of their halves."""
+    """Exact poses that `FreeSpace.locate` takes doubles for: orientations have the rounded tangents of their halves."""
     chart, tau = chart_of(poses.theta)
     taus = (tau_in_chart(k, Fraction(value)) for k, value in zip(chart.tolist(), tau.tolist(), strict=True))
     return [Pose(x, y, {"tau": tau}) for (x, y), tau in zip(poses.xy.tolist(), taus, strict=True)]
@@ -88,14 +88,14 @@ def with_rational_tangents(poses: Poses) -> list[Pose]:
 
 @dataclass
 class _Line:
-    """What is known of the line of a pose.
+    """Facts known about the line of a pose.
 
     Attributes
     ----------
     tiles : list of int
-        Which it may meet, the one that reaches farthest to the right last.
+        Tiles that it may meet, the one that reaches farthest to the right last.
     asked : int
-        How many of them have been.
+        Number of them queried so far.
     """
 
     tiles: list[int]
@@ -103,7 +103,7 @@ class _Line:
     nearest: Crossing | None = None
 
     def next(self, right: NDArray[np.float64], scale: float) -> int | None:
-        """A tile that may hold something nearer than what is known."""
+        """Tile that may hold a crossing nearer than the known one."""
         if self.asked == len(self.tiles):
             return None
         tile = self.tiles[-1 - self.asked]
@@ -112,7 +112,7 @@ class _Line:
         return tile
 
     def is_general(self, crossed: list[Crossing] | None) -> bool:
-        """Take in what the next tile knows; False if that is not enough to tell what is nearest."""
+        """Take in the result of the next tile; False if that is not enough to decide the nearest crossing."""
         self.asked += 1
         if crossed is None:
             return False
@@ -123,13 +123,13 @@ class _Line:
 
 @dataclass(frozen=True)
 class CellsOf:
-    """Which closed surface bounds which cell.
+    """The cells that closed surfaces bound.
 
     Attributes
     ----------
     parent, cell_of : (n,) int64
     free_inside : (n,) bool
-        Of each surface, as of `Surfaces`.
+        For each surface, as in `Surfaces`.
     outside : int
         The cell around all of them; `NO_CELL` if space is forbidden there.
     """
@@ -140,13 +140,13 @@ class CellsOf:
     outside: int
 
     def beside(self, nearest: Crossing | None) -> int:
-        """The cell of what is just right of a crossing, or left of all."""
+        """Cell just right of a crossing, or left of all."""
         if nearest is None:
             return self.outside
         return NO_CELL if nearest.is_free_before else int(self.cell_of[nearest.surface])
 
     def at(self, on: set[int], odd: set[int]) -> int:
-        """The first cell bounded by a surface that a pose is on, or else that inside of the innermost around it."""
+        """First cell bounded by a surface that a pose is on, or else the cell inside the innermost one around it."""
         if on:
             return int(min(self.cell_of[surface] for surface in on))
         if not odd:
@@ -178,14 +178,15 @@ def cells_of(
     present : (k,) int64
         The tiles that have faces.
     boxes : (tiles, 4) float64
-        Around the poses of each tile's faces, in the user's units.
+        Boxes around the poses of each tile's faces, in the user's units.
     scale : float
-        Integers of a pose in a unit of the user.
+        Factor from a unit of the user to integers of a pose.
     ask : callable
-        Given a task and the numbers of poses by tile: tiles, and what the task says of their poses.
+        Function of a task and the numbers of poses by tile, which returns tiles and the results of the task for their
+        poses.
     known : CellsOf
     is_alone : bool
-        Whether one tile is asked at a time, and so each of them once; else all that are needed next.
+        True to query one tile at a time, and so each of them once; else all that are needed next.
     """
     result = [FORBIDDEN] * len(poses)
     lines = {k: _Line(_tiles_on(pose, present, boxes, scale)) for k, pose in enumerate(poses)}
@@ -200,7 +201,7 @@ def cells_of(
                 del lines[k]
             else:
                 questions.setdefault(tile, []).append(k)
-        if is_alone and questions:  # all lines that meet other tiles later are waited for
+        if is_alone and questions:  # wait for all lines that meet other tiles later
             tile = max(questions, key=lambda tile: (boxes[tile, 2], -tile))
             questions = {tile: questions[tile]}
         for tile, answers in ask(crossings_task, questions):

@@ -20,30 +20,30 @@ def map(
     client: Any = None,
     progress: Callable[..., object] | None = None,
 ) -> list[Any]:
-    """Results of a function for many scenes, or whatever else it takes, in their order.
+    """Results of a function for many scenes, or any other items, in their order.
 
     Parameters
     ----------
     function : callable
-        Of one argument. Workers of a cluster have to be able to import it.
+        Function of one argument. Workers of a cluster must be able to import it.
     items : iterable
         Pairs of parts to be nested, scenes of a study of parameters ...
     client : distributed.Client, optional
         Without one the calls are made here, one after the other.
     progress : callable, optional
-        Called with how many of how many are done.
+        Function called with the number of results, and that of all items.
 
     Returns
     -------
     list
-        What the function returns.
+        Results of the function.
 
     Raises
     ------
     TaskError
         If one call ends every worker that begins it; `tile` is its number.
     ImportError
-        If a worker cannot import the function, or what its argument is made of.
+        If a worker cannot import the function, or a class of its argument.
 
     Examples
     --------
@@ -53,23 +53,23 @@ def map(
     [26, 26]
     """
     check_client(client)
-    given = list(items)
-    found: dict[int, Any] = {}
-    calls = [(k, (item,)) for k, item in enumerate(given)]
+    arguments = list(items)
+    results: dict[int, Any] = {}
+    calls = [(k, (item,)) for k, item in enumerate(arguments)]
     task: Callable[..., Any] = function
     if client is not None:
         import cloudpickle
 
-        # in bytes, so that it is the call that fails where a worker cannot import something, and not the worker
-        task, calls = _call, [(k, (cloudpickle.dumps((function, item)),)) for k, item in enumerate(given)]
+        # in bytes, so that the call fails, and not the worker, if a worker cannot import something
+        task, calls = _call, [(k, (cloudpickle.dumps((function, item)),)) for k, item in enumerate(arguments)]
     for number, result in run(task, calls, client):
-        found[number] = result
+        results[number] = result
         if progress is not None:
-            progress(len(found), len(given))
-    return [found[k] for k in range(len(given))]
+            progress(len(results), len(arguments))
+    return [results[k] for k in range(len(arguments))]
 
 
-def _call(given: bytes) -> Any:
-    """A function and its argument, as the client has packed them."""
-    function, item = pickle.loads(given)
+def _call(packed: bytes) -> Any:
+    """Call a function with its argument, both packed by the client."""
+    function, item = pickle.loads(packed)
     return function(item)

@@ -1,8 +1,8 @@
-"""Which closed surface is inside which, tile by tile: what a line from each towards -x meets first.
+"""Nesting of closed surfaces, tile by tile: the first surface on a line from each towards -x.
 
 On the line from a pose of a surface towards -x, at its orientation, the last point of the surface has its outside to
-the left. There begins the region that the next surface on the line bounds from the left: it is inside that one, or
-beside it.
+the left. A region begins there, and the next surface on the line bounds it from the left. The surface is inside that
+one, or beside it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from cfree.distributed.joining import JoinedSurfaces
 from cfree.errors import InvariantError
 
 Ints = NDArray[np.int64]
-ATTEMPTS, TRIES = 8, 8  # to find a line: in how many tasks of each tile, and in each of these
+ATTEMPTS, TRIES = 8, 8  # to find a line: number of tasks of each tile, and of tries in each of these
 NONE = -1
 
 
@@ -48,7 +48,7 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True)
 class Line:
-    """A line towards -x from a pose on a surface: integers X, Y, W, p, r as the core has them, and the chart."""
+    """A line towards -x from a pose on a surface: integers X, Y, W, p, r in the form of the core, and the chart."""
 
     pose: tuple[int, int, int, int, int]
     chart: int
@@ -78,9 +78,9 @@ class TileLines:
     Parameters
     ----------
     boundary : _core.Boundary
-        Of the tile's own trapezoids.
+        Boundary of the tile's own trapezoids.
     surface : (n,) int64
-        Of each of them.
+        Surface of each of them.
     """
 
     def __init__(self, boundary: _core.Boundary, surface: Ints) -> None:
@@ -91,7 +91,7 @@ class TileLines:
         self._sorted = surface[self._order]
 
     def begin(self, surface: int, attempt: int) -> tuple[Line | None, list[Crossing] | None]:
-        """A line from a surface that is in the tile, and what it crosses here; other ones for other attempts."""
+        """Line from a surface that is in the tile, and its crossings here; other attempts give other lines."""
         for k in range(TRIES * attempt, TRIES * (attempt + 1)):
             line = self._line(surface, k)
             crossed = None if line is None else self.crossings(line, is_its_own=True)
@@ -102,20 +102,20 @@ class TileLines:
     def _line(self, surface: int, attempt: int) -> Line | None:
         first, end = np.searchsorted(self._sorted, [surface, surface + 1]).tolist()
         row = int(self._order[first + attempt % (end - first)])
-        found = self._location.pose_on(row, attempt)
-        return None if found is None else Line(*found, row)
+        pose = self._location.pose_on(row, attempt)
+        return None if pose is None else Line(*pose, row)
 
     def crossings(self, line: Line, is_its_own: bool = False) -> list[Crossing] | None:
-        """What a line crosses here; nothing if that cannot be told for this line."""
-        found = self._location.passages(line.pose, line.chart, line.row if is_its_own else NONE)
-        if found is None:
+        """Crossings of a line here; None if they cannot be decided for this line."""
+        passages = self._location.passages(line.pose, line.chart, line.row if is_its_own else NONE)
+        if passages is None:
             return None
-        return [Crossing(int(self._surface[row]), Place.of(n, d), free) for row, n, d, free in found]
+        return [Crossing(int(self._surface[row]), Place.of(n, d), free) for row, n, d, free in passages]
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What a line of a surface crosses in a tile; without a line, one is begun.
+    """A query for the crossings of a surface's line in a tile; without a line, one is begun.
 
     Attributes
     ----------
@@ -131,11 +131,11 @@ class Question:
 
 
 Ends = tuple[Crossing, "Crossing | None"]
-"""The last crossing of a surface on its line, and what is crossed next."""
+"""The last crossing of a surface on its line, and the next crossing."""
 
 
 class Left(NamedTuple):
-    """What is to the left of a surface: whether its outside is free, and what bounds that, if anything does."""
+    """The region to the left of a surface: True if its outside is free, and the surface that bounds it, if any does."""
 
     is_free_before: bool
     beyond: int = NONE
@@ -150,7 +150,7 @@ class Left(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The line and what it crosses, unless that tells already what is to the left."""
+    """The line and its crossings, unless the region to its left is decided."""
 
     surface: int
     line: Line | None = None
@@ -159,7 +159,7 @@ class Answer:
 
 
 def answered(lines: TileLines, tile: int, asked: Question, boxes: NDArray[np.float64], scale: float) -> Answer:
-    """What a tile knows; arguments as of `nest`."""
+    """Answer of a tile to a query; `boxes` and `scale` as in `nest`."""
     surface, line = asked.surface, asked.line
     if line is not None:
         return Answer(surface, line, lines.crossings(line))
@@ -174,7 +174,7 @@ def answered(lines: TileLines, tile: int, asked: Question, boxes: NDArray[np.flo
 
 @dataclass
 class Nesting:
-    """Of each closed surface the next around it, or -1, and whether space is free just inside it."""
+    """Nesting of closed surfaces: the next around each, or -1, and True if space is free just inside it."""
 
     parent: Ints
     free_inside: NDArray[np.bool_]
@@ -182,7 +182,7 @@ class Nesting:
 
 @dataclass(slots=True)
 class _Search:
-    """What is known of one surface's line."""
+    """Facts known about one surface's line."""
 
     attempt: int = 0
     line: Line | None = None
@@ -204,24 +204,24 @@ def nest(
     ----------
     joined : JoinedSurfaces
     present : mapping of tile to surfaces
-        Which are in it.
+        Surfaces in each tile.
     boxes : (tiles, 4) float64
-        Around the poses of each tile's trapezoids, in the user's units.
+        Boxes around the poses of each tile's trapezoids, in the user's units.
     ask : callable
-        Given questions by tile, the answers.
+        Function of queries by tile, which returns the answers.
     is_bounded : bool
-        Whether there is no free space far away.
+        True if there is no free space far away.
     scale : float
-        Integers of a line in a unit of the user.
+        Factor from a unit of the user to integers of a line.
     """
     tiles_of: list[list[int]] = [[] for _ in range(len(joined))]
     for here, surfaces in present.items():
         for surface in surfaces.tolist():
             tiles_of[surface].append(here)
-    for tiles in tiles_of:  # one that nothing of the surface is to the left of comes first
+    for tiles in tiles_of:  # the leftmost of the surface comes first
         tiles.sort(key=lambda tile: (boxes[tile, 0], tile))
     left: list[Left | None] = [None] * len(tiles_of)
-    searches: dict[int, _Search] = {}  # of surfaces that more than one tile is asked about
+    searches: dict[int, _Search] = {}  # for surfaces that need more than one tile
     waiting: Sequence[int] = range(len(tiles_of))
     while waiting:
         questions: dict[int, list[Question]] = {}
@@ -259,7 +259,7 @@ def nest(
 
 
 def _next(search: _Search, surface: int, own: list[int], boxes: NDArray[np.float64], scale: float) -> int | None:
-    """The tile to ask next: one that the surface is in, or that may hold something nearer than what is known."""
+    """Tile to query next: one that the surface is in, or that may hold a crossing nearer than the known one."""
     assert search.line is not None
     y, x = search.line.y / scale, search.line.x.near / scale
     last, beyond = _ends(search, surface)
@@ -278,7 +278,7 @@ def _next(search: _Search, surface: int, own: list[int], boxes: NDArray[np.float
 
 
 def is_general(line: Line | None, crossed: list[Crossing] | None) -> bool:
-    """Is there a line, and does it cross surfaces one after the other?"""
+    """True if there is a line, and it crosses surfaces one after the other."""
     if line is None or crossed is None:
         return False
     places = sorted([line.x, *(crossing.x for crossing in crossed)])
@@ -286,7 +286,7 @@ def is_general(line: Line | None, crossed: list[Crossing] | None) -> bool:
 
 
 def _ends(search: _Search, surface: int) -> Ends:
-    """As far as known."""
+    """Ends of the line, as far as known."""
     line = search.line
     assert line is not None
     own = [crossing for crossing in search.crossed if crossing.surface == surface]
@@ -296,7 +296,7 @@ def _ends(search: _Search, surface: int) -> Ends:
 
 
 def _kept(search: _Search, surface: int, own: Sequence[int]) -> list[Crossing]:
-    """The crossings that ends still depend on: the last one is the rightmost that it can be, and those to its left."""
+    """Crossings that ends still depend on: the last one is the rightmost that it can be, and those to its left."""
     last, beyond = _ends(search, surface)
     if search.done.issuperset(own):
         return [c for c in search.crossed if c is last or c is beyond]
@@ -304,7 +304,7 @@ def _kept(search: _Search, surface: int, own: Sequence[int]) -> list[Crossing]:
 
 
 def _nested(left: Sequence[Left], is_bounded: bool) -> Nesting:
-    """From what is to the left of each surface."""
+    """Nesting from the regions to the left of each surface."""
     count = len(left)
     free_inside = np.array([not one.is_free_before for one in left], np.bool_)
     parent = np.full(count, NONE, np.int64)
@@ -314,12 +314,12 @@ def _nested(left: Sequence[Left], is_bounded: bool) -> Nesting:
             if is_free == is_bounded:
                 raise InvariantError(f"closed surface {surface} is around nothing, with the wrong side free")
             continue
-        # to the right of a crossing is what is not to its left
+        # the side right of a crossing is free exactly if the left one is not
         if is_free_beyond == is_free:
             raise InvariantError(f"closed surfaces {surface} and {beyond} have no region between them")
         inside = is_free == bool(free_inside[beyond])
         (parent if inside else beside)[surface] = beyond
-    while np.any(beside >= 0):  # as far out as those that they are beside
+    while np.any(beside >= 0):  # surfaces beside others take the parents of these
         which = np.flatnonzero(beside >= 0)
         target = beside[which]
         ready = beside[target] < 0

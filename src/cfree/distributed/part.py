@@ -23,7 +23,7 @@ class Part:
     ----------
     store : SceneStore
     numbers : (n,) int64
-        Of the obstacles, in order.
+        Numbers of the obstacles, in order.
     """
 
     def __init__(self, store: SceneStore, numbers: Ints) -> None:
@@ -33,7 +33,7 @@ class Part:
 
     @cached_property
     def vertices(self) -> Ints:
-        """Of each vertex of the part its number among all."""
+        """Numbers of the part's vertices among all."""
         first = self.store.column("first")
         own = [first[k] + np.arange(len(polygon)) for k, polygon in zip(self.numbers, self.polygons, strict=True)]
         count = sum(map(len, own))
@@ -42,19 +42,19 @@ class Part:
 
     @cached_property
     def edges(self) -> NDArray[np.int64]:
-        """(e, 2) of each edge the numbers of its ends among all."""
+        """Numbers of the ends of each edge among all, (e, 2)."""
         obstacles = self.features.obstacles
         return np.stack([self.vertices[obstacles.v], self.vertices[obstacles.w]], axis=1)
 
     def local(self, vertices: Ints) -> NDArray[np.int32]:
-        """Vertices of all by their numbers in the part."""
+        """Numbers in the part of vertices numbered among all."""
         place = np.searchsorted(self.vertices, vertices)
         if np.any(self.vertices[np.minimum(place, len(self.vertices) - 1)] != vertices):
             raise KeyError("a vertex that is not in this part")
         return place.astype(np.int32)
 
     def keys(self, codes: Codes) -> NDArray[np.int64]:
-        """(n, 4) features as all parts know them: kind, robot's feature, obstacle's vertex, or the ends of its edge.
+        """Keys of features common to all parts, (n, 4): kind, robot's feature, obstacle's vertex, or its edge's ends.
 
         Instead of the second end of an edge, a vertex has `NO_EDGE`; no feature is four zeros.
         """
@@ -69,7 +69,7 @@ class Part:
         return keys
 
     def codes(self, keys: NDArray[np.int64]) -> Codes:
-        """The same features as the core knows those of this part."""
+        """Codes of the core for the same features, by the numbers of this part."""
         kind, robot, v, w = keys.T
         obstacle = np.zeros(len(keys), np.int64)
         there, on_vertex = kind != 0, np.isin(kind, ON_VERTEX)

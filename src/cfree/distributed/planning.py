@@ -1,7 +1,8 @@
-"""From start to goal in a scene that is too large to be read: with the obstacles near what has been found so far.
+"""Plan in a scene that is too large to be read, with the obstacles near the paths found so far.
 
-What parts two poses among some of the obstacles parts them among all. A path among some is one among all if those are
-with them that come near it. So obstacles are added along the paths that are found, until one of the two is certain.
+A separating surface among some of the obstacles separates two poses among all. A path among some is one among all if
+all obstacles near it are included. So obstacles are added along the paths that are found, until one of the two is
+certain.
 """
 
 from __future__ import annotations
@@ -24,18 +25,18 @@ from cfree.scene.scene import Scene
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 MARGIN, WIDER = 2.0, 4.0
-"""How far around a path obstacles are added, in reaches of the robot; so many times as far when some were missing."""
+"""Distance around a path within which obstacles are added, in reaches of the robot; the factor if some were missing."""
 
 
 @dataclass
 class Surroundings:
-    """Obstacles of a stored scene, those that have been needed so far.
+    """Obstacles of a stored scene that have been needed so far.
 
     Attributes
     ----------
     work : Work
     numbers : set of int
-        Which obstacles are known.
+        Obstacles that are known.
     read : set of int
         Tiles whose lists have been read.
     """
@@ -46,7 +47,7 @@ class Surroundings:
 
     @property
     def scene(self) -> Scene:
-        """The scene with what is known."""
+        """Scene with the known obstacles."""
         return self.work.store.scene(sorted(self.numbers))
 
     @property
@@ -65,7 +66,7 @@ class Surroundings:
         return numbers[BoxIndex(self.work.store.column("box")[numbers]).near(squares, reach)]
 
     def add_around(self, path: Path, margin: float = 0.0) -> bool:
-        """Add what the robot may touch on a path, and what is within a margin of that; False if all of it was known."""
+        """Add obstacles that the robot may touch on a path, or within a margin of it; False if all were known."""
         ends = np.array([[float(q.x), float(q.y)] for q in (path.start, path.goal)])
         points, radius = path.sample(self.work.store.radius).xy, self.work.store.radius
         near = set(self.around(points, 2 * radius).tolist()) | set(self.around(ends, radius, spans=True).tolist())
@@ -76,7 +77,7 @@ class Surroundings:
 
 
 def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Separated:
-    """A path or a proof, whose scene has the obstacles that it is about; `wishes` as of `cfree.plan`."""
+    """Path or proof, whose scene has the obstacles that it is about; `wishes` are options of `cfree.plan`."""
     for end in (start, goal):
         known.add_around(Path(end, []), MARGIN * known.work.store.radius)
     for wish in ({"improve": 0.0}, wishes):

@@ -1,4 +1,4 @@
-"""Many questions to a folder, here or on a cluster."""
+"""Many queries to a folder, here or on a cluster."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ Rows = Floats | list[Pose]
 
 
 def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str, Any]) -> Path | Separated:
-    """One question, as of `Sharded.plan`."""
+    """Answer one query, as `Sharded.plan` does."""
     return plan_among(Surroundings(opened(folder, stamp)), start, goal, **wishes)
 
 
 def free_task(folder: str, stamp: str, rows: Rows) -> NDArray[np.bool_]:
-    """Which poses are free among the obstacles near them."""
+    """Flags of the poses that are free among the obstacles near them."""
     known = Surroundings(opened(folder, stamp))
     xy = places(rows)
     for spans in (False, True):
@@ -33,10 +33,10 @@ def free_task(folder: str, stamp: str, rows: Rows) -> NDArray[np.bool_]:
 
 
 def places(rows: Rows) -> Floats:
-    """(n, 2) where poses are, rounded: to look around, never to decide."""
+    """Positions of poses, (n, 2), rounded: for searches, never for decisions."""
     if isinstance(rows, list):
-        found = [[clamped(pose.x), clamped(pose.y)] for pose in rows]
-        return np.array(found, np.float64).reshape(-1, 2)
+        points = [[clamped(pose.x), clamped(pose.y)] for pose in rows]
+        return np.array(points, np.float64).reshape(-1, 2)
     return rows[:, :2]
 
 

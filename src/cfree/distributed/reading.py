@@ -1,4 +1,4 @@
-"""Where scenes for shards come from: a scene, or files that are read one shape after the other."""
+"""Sources of scenes for shards: a scene, or files that are read one shape after the other."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ BLOCK = 1 << 20
 
 
 def files_of(source: Source) -> list[Path]:
-    """The files that a source is, folders replaced by what is in them; none of a scene."""
+    """Files of a source, folders replaced by their files; none for a scene."""
     if isinstance(source, Scene):
         return []
-    given = [source] if isinstance(source, str | os.PathLike) else source
-    found: list[Path] = []
-    for path in map(Path, given):
-        found += sorted(p for p in path.iterdir() if p.is_file() and p.name[0] != ".") if path.is_dir() else [path]
-    if not found:
+    sources = [source] if isinstance(source, str | os.PathLike) else source
+    files: list[Path] = []
+    for path in map(Path, sources):
+        files += sorted(p for p in path.iterdir() if p.is_file() and p.name[0] != ".") if path.is_dir() else [path]
+    if not files:
         raise FormatError("no files: give a scene, or the file of one followed by files of obstacles")
-    return found
+    return files
 
 
 def source_key(source: Source) -> str:
-    """A short text that is another one for other shapes."""
+    """Short text that differs for different shapes."""
     if isinstance(source, Scene):
         return key_of("scene", stamp_of(source).sha256)
     digests = []
@@ -56,7 +56,7 @@ def source_key(source: Source) -> str:
 
 
 def read_source(source: Source) -> tuple[Scene, Iterator[Polygon]]:
-    """A scene, and obstacles beside those that it has.
+    """Scene of a source, and the obstacles beside its own.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def _polygons(path: Path) -> Iterator[Polygon]:
 
 
 def _in_lines(path: Path) -> Iterator[Polygon]:
-    """One GeoJSON object a line; what is wrong is said with the line it is in."""
+    """One GeoJSON object a line; a fault is reported with its line."""
     number = 1
     try:
         with path.open(encoding="utf-8") as file, collection_paused():

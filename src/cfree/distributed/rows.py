@@ -25,9 +25,9 @@ class Rows:
     Attributes
     ----------
     part : Part
-        With all obstacles that are named.
+        Features with all obstacles that are named.
     tile, row, feature : (n,) int64
-        Of each trapezoid, where it is from.
+        Tile, row and feature of each trapezoid.
     core : _core.Boundary
     """
 
@@ -41,7 +41,7 @@ class Rows:
 def gathered(
     store: SceneStore, shards: Sequence[tuple[int, Shard, NDArray[np.bool_]]], obstacles: Ints | None = None
 ) -> Rows:
-    """Trapezoids of shards, each with its tile's number and the features whose rows are taken; more obstacles if given.
+    """Trapezoids of shards, each with its tile's number and flags of the features taken; with more obstacles if given.
 
     Curves have the names of all on their line, as in a boundary that is computed whole.
     """
@@ -95,7 +95,7 @@ def _table(tile: int, shard: Shard, chosen: NDArray[np.bool_]) -> Shard:
 
 
 def _obstacles_of(store: SceneStore, vertices: Ints) -> Ints:
-    """Which obstacles have them; those of workspace and bounds are in every part."""
+    """Obstacles that have some vertices; those of workspace and bounds are in every part."""
     own = vertices[vertices < store.vertices]
     return np.unique(np.searchsorted(store.column("first"), own, side="right") - 1).astype(np.int64)
 

@@ -11,7 +11,7 @@ Task = Callable[..., Any]
 
 
 class TaskError(CfreeError, RuntimeError):
-    """A task that ends the processes it runs in; `tile` says of which tile it is."""
+    """A task that ends the processes it runs in; `tile` is the number of its tile."""
 
     def __init__(self, message: str, tile: int) -> None:
         super().__init__(message)
@@ -22,7 +22,7 @@ class TaskError(CfreeError, RuntimeError):
 
 
 def check_client(client: Any) -> None:
-    """See that it is one of Dask's, or None."""
+    """Check that it is a client of Dask's, or None."""
     if client is not None and not hasattr(client, "submit"):
         raise TypeError(f"client: {client!r} is a {type(client).__name__}; give a distributed.Client or None")
 
@@ -34,9 +34,9 @@ def run(task: Task, tiles: Sequence[tuple[int, tuple[Any, ...]]], client: Any) -
     ----------
     task : callable
     tiles : pairs
-        Of each a number, and the arguments of the task.
+        Pairs of a number, and the arguments of the task.
     client : distributed.Client, optional
-        Whose workers see the same folder; without one the tasks run here.
+        Its workers must share the folder; without one the tasks run here.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def run(task: Task, tiles: Sequence[tuple[int, tuple[Any, ...]]], client: Any) -
         for future in as_completed(list(futures)):
             tile = futures.pop(future)
             yield tile, _result(future, tile)
-            future.release()  # what is computed is in its file
+            future.release()  # the result is in its file
     finally:
         if futures:
             client.cancel(list(futures))
@@ -71,7 +71,7 @@ def _result(future: Any, tile: int) -> Any:
     try:
         return future.result()
     except (CancelledError, CommClosedError) as error:
-        raise ConnectionError("the cluster is gone; what is finished is kept: start both again") from error
+        raise ConnectionError("the cluster is gone; finished files are kept: start both again") from error
     except KilledWorker as error:
         raise TaskError(
             f"tile {tile} has ended every worker that began it, perhaps for lack of memory; "

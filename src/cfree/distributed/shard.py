@@ -1,4 +1,4 @@
-"""Files of a folder that others may be writing to: whole or not there, and known to be as they were written.
+"""Files of a folder that others may be writing to: complete or absent, and checked against their checksums.
 
 Every file has a SHA-256: JSON and shards in themselves, all others in the JSON or the shard written after them.
 """
@@ -24,7 +24,7 @@ REMEDY = "compute the boundary into this folder again, which mends it: cfree bou
 
 
 def damaged(path: Path, what: object = "damaged") -> FormatError:
-    """The error that says how a file of a folder is mended."""
+    """Error that names the remedy for a damaged file of a folder."""
     return FormatError(f"{path}: {what}; {REMEDY}", path=str(path))
 
 
@@ -33,7 +33,7 @@ def _refused(path: Path, error: Exception) -> FormatError:
 
 
 def write_shard(path: Path, arrays: Mapping[str, NDArray[Any]], key: str) -> None:
-    """Write columns with the key of what they were computed from, and a checksum; all of it or nothing."""
+    """Write columns with the key of their source, and a checksum; all of it or nothing."""
     header = json.dumps(signed({"version": VERSION, "key": key}, arrays))
     with replacing(path) as unfinished, unfinished.open("wb") as file:
         np.savez(file, header=np.frombuffer(header.encode(), np.uint8), **dict[str, Any](arrays))
@@ -45,7 +45,7 @@ def read_shard(path: Path, key: str | None = None) -> Shard:
     Raises
     ------
     FormatError
-        If it is not there, damaged, or computed from something else; it says how that is mended.
+        If it is not there, damaged, or computed from something else; the error names the remedy.
     """
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
@@ -72,12 +72,12 @@ def write_json(path: Path, value: Mapping[str, Any]) -> None:
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """The object that `write_json` has written.
+    """Object that `write_json` has written.
 
     Raises
     ------
     FormatError
-        If it is not there, or damaged; it says how that is mended.
+        If it is not there, or damaged; the error names the remedy.
     """
     try:
         value = json.loads(path.read_bytes())
@@ -93,12 +93,12 @@ def _sum_of(value: Mapping[str, Any]) -> str:
 
 
 def changed(path: Path) -> tuple[int, int]:
-    """The size of a file, and when it was changed."""
+    """Size of a file, and the time of its last change."""
     try:
-        found = path.stat()
+        status = path.stat()
     except OSError as error:
         raise _refused(path, error) from error
-    return found.st_size, found.st_mtime_ns
+    return status.st_size, status.st_mtime_ns
 
 
 def file_sums(paths: Iterable[Path]) -> dict[str, str]:
@@ -111,23 +111,23 @@ def file_sums(paths: Iterable[Path]) -> dict[str, str]:
 
 
 def check_sums(folder: Path, sums: Mapping[str, str]) -> None:
-    """See that files are as they were.
+    """Check that files are unchanged.
 
     Raises
     ------
     FormatError
-        If one is not there, or another; it says how that is mended.
+        If one is not there, or another; the error names the remedy.
     """
     for name, digest in sums.items():
         path = folder / name
         try:
-            (found,) = file_sums([path]).values()
+            (sha256,) = file_sums([path]).values()
         except OSError as error:
             raise _refused(path, error) from error
-        if found != digest:
+        if sha256 != digest:
             raise damaged(path)
 
 
 def key_of(*parts: object) -> str:
-    """One short text for what something is computed from."""
+    """Short text that identifies the source of a computation."""
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:32]

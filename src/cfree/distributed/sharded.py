@@ -1,4 +1,4 @@
-"""A boundary in the files of a folder, and questions to it that read only what they need."""
+"""A boundary in the files of a folder; its queries read only the files that they need."""
 
 from __future__ import annotations
 
@@ -66,9 +66,9 @@ class Cells:
     Attributes
     ----------
     volume, volume_error : (n,) float64
-        In length^2 radians, and an estimate of the error; infinite if unbounded.
+        Volume in length^2 radians, and an estimate of the error; infinite if unbounded.
     caged : (n,) bool
-        Whether obstacles alone enclose it.
+        True if obstacles alone enclose it.
     """
 
     volume: NDArray[np.float64]
@@ -89,17 +89,17 @@ class Sharded(Value):
     Attributes
     ----------
     tiles, obstacles, vertices, trapezoids : int
-        How many there are.
+        Their numbers.
     digest : str
-        Of all trapezoids: the same for any tiles, any number of workers, and any order.
+        Hash of all trapezoids: the same for any tiles, any number of workers, and any order.
     tiles_read : int
-        How many tiles the last question has looked at.
+        Number of tiles that the last query has read.
 
     Raises
     ------
     FormatError
-        If there is no boundary in the folder, or it is not finished, or a file of it is damaged. Any question may find
-        one: the error names it, and says how it is mended.
+        If there is no boundary in the folder, or it is not finished, or a file of it is damaged. Any query may raise
+        this: the error names the file and the remedy.
     """
 
     @checked
@@ -132,7 +132,7 @@ class Sharded(Value):
 
     @property
     def scene_sha256(self) -> str:
-        """The hash of the whole scene, which answers of the folder say; see `docs/answer-format.md`."""
+        """Hash of the whole scene, which answers of the folder contain; see `docs/answer-format.md`."""
         return str(self.work.store.facts["scene"])
 
     @cached_property
@@ -142,7 +142,7 @@ class Sharded(Value):
 
     @cached_property
     def surfaces(self) -> Surfaces:
-        """The closed surfaces, and how they are nested."""
+        """Closed surfaces, and their nesting."""
         return Surfaces(**{name: self._table[name] for name in Surfaces.__annotations__})
 
     @cached_property
@@ -166,20 +166,19 @@ class Sharded(Value):
     ) -> Path | Separated:
         """A path among all obstacles, each motion proved free, or a proof that there is none.
 
-        Only what is near the ways that are looked at is read: `tiles_read` says how many tiles.
+        Only tiles near the paths tried are read: `tiles_read` is their number.
 
         Parameters
         ----------
         start, goal : Pose or (x, y, theta), optional
-            Those of the scene unless given.
+            Those of the scene by default.
         improve, objective, preferences
-            As of `cfree.plan`.
+            Options of `cfree.plan`.
 
         Returns
         -------
         Path or Separated
-            Its `scene` has the obstacles that it is about, by which `cfree.verify` can check it; they are named by
-            their numbers.
+            Its `scene` has the obstacles that it is about, named by their numbers; `cfree.verify` can check it.
 
         Raises
         ------
@@ -202,15 +201,15 @@ class Sharded(Value):
         preferences: Preferences | None = None,
         client: Any = None,
     ) -> list[Path | Separated]:
-        """Answers to many questions, each as of `plan`, in their order.
+        """Answers to many queries, each as from `plan`, in their order.
 
         Parameters
         ----------
         queries : pairs (start, goal) of Pose or (x, y, theta)
         improve, objective, preferences
-            As of `cfree.plan`.
+            Options of `cfree.plan`.
         client : distributed.Client, optional
-            As of `boundary`.
+            Client, as in `boundary`.
         """
         check_client(client)
         wishes = {"improve": improve, "objective": objective, "preferences": preferences}
@@ -218,8 +217,8 @@ class Sharded(Value):
             (k, (str(self.folder), self.work.stamp, to_pose(start, f"start {k}"), to_pose(goal, f"goal {k}"), wishes))
             for k, (start, goal) in enumerate(queries)
         ]
-        found = dict(run(plan_task, asked, client))
-        return [found[k] for k in range(len(asked))]
+        answers = dict(run(plan_task, asked, client))
+        return [answers[k] for k in range(len(asked))]
 
     @overload
     def is_free(self, poses: OnePose, *, client: Any = None) -> bool: ...
@@ -234,9 +233,9 @@ class Sharded(Value):
         Parameters
         ----------
         poses : Pose or (x, y, theta), Poses, sequence of the former, or (n, 3) float64
-            As of `cfree.is_free`.
+            Poses, as in `cfree.is_free`.
         client : distributed.Client, optional
-            As of `boundary`.
+            Client, as in `boundary`.
 
         Returns
         -------
@@ -245,8 +244,8 @@ class Sharded(Value):
         check_client(client)
         if (pose := one_pose(poses, "poses")) is not None:
             return bool(self._are_free([pose], client)[0])
-        given: Any = poses if isinstance(poses, Poses | np.ndarray) else [*poses]  # type: ignore[misc]
-        return self._are_free(rows_of(given) if len(given) else [], client)
+        listed: Any = poses if isinstance(poses, Poses | np.ndarray) else [*poses]  # type: ignore[misc]
+        return self._are_free(rows_of(listed) if len(listed) else [], client)
 
     def _are_free(self, rows: Rows, client: Any) -> NDArray[np.bool_]:
         parts = groups(self.work, rows)
@@ -262,22 +261,22 @@ class Sharded(Value):
     def locate(self, poses: Poses | Iterable[PoseLike], *, client: Any = None) -> Ints: ...
     @checked
     def locate(self, poses: OnePose | Poses | Iterable[PoseLike], *, client: Any = None) -> int | Ints:
-        """Cell of each pose, exactly, as of `cfree.FreeSpace.locate`.
+        """Cell of each pose, exactly, as from `cfree.FreeSpace.locate`.
 
-        Only tiles on the way from a pose to the nearest face on its left are read; where it is on a face, or its
-        orientation is critical, all to its left. `tiles_read` says how many.
+        Only tiles between a pose and the nearest face on its left are read; if it is on a face, or its orientation is
+        critical, all to its left. `tiles_read` is their number.
 
         Parameters
         ----------
         poses : Pose or (x, y, theta), Poses, or sequence of the former
         client : distributed.Client, optional
-            As of `boundary`.
+            Client, as in `boundary`.
 
         Returns
         -------
         int, or (n,) int64
             Number of the cell; -1 if forbidden. A pose on the boundary is free: the first cell that a face through it
-            bounds. -2 if it is free and on no face: an exact fit, which is in the closure of no cell.
+            bounds. A pose that is free and on no face has -2: an exact fit, which is in the closure of no cell.
         """
         check_client(client)
         if (pose := one_pose(poses, "poses")) is not None:
@@ -315,14 +314,14 @@ class Sharded(Value):
 
     @checked
     def scene_for(self, answer: Path | Separated) -> tuple[Scene, Path | Separated]:
-        """The scene in which `cfree.verify.answer` checks an answer of this folder, and the answer with its numbers.
+        """Scene in which `cfree.verify.answer` checks an answer of this folder, and the answer in its numbers.
 
         A path is checked among all obstacles near it, a separation among those that it is about.
 
         Raises
         ------
         ValueError
-            If it is an answer of another folder, or a separation that does not say which obstacles it is about.
+            If it is an answer of another folder, or a separation that does not name its obstacles.
         """
         whole = answer.whole
         if whole is not None and whole.sha256 != (mine := self.scene_sha256):
@@ -355,13 +354,13 @@ class Sharded(Value):
         Parameters
         ----------
         sample : int, optional
-            Of each tile check so many trapezoids, chosen at random, and no sides; all by default.
+            Check so many trapezoids of each tile, chosen at random, and no sides; all by default.
         seed : int
-            Of the random choices.
+            Seed of the random choices.
         client : distributed.Client, optional
-            As of `boundary`.
+            Client, as in `boundary`.
         progress : callable, optional
-            Called with the name of the stage, and how many of how many tiles are done.
+            Function called with the name of the stage, the number of tiles done and that of all tiles.
 
         Returns
         -------
@@ -369,7 +368,7 @@ class Sharded(Value):
 
         Notes
         -----
-        About 0.25 ms a trapezoid.
+        Time is about 0.25 ms a trapezoid.
         """
         check_client(client)
         begin, stamp = time.perf_counter(), self.work.stamp

@@ -1,7 +1,7 @@
 """A scene as files, so that no process holds all of its obstacles.
 
-``scene.json`` is the scene without obstacles; ``polygons.jsonl`` has the rings of one obstacle a line, its coordinates
-as they are; columns say where each line begins, where each obstacle is, and where its vertices are.
+``scene.json`` is the scene without obstacles. ``polygons.jsonl`` has the rings of one obstacle a line, with unchanged
+coordinates. Columns give the beginning of each line, the box of each obstacle, and its vertices.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from cfree.scene.scene import Scene, with_obstacles
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 NO_ROUNDING = (False, False, False, False)
-BLOCK = 4_000  # vertices that are written at a time
+BLOCK = 4_000  # vertices written at a time
 COLUMNS: dict[str, tuple[type, int]] = {
-    "line": (np.int64, 1),  # where the obstacle's line begins
+    "line": (np.int64, 1),  # beginning of the obstacle's line
     "first": (np.int64, 1),  # its first vertex among all
     "box": (np.float64, 4),  # xmin, ymin, xmax, ymax, rounded
     "xy": (np.float64, 2),  # of vertices, rounded
@@ -43,12 +43,12 @@ STORED = ("scene.json", "polygons.jsonl", *(f"{name}.bin" for name in COLUMNS))
 
 @dataclass
 class SceneStore:
-    """Obstacles by their numbers, read when asked for.
+    """Obstacles by their numbers, read when needed.
 
     Parameters
     ----------
     folder : Path
-        Where `store_scene` has put them.
+        Folder that `store_scene` has written.
     """
 
     folder: Path
@@ -63,17 +63,17 @@ class SceneStore:
     def facts(self) -> dict[str, Any]:
         """Numbers of obstacles and vertices, the common denominator, the box of all vertices times that; and hashes.
 
-        ``scene`` is that of the whole scene, ``files`` are those of the other files.
+        ``scene`` is the hash of the whole scene, ``files`` are those of the other files.
         """
         return read_json(self.folder / "facts.json")
 
     def check(self) -> None:
-        """See that all files are as they were written.
+        """Check that all files are unchanged.
 
         Raises
         ------
         FormatError
-            If one is not; it says how that is mended.
+            If one has changed; the error names the remedy.
         """
         check_sums(self.folder, self.facts["files"])
 
@@ -82,7 +82,7 @@ class SceneStore:
 
     @property
     def vertices(self) -> int:
-        """Of all obstacles."""
+        """Number of vertices of all obstacles."""
         return int(self.facts["vertices"])
 
     def column(self, name: str) -> NDArray[Any]:
@@ -96,18 +96,18 @@ class SceneStore:
 
     def polygons(self, numbers: Sequence[int] | Ints) -> list[Polygon]:
         """Some obstacles."""
-        begin, found = self.column("line"), []
+        begin, obstacles = self.column("line"), []
         with (self.folder / "polygons.jsonl").open("rb") as file:
             for number in numbers:
                 file.seek(int(begin[number]))
                 core = _core.Polygon.of(json.loads(file.readline()))
                 if core is None:
                     raise InvalidPolygonError(f"{file.name}: obstacle {number} cannot be read; store the scene again")
-                found.append(polygon_of(core))
-        return found
+                obstacles.append(polygon_of(core))
+        return obstacles
 
     def features(self, polygons: Sequence[Polygon]) -> SceneFeatures:
-        """Of the scene with these obstacles alone, with the numbers of the whole."""
+        """Features of the scene with these obstacles alone, with the numbers of the whole."""
         box = self.facts["box"]
         whole = _core.WholeScene(self.facts["scale"], box and tuple(box), list(self.rounded))
         head = self.head
@@ -120,17 +120,17 @@ class SceneStore:
         return self.features([])
 
     def scene(self, numbers: Sequence[int] | Ints) -> Scene:
-        """The scene with some of its obstacles, which are named by their numbers."""
+        """Scene with some of its obstacles, which are named by their numbers."""
         return with_obstacles(self.head, self.polygons(numbers), [f"obstacle {number}" for number in numbers])
 
     @cached_property
     def reach(self) -> float:
-        """No obstacle farther from a feature than that changes its patches."""
+        """Reach of a feature: no obstacle farther from it changes its patches."""
         return float(np.hypot(*np.ptp(self.rest.robot.xy, axis=0))) * (1 + 1e-9)
 
     @cached_property
     def radius(self) -> float:
-        """No point of the robot is farther from its reference point."""
+        """Radius of the robot: no point of it is farther from its reference point."""
         return float(np.hypot(*self.rest.robot.xy.T).max()) * (1 + 1e-9)
 
 
@@ -145,7 +145,7 @@ def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path, key: st
     folder : Path
         Made if it is not there.
     key : str
-        Of what the scene is read from.
+        Key of the source of the scene.
     """
     folder.mkdir(parents=True, exist_ok=True)
     digest = SceneDigest(head)
@@ -190,7 +190,7 @@ def _blocks(obstacles: Iterable[Polygon]) -> Iterator[list[Polygon]]:
 
 
 def _columns(block: Sequence[Polygon], vertices: int) -> dict[str, NDArray[Any]]:
-    """`COLUMNS` of some obstacles, but for their lines, after so many vertices of others."""
+    """Compute `COLUMNS` of some obstacles, except for their lines, after so many vertices of others."""
     xy = np.concatenate([polygon.vertices for polygon in block])
     first = _sums(map(len, block))
     rings = [first[k] + np.array(polygon.ring_offsets[:-1]) for k, polygon in enumerate(block)]
@@ -203,24 +203,24 @@ def _columns(block: Sequence[Polygon], vertices: int) -> dict[str, NDArray[Any]]
 
 
 def _sums(counts: Iterable[int]) -> Ints:
-    """Of all before each, and of all."""
+    """Sums before each count, and of all."""
     return np.cumsum([0, *counts])
 
 
 def rounding(store: SceneStore, numbers: Ints) -> tuple[bool, ...]:
-    """Whether coordinates of some obstacles are no doubles: all parts of a scene have to know it of all."""
+    """Flags, True if coordinates of some obstacles are no doubles; parts of a scene need them for all obstacles."""
     return tuple(store.features(store.polygons(numbers)).made.rounded)
 
 
 def is_small(store: SceneStore) -> bool:
-    """Are all coordinates, times the common denominator, surely doubles?"""
+    """True if all coordinates, times the common denominator, are certainly doubles."""
     made = store.rest
     widest = max((abs(c) for c in store.facts["box"] or ()), default=0)
     return widest < 2**52 and made.core.shift == 0 and not any(made.made.rounded)
 
 
 def _line(polygon: Polygon) -> bytes:
-    """Its rings in JSON, on one line: integers, or quotients of two in quotes."""
+    """Rings of a polygon in JSON, on one line: integers, or quotients of two in quotes."""
     d = polygon.denominator
     points = [f"[{x},{y}]" if d == 1 else f'["{x}/{d}","{y}/{d}"]' for x, y in polygon.numerators]
     rings = (f"[{','.join(points[i:j])}]" for i, j in pairwise(polygon.ring_offsets))

@@ -1,6 +1,6 @@
-"""What is done for one tile at a time, in this process or in any other that sees the folder.
+"""Tasks for one tile at a time, in this process or in any other that shares the folder.
 
-A task writes one file and can be done again at any time: what is there, sound, and made from the same, is kept.
+A task writes one file and can be repeated at any time: a file that is there, sound, and of the same source, is kept.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ TRIMMED, REGULAR, GLUED = "trim", "regular", "glue"
 
 
 class Work:
-    """The folder of one computation, as its tasks see it.
+    """The folder of one computation, in the form that its tasks use.
 
     Parameters
     ----------
     folder : path
-        With ``plan.json``: the key of the whole computation, and which coordinates are rounded.
+        It has ``plan.json``: the key of the whole computation, and flags of the rounded coordinates.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -50,21 +50,21 @@ class Work:
 
     @property
     def stamp(self) -> str:
-        """Another one once more is known of all obstacles."""
+        """Text that changes when more is known about all obstacles."""
         return stamp_of(self.folder)
 
     def path(self, stage: str, tile: int) -> Path:
         return self.folder / stage / f"{tile:06d}.npz"
 
     def key(self, stage: str, tile: int) -> str:
-        """What a shard is computed from."""
+        """Key of the source of a shard."""
         return key_of(self.plan["key"], self.plan["rounded"], stage, tile)
 
     def shard(self, stage: str, tile: int) -> Shard:
         return read_shard(self.path(stage, tile), self.key(stage, tile))
 
     def make(self, stage: str, tile: int, compute: Callable[[], Shard]) -> Shard:
-        """The shard that is there, or else one that is computed and written."""
+        """Return the existing shard, or else compute and write one."""
         try:
             return self.shard(stage, tile)
         except FormatError:
@@ -79,7 +79,7 @@ class Work:
         return REGULAR if self.plan.get("slits") else TRIMMED
 
     def rows(self, tile: int, stage: str, around: bool, obstacles: NDArray[np.int64] | None = None) -> Rows:
-        """Trapezoids of a tile, and those of features within reach of its own; more obstacles if given."""
+        """Trapezoids of a tile, and those of features within reach of its own; with more obstacles if given."""
         if not around:
             shard = self.shard(stage, tile)
             return gathered(self.store, [(tile, shard, np.ones(len(shard["feature"]), bool))], obstacles)
@@ -96,7 +96,7 @@ class Work:
 
 
 def stamp_of(folder: Path) -> str:
-    """Another text once more is known of all obstacles, or a file that every task needs has changed."""
+    """Text that changes when more is known about all obstacles, or a file that every task needs has changed."""
     facts = [folder / "scene" / "facts.json", folder / "tiles" / "division.npz"]
     files = [*facts, *(folder / "scene" / name for name in STORED), *(folder / "tiles" / name for name in FILES)]
     return json.dumps([read_json(folder / "plan.json"), *map(changed, files)])
@@ -104,12 +104,12 @@ def stamp_of(folder: Path) -> str:
 
 @lru_cache(maxsize=2)
 def opened(folder: str, stamp: str) -> Work:
-    """The work in a folder; `stamp` changes with what is known of it."""
+    """Work in a folder; `stamp` changes with the facts known about it."""
     return Work(Path(folder))
 
 
 def rounding_task(folder: str, stamp: str, tile: int) -> tuple[bool, ...]:
-    """Whether coordinates of the obstacles near a tile are no doubles."""
+    """Flags, True where coordinates of the obstacles near a tile are no doubles."""
     work = opened(folder, stamp)
     return rounding(work.store, work.division.listed("obstacles", tile))
 
@@ -120,7 +120,7 @@ def trim_task(folder: str, stamp: str, tile: int, regularized: bool = False) -> 
     Returns
     -------
     dict
-        ``trapezoids``: how many; ``digest``; ``slits``: whether surfaces may coincide with opposite sides.
+        ``trapezoids``: their number; ``digest``; ``slits``: True if surfaces may coincide with opposite sides.
     """
     work = opened(folder, stamp)
     stage = REGULAR if regularized else TRIMMED
@@ -142,14 +142,14 @@ def trim_task(folder: str, stamp: str, tile: int, regularized: bool = False) -> 
 
 
 def glue_task(folder: str, stamp: str, tile: int) -> int:
-    """Glue a tile's trapezoids to each other and to those around them; the number of its components."""
+    """Glue a tile's trapezoids to each other and to those around them; return the number of its components."""
     work = opened(folder, stamp)
     glued = work.make(GLUED, tile, lambda: glue_tile(work.rows(tile, work.surfaces, around=True), tile))
     return len(glued["faces"])
 
 
 def nest_task(folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any], asked: list[Question]) -> list[Answer]:
-    """What lines cross in a tile, by the surfaces that they are from; `surface` is that of each component."""
+    """Answer queries for crossings in a tile; `surface` is that of each component."""
     work = opened(folder, stamp)
     component = work.shard(GLUED, tile)["component"]
     lines = TileLines(work.rows(tile, work.surfaces, around=False).core, surface[component])
@@ -160,14 +160,14 @@ def nest_task(folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any],
 def measure_task(
     folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any], origins: np.ndarray[Any, Any]
 ) -> dict[int, tuple[Fraction, Fraction, bool]]:
-    """Share of a tile in the volumes of surfaces, estimates of the errors, and whether more than obstacles bound them.
+    """Share of a tile in the volumes of surfaces, estimates of the errors, and True if more than obstacles bound them.
 
-    `surface` is that of each component, `origins` the points from which each surface is seen, by surface.
+    `surface` is that of each component, `origins` are the origins of the volumes, by surface.
     """
     work = opened(folder, stamp)
     rows = work.rows(tile, work.surfaces, around=False)
-    of = surface[work.shard(GLUED, tile)["component"]]
-    surfaces, known = np.unique(of, return_inverse=True)
+    surface_of = surface[work.shard(GLUED, tile)["component"]]
+    surfaces, known = np.unique(surface_of, return_inverse=True)
     known = known.reshape(-1)
     values, errors = _core.fluxes(rows.core, np.ascontiguousarray(origins[known]))
     foreign = np.zeros(len(surfaces), bool)
@@ -177,5 +177,5 @@ def measure_task(
 
 
 def surfaces_in(joined: JoinedSurfaces, tile: int) -> np.ndarray[Any, Any]:
-    """Of each component of a tile the closed surface."""
+    """Closed surfaces of the components of a tile."""
     return joined.surface[joined.first[tile] : joined.first[tile + 1]]

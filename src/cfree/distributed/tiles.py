@@ -1,4 +1,4 @@
-"""Obstacle features divided by place into tiles of equal counts, and which obstacles a tile needs."""
+"""Obstacle features divided by place into tiles of equal counts, and the obstacles that a tile needs."""
 
 from __future__ import annotations
 
@@ -30,23 +30,23 @@ def divide(points: Floats, tiles: int) -> NDArray[np.int32]:
             continue
         some = points[inside]
         along = int(np.argmax(np.ptp(some, axis=0)))
-        # equal points keep the order of their numbers, so that the division is one of the points alone
+        # equal points keep the order of their numbers, so that the division depends on the points alone
         order = np.lexsort((inside, some[:, 1 - along], some[:, along]))
-        half, at = count // 2, len(inside) * (count // 2) // count
-        waiting.append((inside[order[at:]], first + half, count - half))
-        waiting.append((inside[order[:at]], first, half))
+        half, cut = count // 2, len(inside) * (count // 2) // count
+        waiting.append((inside[order[cut:]], first + half, count - half))
+        waiting.append((inside[order[:cut]], first, half))
     return number
 
 
 def grown_by(boxes: Floats, reach: float) -> Floats:
-    """Boxes with a rim, wide enough for what rounding has done to their coordinates."""
+    """Boxes with a rim, wide enough for the rounding of their coordinates."""
     finite = np.abs(boxes[np.isfinite(boxes)])
     rim = reach + 16 * float(np.spacing(finite.max(initial=0.0)))
     return np.asarray(boxes + np.array([-rim, -rim, rim, rim]), np.float64)
 
 
 class BoxIndex:
-    """Which of many boxes meet others."""
+    """Index of many boxes, to find those that meet others."""
 
     def __init__(self, boxes: Floats) -> None:
         self._tree = shapely.STRtree(shapely.box(*boxes.T) if len(boxes) else [])
@@ -60,7 +60,7 @@ class BoxIndex:
 
 
 def near_each(groups: Sequence[Floats], boxes: Floats, reach: float) -> list[Ints]:
-    """Of each group what `BoxIndex(boxes).near` says of it; groups are indexed, boxes asked a block at a time."""
+    """Result of `BoxIndex(boxes).near` for each group; groups are indexed, boxes queried a block at a time."""
     if not groups:
         return []
     group_of = np.repeat(np.arange(len(groups)), [len(group) for group in groups])

@@ -22,7 +22,7 @@ def trim_tile(part: Part, own: NDArray[np.int64], regularized: bool = False) -> 
     Parameters
     ----------
     part : Part
-        With all obstacles near them.
+        Features with all obstacles near them.
     own : (n,) int64
         Numbers of the vertices among all, in order.
 
@@ -30,9 +30,9 @@ def trim_tile(part: Part, own: NDArray[np.int64], regularized: bool = False) -> 
     -------
     dict of arrays
         ``feature``, (n,): `own`. ``start``, (n + 1,): rows of feature k are start[k] to start[k + 1] - 1. ``keys``,
-        (k, 4): features as `Part.keys` has them. Of each angle ``angle_keys``, (a, 2), ``angle_tau``, (a, 2), and
-        ``angle_place``. Of each row ``kind`` and ``robot`` of its contact, ``chart``, the keys ``lower`` and ``upper``,
-        and the angles ``from`` and ``to``.
+        (k, 4): features as in `Part.keys`. For each angle ``angle_keys``, (a, 2), ``angle_tau``, (a, 2), and
+        ``angle_place``. For each row ``kind`` and ``robot`` of its contact, ``chart``, the keys ``lower`` and
+        ``upper``, and the angles ``from`` and ``to``.
     """
     features = part.local(own)
     core = _core.compute_boundary(part.features.core, 1, regularized, lambda share: True, features=features.tolist())
@@ -40,7 +40,7 @@ def trim_tile(part: Part, own: NDArray[np.int64], regularized: bool = False) -> 
     codes = np.concatenate([getattr(rows, name) for name in CODED])
     distinct, number = np.unique(codes, return_inverse=True)
     keys = part.keys(distinct)
-    order = np.lexsort(keys.T[::-1])  # by what they are: the same in any part
+    order = np.lexsort(keys.T[::-1])  # by content: the same in any part
     rank = np.empty(len(order), np.uint32)
     rank[order] = np.arange(len(order), dtype=np.uint32)
     named = dict(zip(CODED, rank[number].reshape(len(CODED), -1), strict=True))
@@ -52,10 +52,10 @@ def trim_tile(part: Part, own: NDArray[np.int64], regularized: bool = False) -> 
     is_new[:1] = True
     for column in ends.values():
         is_new[1:] |= column[by_angle[1:]] != column[by_angle[:-1]]
-    at = np.empty(len(by_angle), np.uint32)
-    at[by_angle] = np.cumsum(is_new) - 1
+    number_of = np.empty(len(by_angle), np.uint32)
+    number_of[by_angle] = np.cumsum(is_new) - 1
     angles = {name: column[by_angle[is_new]] for name, column in ends.items()}
-    first_angle, last_angle = at.reshape(2, -1)
+    first_angle, last_angle = number_of.reshape(2, -1)
     obstacle = part.vertices[patches.obstacle[rows.patch]]
     return {
         "feature": own,
@@ -75,9 +75,9 @@ def trim_tile(part: Part, own: NDArray[np.int64], regularized: bool = False) -> 
 
 
 def digest(shard: Shard) -> int:
-    """The sum over features, mod 2^256, of the SHA-256 of their rows: the same however features are divided into tiles.
+    """Sum over features, mod 2^256, of the SHA-256 of their rows: the same for any division into tiles.
 
-    Rows are taken as integers of 64 bits, least byte first: feature; kind, robot, chart; the keys of both curves; of
+    Rows are taken as integers of 64 bits, least byte first: feature; kind, robot, chart; the keys of both curves; for
     both angles the two keys, the bits of both ends, and the place.
     """
     keys = shard["keys"].astype("<i8")

@@ -1,4 +1,4 @@
-"""A second opinion on the shards of a folder: each alone, then how its sides match those of the tiles around it."""
+"""A second opinion on the shards of a folder: each alone, then the matching of its sides with those around it."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ SHARDS = "shards"
 
 @dataclass(frozen=True)
 class TileCheck:
-    """What has been found of a tile.
+    """Results for a tile.
 
     Attributes
     ----------
     trapezoids, checked : int
-        How many there are, and how many have been looked at.
+        Numbers of all trapezoids, and of those checked.
     digest : int
     findings : tuple of Finding
-        What is wrong.
+        Faults of the tile.
     """
 
     trapezoids: int
@@ -43,7 +43,7 @@ class TileCheck:
 
 
 def verify_task(folder: str, stamp: str, tile: int, sample: int | None, seed: int) -> TileCheck:
-    """Check a tile's trapezoids by the code of `cfree.verify`; all, and all of their sides, or some of them."""
+    """Check a tile's trapezoids by the code of `cfree.verify`: all with all of their sides, or some of them."""
     work, name = opened(folder, stamp), f"tile {tile}"
     try:
         shard = work.shard(TRIMMED, tile)
@@ -56,18 +56,18 @@ def verify_task(folder: str, stamp: str, tile: int, sample: int | None, seed: in
     if sample is not None and sample < count:
         chosen = set(random.Random(f"{seed} {tile}").sample(range(count), sample))
     with collection_paused():
-        found = _findings(work, tile, chosen, len(chosen) == count) if chosen else iter(())
-        wrong = tuple(Finding(finding.kind, f"{name}, {finding.where}", finding.text) for finding in found)
+        findings = _findings(work, tile, chosen, len(chosen) == count) if chosen else iter(())
+        wrong = tuple(Finding(finding.kind, f"{name}, {finding.where}", finding.text) for finding in findings)
     return TileCheck(count, len(chosen), digest(shard), wrong)
 
 
 def _findings(work: Work, tile: int, chosen: set[int], is_all: bool) -> Iterator[Finding]:
-    """What is wrong with some rows of a tile, and if they are all, with their sides."""
+    """Findings about some rows of a tile, and, if they are all, about their sides."""
     rows = work.rows(tile, TRIMMED, around=is_all, obstacles=work.division.listed("obstacles", tile))
     scene = work.store.scene(rows.part.numbers)
-    given = boundary_of(scene, rows.part.features, rows.core)
-    contacts = given.contact_kind, given.contact_robot, given.contact_obstacle
-    reader = Reader(scene, contacts, given.trapezoids, given.isolated)
+    stored = boundary_of(scene, rows.part.features, rows.core)
+    contacts = stored.contact_kind, stored.contact_robot, stored.contact_obstacle
+    reader = Reader(scene, contacts, stored.trapezoids, stored.isolated)
     loops: dict[int, list[Side | None]] = {}
     own = []
     for k, (where, row) in enumerate(zip(rows.tile.tolist(), rows.row.tolist(), strict=True)):
@@ -84,7 +84,7 @@ def _findings(work: Work, tile: int, chosen: set[int], is_all: bool) -> Iterator
 
 
 def cells_findings(folder: Path, key: str) -> list[Finding]:
-    """The damage to the file of closed surfaces and cells, if there is any."""
+    """Findings for damage to the file of closed surfaces and cells."""
     try:
         read_shard(folder / "cells.npz", key)
     except FormatError as error:
@@ -93,11 +93,11 @@ def cells_findings(folder: Path, key: str) -> list[Finding]:
 
 
 def summary(checks: Sequence[TileCheck], wrong: Sequence[Finding], expected: str, begin: float) -> Verification:
-    """All tiles together, beside what is wrong with other files; the digest of the whole is the one expected."""
+    """Join results of all tiles and findings about other files; the digest of the whole must be the expected one."""
     findings = [*wrong, *(finding for check in checks for finding in check.findings)]
     total = f"{sum(check.digest for check in checks) % MODULUS:064x}"
     if total != expected:
-        findings.append(Finding(SHARDS, "the manifest", f"digest {expected}, but of the shards it is {total}"))
+        findings.append(Finding(SHARDS, "the manifest", f"digest {expected}, and that of the shards is {total}"))
     count, looked_at = (sum(getattr(check, name) for check in checks) for name in ("trapezoids", "checked"))
     closed = Check(CLOSED, SKIPPED, "needs every trapezoid")
     if looked_at == count:

@@ -1,34 +1,33 @@
 """An independent check of boundaries and answers: `cfree.verify.boundary`, `answer`, and ``cfree verify``.
 
-The C++ core reads the scene, and nothing else here calls it; every sign is one of Python's integers and fractions or of
-python-flint. The checks:
+The C++ core reads the scene, and no other part of it is used here. Every sign is decided by Python's integers and
+fractions or by python-flint. The checks:
 
 convex pieces, PROVED
-    Those of robot and obstacles are convex and tile them.
+    The pieces of robot and obstacles are convex and tile them.
 names and angles, PROVED
     A trapezoid's patch is a contact of the scene. The polynomial that an angle's names define has one root in the
-    interval, or the place-th is meant; it is in the chart, and the first angle is less than the second.
-domains, PROVED
+    interval, or the place-th is meant. The angle is in the chart, and the first angle is less than the second.
     From the first angle to the second the contact is in its range, the curves have no pole, 0 <= lower <= upper <= 1.
 not forbidden, SAMPLED
     At one exact angle in every trapezoid nothing covers any of it, from lower to upper.
 closed surfaces, PROVED
-    Along every edge the sides of trapezoids are partners across free space; V - E + F of what that makes is counted.
+    Along every edge the sides of trapezoids are partners across free space; V - E + F of the result is counted.
 isolated parts, PROVED but for curves
-    Each is free, is on no trapezoid and no other part, and next to it nothing is free at its angle. Of a curve this is
+    Each is free, is on no trapezoid and no other part, and next to it nothing is free at its angle. For a curve this is
     SAMPLED at three angles.
 nothing missing, SAMPLED
     At some exact angles, critical ones among them, all free contacts computed from scratch are those of the file.
 
-"Not forbidden" says nothing of other angles, nor does "nothing missing". Curves are told apart by their equations,
+"Not forbidden" and "nothing missing" make no statement about other angles. Curves are told apart by their equations,
 angles by irreducible polynomials, positions by elements of the angle's number field; 32-byte hashes stand for curves
-and lines when sides are gathered. Polygons are believed to hold the scene's numbers, and `features` to number features
-as the file does; nothing else is.
+and lines when sides are gathered. Two things are trusted: polygons hold the scene's numbers, and `features` numbers
+features as the file does.
 
 Each file imports only from the ones before it: `surfaces` (contacts, curves, lines), `polygons`, `world` (the scene),
 `section` (the scene at one angle), `trapezoids` (the file), `isolated`, `matching`, `missing`, `angles`, `result`,
-`driver`; for answers, `cfree.verify.answer`: `inside` (polygons in polygons), `motions`, `parity` (rays), `separation`,
-`answers`. Of an answer everything is PROVED.
+`driver`. Answers, checked by `cfree.verify.answer`, have `inside` (polygons in polygons), `motions`, `parity` (rays),
+`separation`, `answers`; everything about them is PROVED.
 """
 
 from cfree.verify.answers import answer as answer

@@ -1,7 +1,7 @@
-"""Angles for slices: where something happens, in the file or by the scene alone, and where, most likely, nothing does.
+"""Angles for slices: those where something happens, in the file or by the scene alone, and generic ones.
 
-An exact fit at one angle leaves no other trace in a file if it is lost. It needs two lines of contact that are one:
-either an edge of the robot is parallel to one of the obstacles, or two parallel edges, of one of them, face each other
+An exact fit at one angle leaves no other trace in a file if it is lost. It needs two lines of contact that are one.
+Either an edge of the robot is parallel to one of the obstacles, or two parallel edges of one of them face each other
 across two vertices of the other.
 """
 
@@ -27,7 +27,7 @@ LIMIT = 300  # of each kind, in large scenes
 
 
 def orientation(reader: Reader, seed: int, number: int) -> Turn:
-    """Even numbers: critical angles, each once before any twice. Odd: anywhere, and just after a critical one."""
+    """Critical angle for even numbers, each once before any twice; for odd ones any, or just after a critical one."""
     rng = random.Random(f"{seed} {number}")
     if number % 4 == 1:
         return anywhere(rng)
@@ -45,7 +45,7 @@ def anywhere(rng: random.Random) -> Turn:
 
 
 def just_after_a_critical_angle(reader: Reader, rng: random.Random) -> Turn:
-    """Between two neighbouring critical angles, if doubles hold them apart."""
+    """Rational angle between two neighbouring critical angles, if doubles hold them apart."""
     t = reader.table
     if not len(t):
         return anywhere(rng)
@@ -57,15 +57,15 @@ def just_after_a_critical_angle(reader: Reader, rng: random.Random) -> Turn:
 
 @lru_cache(maxsize=1)
 def likely_angles(reader: Reader) -> list[Turn]:
-    """Those of the file's isolated parts, and right angles."""
-    found = angles_of(reader, reader.isolated, range(len(reader.isolated)))
-    found += [Turn.of(chart, Fraction(tau)) for chart in (0, 1) for tau in (0, 1)]
-    return list({turn.key: turn for turn in found}.values())
+    """Angles of the file's isolated parts, and right angles."""
+    turns = angles_of(reader, reader.isolated, range(len(reader.isolated)))
+    turns += [Turn.of(chart, Fraction(tau)) for chart in (0, 1) for tau in (0, 1)]
+    return list({turn.key: turn for turn in turns}.values())
 
 
 @lru_cache(maxsize=1)
 def critical_angles(reader: Reader, seed: int) -> list[Turn]:
-    """The likely ones; then others, of file and scene, shuffled."""
+    """Likely angles first; then others, of file and scene, shuffled."""
     rng = random.Random(seed)
     others = angles_of(reader, reader.table, some(rng, range(len(reader.table))))
     for form in sorted({*parallel(reader.world, rng), *facing(reader.world, rng)}):
@@ -78,25 +78,25 @@ def critical_angles(reader: Reader, seed: int) -> list[Turn]:
 
 def angles_of(reader: Reader, columns: Any, rows: Sequence[int]) -> list[Turn]:
     """Critical angles of trapezoids or isolated parts."""
-    found = []
+    turns = []
     for k, end in product(rows, ("from", "to")):
         patch = int(getattr(columns, f"{end}_patch", columns.patch)[k])
         try:
-            found.append(Turn(int(columns.chart[k]), reader.angle(columns, k, end, patch)))
+            turns.append(Turn(int(columns.chart[k]), reader.angle(columns, k, end, patch)))
         except (Fault, IndexError):
             continue  # reported where it is checked
-    return found
+    return turns
 
 
 def parallel(world: World, rng: random.Random) -> list[Form]:
-    """Where an edge of the robot is parallel to one of the obstacles or bounds."""
+    """Angles at which an edge of the robot is parallel to one of the obstacles or bounds."""
     robot = sorted({primitive(minus(q, p)) for _, p, q in world.robot_corners})
     obstacles = sorted({primitive(minus(q, p)) for _, p, q in world.obstacle_corners + world.bound_corners})
     return [(0, cross(g, f), -dot(g, f)) for g, f in some(rng, list(product(robot, obstacles)))]
 
 
 def facing(world: World, rng: random.Random) -> list[Form]:
-    """Where two lines of contact are one: those of opposite edges of the obstacles, or of the robot."""
+    """Angles at which two lines of contact are one: those of opposite edges of the obstacles, or of the robot."""
     robot, others = world.robot_corners, world.obstacle_corners + world.bound_corners
     pairs = [
         (Surface(a, ZERO, b, minus(end, b)), Surface(a2, ZERO, b2, ZERO))

@@ -1,4 +1,4 @@
-"""Answers: is a path free, is a separation a proof? One finding for each thing that is wrong."""
+"""Check answers: a path is free, or a separation is a proof. Each fault gives one finding."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 SCENE, ASKED, PIECES, TURNS, ROUND = "scene", "poses asked for", "convex pieces", "orientations", "round shapes"
 MOVED = "moved"
 NO_ROOM = {
-    DECIMALS: 'they are said to be "free", and no room is enough for that; say "approximate"',
+    DECIMALS: 'they are claimed to be "free", and no room is enough for that; say "approximate"',
     CLEARANCE: "its polygon is not convex, or not around a disc of that radius; correct one of them",
 }
 
@@ -62,16 +62,16 @@ def answer(
     Parameters
     ----------
     scene : Scene
-        If it has a start and a goal, these have to be the answer's.
+        If it has a start and a goal, these must be the answer's.
     answer : Path, Separated, AllSeparated or path
         A file written by `cfree.save`, or an answer in memory (its scene is then not compared).
     progress : callable, optional
-        Called with the share that is done, from 0 to 1.
+        Function called with the share done, from 0 to 1.
 
     Returns
     -------
     Verification
-        Its `proved` says in one sentence what is.
+        Its `proved` states the result in one sentence.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def answer(
 
     Notes
     -----
-    About 1 ms a piece of a separation; of a path a few for each motion and each convex piece near it.
+    A separation takes about 1 ms a piece; a path takes a few for each motion and each convex piece near it.
 
     Examples
     --------
@@ -93,10 +93,10 @@ def answer(
     """
     begin = time.perf_counter()
     read = read_answer(answer) if isinstance(answer, (str, os.PathLike)) else None
-    given = read.answer if read else answer
-    assert not isinstance(given, (str, os.PathLike))
-    whole = whole_of(scene, given)
-    if read and (finding := other_scene(scene, given)):
+    outcome = read.answer if read else answer
+    assert not isinstance(outcome, (str, os.PathLike))
+    whole = whole_of(scene, outcome)
+    if read and (finding := other_scene(scene, outcome)):
         check = Check(SCENE, REFUTED, "nothing else was checked")
         return Verification((check,), (finding,), (), _since(begin))
 
@@ -104,109 +104,111 @@ def answer(
         if progress is not None:
             progress(done)
 
-    if isinstance(given, AllSeparated):
-        return _all_of(scene, given, report, begin)
-    findings, part = _other_poses(scene, given), scene
+    if isinstance(outcome, AllSeparated):
+        return _all_of(scene, outcome, report, begin)
+    findings, part = _other_poses(scene, outcome), scene
     if whole is not None:
-        found = part_of(scene, given, whole)
-        if found is None:
+        part_scene = part_of(scene, outcome, whole)
+        if part_scene is None:
             finding = Finding(SCENE, "whole", "its obstacles are not those that the answer is about; plan anew")
             return Verification((Check(SCENE, REFUTED, "nothing else was checked"),), (finding,), (), _since(begin))
-        part = found
-        given = renumbered(given, whole.obstacles) if isinstance(given, Path) else given
+        part = part_scene
+        outcome = renumbered(outcome, whole.obstacles) if isinstance(outcome, Path) else outcome
     if scene.curved:
-        if given.scene is None:
+        if outcome.scene is None:
             finding = Finding(ROUND, "polygons", "the answer has none for the round shapes of the scene")
             return Verification((Check(ROUND, REFUTED, "nothing else was checked"),), (finding,), (), _since(begin))
-        wrong = mismatches(scene, given.scene, outward=isinstance(given, Path))
+        wrong = mismatches(scene, outcome.scene, outward=isinstance(outcome, Path))
         findings += [Finding(ROUND, where, text) for where, text in wrong]
-    world = World(given.scene if scene.curved and given.scene else scene)
+    world = World(outcome.scene if scene.curved and outcome.scene else scene)
     findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
-    findings += end_findings(given, world)
-    findings += _needless(given, world)
-    if isinstance(given, Path):
+    findings += end_findings(outcome, world)
+    findings += _needless(outcome, world)
+    if isinstance(outcome, Path):
         larger: dict[str, World | None] = {}
         if read and read.decimals == "free":
             larger[DECIMALS] = None if read.leeway is None else roomier(world, read.leeway)
-        if given.clearance:
-            larger[CLEARANCE] = with_disc(world, given.disc) if is_around_disc(given.disc, given.clearance) else None
+        if outcome.clearance:
+            larger[CLEARANCE] = (
+                with_disc(world, outcome.disc) if is_around_disc(outcome.disc, outcome.clearance) else None
+            )
         findings += [Finding(name, name, NO_ROOM[name]) for name, there in larger.items() if there is None]
-        findings += path_findings(given, world, report, {name: there for name, there in larger.items() if there})
+        findings += path_findings(outcome, world, report, {name: there for name, there in larger.items() if there})
     else:
-        findings += separation_findings(given, world if whole is None else World(part), report)
+        findings += separation_findings(outcome, world if whole is None else World(part), report)
     report(1.0)
     extents = {
-        **_of_scene(given if read else None, whole, len(scene.obstacles)),
+        **_of_scene(outcome if read else None, whole, len(scene.obstacles)),
         ASKED: "start and goal, where the scene has them",
-        **_of_moved(given),
-        **(_of_curves(scene, given) if scene.curved else {}),
+        **_of_moved(outcome),
+        **(_of_curves(scene, outcome) if scene.curved else {}),
         PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them",
         ENDS: "both are free" + (" among the polygons" if scene.curved else ""),
-        **(_of_path(given) if isinstance(given, Path) else _of_separation(given)),
+        **(_of_path(outcome) if isinstance(outcome, Path) else _of_separation(outcome)),
         **_of_decimals(read),
     }
     refuted = {finding.kind for finding in findings}
     how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
-    how |= {MOVED: SKIPPED} if given.moved and _is_left(given) else {}
+    how |= {MOVED: SKIPPED} if outcome.moved and _is_left(outcome) else {}
     how |= {DECIMALS: SKIPPED} if read and read.decimals == "approximate" else {}
     how |= dict.fromkeys(refuted, REFUTED)
     checks = tuple(Check(name, how[name], text) for name, text in extents.items())
-    proved = "" if findings else _sentence(given, read)
+    proved = "" if findings else _sentence(outcome, read)
     return Verification(checks, tuple(findings), (), _since(begin), proved)
 
 
-def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object], begin: float) -> Verification:
-    """Each proof by itself; and that at a place their goals stand for all orientations."""
+def _all_of(scene: Scene, outcome: AllSeparated, report: Callable[[float], object], begin: float) -> Verification:
+    """Check each proof by itself, and that at a place their goals stand for all orientations."""
     findings, checks = list[Finding](), list[Check]()
-    polygons = given.scene if scene.curved else scene  # that these are inside is seen to for each proof
+    polygons = outcome.scene if scene.curved else scene  # each proof checks that these are inside
     world = polygons and World(polygons)
-    begun = given.proofs[0].moved
-    asked_start = given.start if begun is None or begun.start is None else begun.start
+    begun = outcome.proofs[0].moved
+    asked_start = outcome.start if begun is None or begun.start is None else begun.start
     if scene.start not in (None, asked_start):
         findings.append(Finding(ASKED, "start", f"it is {text_of(asked_start)}, and another in the scene"))
-    asked_goals = [given.moved_goals.get(goal, goal) for goal in given.goals]
+    asked_goals = [outcome.moved_goals.get(goal, goal) for goal in outcome.goals]
     for goal in (scene.goal, *scene.goals):
         if goal is not None and goal not in asked_goals:
             findings.append(Finding(ASKED, "goal", f"{text_of(goal)} in the scene is none of them"))
     without = Scene(scene.robot, scene.obstacles, bounds=scene.bounds, workspace=scene.workspace)
-    for k, proof in enumerate(given.proofs):
-        report(k / len(given.proofs))
+    for k, proof in enumerate(outcome.proofs):
+        report(k / len(outcome.proofs))
         result = answer(without, proof)
-        findings += [Finding(found.kind, f"proof {k}: {found.where}", found.text) for found in result.findings]
+        findings += [Finding(fault.kind, f"proof {k}: {fault.where}", fault.text) for fault in result.findings]
         checks.append(Check(f"proof {k}", PROVED if result.verified else REFUTED, result.proved or "see below"))
-        if proof.start != given.start or (given.of == "closed" and proof.of != "closed"):
-            findings.append(Finding(ASKED, f"proof {k}", "it has another start, or proves less than is said of all"))
-    for place in given.places:
-        there = [proof for proof in given.proofs if (proof.goal.x, proof.goal.y) == place]
+        if proof.start != outcome.start or (outcome.of == "closed" and proof.of != "closed"):
+            findings.append(Finding(ASKED, f"proof {k}", "its start differs, or it proves less than all claim"))
+    for place in outcome.places:
+        there = [proof for proof in outcome.proofs if (proof.goal.x, proof.goal.y) == place]
         where = f"({float(place[0]):g}, {float(place[1]):g})"
         turned = world
-        kept = bool(there) and bool(there[0].clearance)
-        if world and kept:
+        has_clearance = bool(there) and bool(there[0].clearance)
+        if world and has_clearance:
             turned = turning(world, there[0]) if _is_one_robot(there) else None
             if turned is None:
                 text = "the smaller robots of its proofs differ, or one is not convex, or too large to turn there"
                 findings.append(Finding(TURNS, where, text))
         intervals, single = left_out(turned, place, [proof.goal for proof in there]) if turned else (0, 0)
         # a robot that only just fits, and is nearer than a clearance, keeps none
-        if intervals or (single and given.of == "closed" and not kept):
+        if intervals or (single and outcome.of == "closed" and not has_clearance):
             left = f"{counted(intervals, 'interval')} and {counted(single, 'single one')}"
             text = f"no proof for {left} of free orientations"
             findings.append(Finding(TURNS, where, text))
-    if given.places:
-        at = f"at {counted(len(given.places), 'place')}"
-        text = f"{at} each free orientation is joined by turning to the goal of a proof"
+    if outcome.places:
+        where = f"at {counted(len(outcome.places), 'place')}"
+        text = f"{where} each free orientation is joined by turning to the goal of a proof"
         checks.append(Check(TURNS, PROVED, text))
     refuted = {finding.kind for finding in findings}
     checks = [replace(check, how=REFUTED) if check.name in refuted else check for check in checks]
-    goals = ", ".join(text_of_move(given.moved_goals.get(goal), goal) for goal in given.goals)
-    start = text_of_move(begun.start if begun else None, given.start)
-    proved = "" if findings else _none_leads(given, f"leads from {start} to any of {goals}")
+    goals = ", ".join(text_of_move(outcome.moved_goals.get(goal), goal) for goal in outcome.goals)
+    start = text_of_move(begun.start if begun else None, outcome.start)
+    proved = "" if findings else _none_leads(outcome, f"leads from {start} to any of {goals}")
     report(1.0)
     return Verification(tuple(checks), tuple(findings), (), _since(begin), proved)
 
 
 def _is_one_robot(proofs: Sequence[Separated]) -> bool:
-    """True if proofs about a clearance are all of contacts of one smaller robot."""
+    """True if all proofs about a clearance are of contacts of one smaller robot."""
     first = proofs[0]
     alike = all((p.clearance, p.robot, p.cores) == (first.clearance, first.robot, first.cores) for p in proofs)
     return alike and bool(first.clearance) and len(first.robot) == len(first.cores)
@@ -216,29 +218,29 @@ def _since(begin: float) -> float:
     return time.perf_counter() - begin
 
 
-def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
-    """Start and goal that are not the scene's, or were moved from there."""
-    asked = given.moved or Moved()
-    pairs = {"start": (scene.start, given.start, asked.start), "goal": (scene.goal, given.goal, asked.goal)}
+def _other_poses(scene: Scene, outcome: Path | Separated) -> list[Finding]:
+    """Findings for a start and a goal that are not the scene's, or were moved from there."""
+    asked = outcome.moved or Moved()
+    pairs = {"start": (scene.start, outcome.start, asked.start), "goal": (scene.goal, outcome.goal, asked.goal)}
     findings = [
         Finding(ASKED, name, f"it is {text_of_move(moved, its)}, and {text_of(pose)} in the scene")
         for name, (pose, its, moved) in pairs.items()
         if pose is not None and pose != (its if moved is None else moved)
     ]
-    reached = (given.goal, (given.goal.x, given.goal.y)) if asked.goal is None else (asked.goal,)
+    reached = (outcome.goal, (outcome.goal.x, outcome.goal.y)) if asked.goal is None else (asked.goal,)
     if scene.goals and not any(goal in reached for goal in scene.goals):
         goals = ", ".join(map(text_of, scene.goals))
-        findings.append(Finding(ASKED, "goal", f"it is {text_of(given.goal)}, and one of {goals} in the scene"))
+        findings.append(Finding(ASKED, "goal", f"it is {text_of(outcome.goal)}, and one of {goals} in the scene"))
     return findings
 
 
-def _of_moved(given: Path | Separated) -> dict[str, str]:
+def _of_moved(outcome: Path | Separated) -> dict[str, str]:
     """Moves of start and goal, in words."""
-    asked = given.moved or Moved()
-    pairs = (("start", asked.start, given.start), ("goal", asked.goal, given.goal))
+    asked = outcome.moved or Moved()
+    pairs = (("start", asked.start, outcome.start), ("goal", asked.goal, outcome.goal))
     texts = [f"{name} from {text_of(end)} to {text_of(to)}" for name, end, to in pairs if end is not None]
-    why = "whether it had to be was not looked at" if _is_left(given) else "it is forbidden there"
-    return {MOVED: f"{', '.join(texts)}; {why}, and that none is nearer is not proved"} if texts else {}
+    why = "the need to move it was not checked" if _is_left(outcome) else "it is forbidden there"
+    return {MOVED: f"{', '.join(texts)}; {why}; a nearer one is not excluded"} if texts else {}
 
 
 def _has_room(world: World, place: ExactPoint) -> bool:
@@ -247,16 +249,20 @@ def _has_room(world: World, place: ExactPoint) -> bool:
     return x0 <= place[0] <= x1 and y0 <= place[1] <= y1 and left_out(world, place, []) != (0, 0)
 
 
-def _is_left(given: Path | Separated) -> bool:
-    """True if it is not checked that what was moved is forbidden where it was asked for."""
-    return bool(given.clearance) or given.curved is not None or (given.scene is not None and given.stamp is not None)
+def _is_left(outcome: Path | Separated) -> bool:
+    """True if it is not checked that the requested pose of a moved end is forbidden."""
+    return (
+        bool(outcome.clearance)
+        or outcome.curved is not None
+        or (outcome.scene is not None and outcome.stamp is not None)
+    )
 
 
-def _needless(given: Path | Separated, world: World) -> list[Finding]:
-    """Ends that were moved and need not have been: their poses are free."""
-    asked, findings = given.moved or Moved(), list[Finding]()
+def _needless(outcome: Path | Separated, world: World) -> list[Finding]:
+    """Findings for ends that were moved although their poses are free."""
+    asked, findings = outcome.moved or Moved(), list[Finding]()
     for name, end in (("start", asked.start), ("goal", asked.goal)):
-        if end is None or _is_left(given):
+        if end is None or _is_left(outcome):
             continue
         is_free = fault_at(end, world) is None if isinstance(end, Pose) else _has_room(world, end)
         if is_free:
@@ -264,9 +270,9 @@ def _needless(given: Path | Separated, world: World) -> list[Finding]:
     return findings
 
 
-def other_scene(scene: Scene, given: Path | Separated | AllSeparated) -> Finding | None:
-    """A finding if an answer is for another scene than this one, and not for a part of it."""
-    if whole_of(scene, given) is not None or (its := given.stamp) is None or its == (stamp := stamp_of(scene)):
+def other_scene(scene: Scene, outcome: Path | Separated | AllSeparated) -> Finding | None:
+    """Return a finding if an answer is for another scene than this one, and not for a part of it."""
+    if whole_of(scene, outcome) is not None or (its := outcome.stamp) is None or its == (stamp := stamp_of(scene)):
         return None
     if its.sha256 == stamp.sha256:
         return Finding(SCENE, "scene.robot", f"it is {_box(its)}, and {_box(stamp)} around the robot; correct it")
@@ -278,37 +284,37 @@ def _box(stamp: Stamp) -> str:
     return f"[{', '.join(map(str, stamp.robot))}]"
 
 
-def _of_scene(given: Path | Separated | None, whole: Whole | None, count: int) -> dict[str, str]:
-    """If a file says which one it is for, or an answer that it is about some of the obstacles."""
+def _of_scene(outcome: Path | Separated | None, whole: Whole | None, count: int) -> dict[str, str]:
+    """Statement about the scene, if a file names its scene or an answer is about some of the obstacles."""
     if whole is not None:
         return {SCENE: f"the answer is about {len(whole.obstacles):,} of its {count:,} obstacles, and true among all"}
-    return {SCENE: "the one that the answer is for"} if given is not None and given.stamp else {}
+    return {SCENE: "the one that the answer is for"} if outcome is not None and outcome.stamp else {}
 
 
-def _of_curves(scene: Scene, given: Path | Separated) -> dict[str, str]:
+def _of_curves(scene: Scene, outcome: Path | Separated) -> dict[str, str]:
     count = round_count(shapes_of(scene))
-    around, inside = ("around", "inside") if isinstance(given, Path) else ("inside", "around")
+    around, inside = ("around", "inside") if isinstance(outcome, Path) else ("inside", "around")
     what = f"{count:,}: the answer's polygons are {around} those of robot and obstacles, {inside} a workspace"
     return {ROUND: what}
 
 
 def _of_decimals(read: Read | None) -> dict[str, str]:
-    """If a file has others beside them."""
+    """Statement about decimals, if a file has them."""
     if read is None or read.decimals is None:
         return {}
     if read.decimals == "approximate":
         return {DECIMALS: "approximate: only the exact numbers are free of collisions"}
     room = 0 if read.leeway is None else float(read.leeway)
-    return {DECIMALS: f"as doubles they are free, too: the path keeps {room:.3g}, four times what they are off"}
+    return {DECIMALS: f"also free as doubles: the path keeps {room:.3g}, four times their error"}
 
 
 def _of_path(path: Path) -> dict[str, str]:
     slides = sum(motion.kind == "slide" for motion in path.motions)
-    kept = {KEPT: f"{counted(slides, 'slide')}: two vertices on their edges, all the way"} if slides else {}
+    texts = {KEPT: f"{counted(slides, 'slide')}: two vertices on their edges, all the way"} if slides else {}
     count = counted(len(path.motions), "motion")
     text = f"{count}: at least {float(path.clearance):g} from obstacles and workspace"
-    kept |= {CLEARANCE: text} if path.clearance else {}
-    return kept | {
+    texts |= {CLEARANCE: text} if path.clearance else {}
+    return texts | {
         CONTINUOUS: f"{count} from the start to the goal, one after the other",
         FREE: f"{count}: at no pose does the robot overlap anything",
     }
@@ -328,20 +334,20 @@ def _of_separation(proof: Separated) -> dict[str, str]:
     }
 
 
-def _sentence(given: Path | Separated, read: Read | None) -> str:
-    asked, far = given.moved or Moved(), f"{float(given.clearance):g} from obstacles and workspace"
-    ends = text_of_move(asked.start, given.start), text_of_move(asked.goal, given.goal)
-    if isinstance(given, Path):
-        count = counted(len(given.motions), "motion")
+def _sentence(outcome: Path | Separated, read: Read | None) -> str:
+    asked, far = outcome.moved or Moved(), f"{float(outcome.clearance):g} from obstacles and workspace"
+    ends = text_of_move(asked.start, outcome.start), text_of_move(asked.goal, outcome.goal)
+    if isinstance(outcome, Path):
+        count = counted(len(outcome.motions), "motion")
         only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
-        keeps = f"keeps {far}" if given.clearance else "is free of collisions"
+        keeps = f"keeps {far}" if outcome.clearance else "is free of collisions"
         return f"A path of {count} leads from {ends[0]} to {ends[1]}, and {keeps}{only}."
-    return _none_leads(given, f"leads from {ends[0]} to {ends[1]}")
+    return _none_leads(outcome, f"leads from {ends[0]} to {ends[1]}")
 
 
-def _none_leads(given: Separated | AllSeparated, anywhere: str) -> str:
-    if given.clearance:
-        return f"No path that keeps {float(given.clearance):g} from obstacles and workspace {anywhere}."
-    if given.of == "closed":
+def _none_leads(outcome: Separated | AllSeparated, anywhere: str) -> str:
+    if outcome.clearance:
+        return f"No path that keeps {float(outcome.clearance):g} from obstacles and workspace {anywhere}."
+    if outcome.of == "closed":
         return f"No path {anywhere}, not even one that touches."
     return f"No path that keeps a distance from everything {anywhere}; one that touches may."

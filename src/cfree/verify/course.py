@@ -43,15 +43,15 @@ class Course:
         if isinstance(motion, Translation):
             v, w = (part * scale for part in motion.vector)
             one = _row(1)
-            found = [one, c * one, s * one, _row(x, v), _row(y, w)]
-            found += [c * found[3] + s * found[4], c * found[4] - s * found[3]]
+            columns = [one, c * one, s * one, _row(x, v), _row(y, w)]
+            columns += [c * columns[3] + s * columns[4], c * columns[4] - s * columns[3]]
         elif isinstance(motion, Slide):
             t, d = motion.tau, _in_u(motion.d, motion.tau)
             weight, cosine, sine = _row(1, 0, t * t), _row(1, 0, -t * t), _row(0, 2 * t)
             C, S = c * cosine - s * sine, c * sine + s * cosine
             X, Y = x * d + scale * _in_u(motion.x, t), y * d + scale * _in_u(motion.y, t)
-            found = [np.convolve(f, g) for f, g in ((weight, d), (C, d), (S, d), (weight, X), (weight, Y))]
-            found += [np.convolve(C, X) + np.convolve(S, Y), np.convolve(C, Y) - np.convolve(S, X)]
+            columns = [np.convolve(f, g) for f, g in ((weight, d), (C, d), (S, d), (weight, X), (weight, Y))]
+            columns += [np.convolve(C, X) + np.convolve(S, Y), np.convolve(C, Y) - np.convolve(S, X)]
         else:
             q, p = (0, -1 if motion.clockwise else 1) if motion.tau is None else motion.tau.as_integer_ratio()[::-1]
             first = isqrt(q * q + p * p)
@@ -60,12 +60,12 @@ class Course:
             h0, h1 = np.array([first, q - first], object), np.array([0, p], object)
             even, odd, both = np.convolve(h0, h0), np.convolve(h1, h1), 2 * np.convolve(h0, h1)
             d, k = even + odd, even - odd  # cos and sin of the angle turned are k / d and both / d
-            found = [d, c * k - s * both, c * both + s * k]
-            found += [px * d + rx * k - ry * both, py * d + rx * both + ry * k]
-            found += [px * found[1] + py * found[2] + (c * rx + s * ry) * d]
-            found += [py * found[1] - px * found[2] + (c * ry - s * rx) * d]
-        unit = lcm(*(Fraction(value).denominator for column in found for value in column))
-        numbers = [[int(unit * value) for value in column] for column in found]
+            columns = [d, c * k - s * both, c * both + s * k]
+            columns += [px * d + rx * k - ry * both, py * d + rx * both + ry * k]
+            columns += [px * columns[1] + py * columns[2] + (c * rx + s * ry) * d]
+            columns += [py * columns[1] - px * columns[2] + (c * ry - s * rx) * d]
+        unit = lcm(*(Fraction(value).denominator for column in columns for value in column))
+        numbers = [[int(unit * value) for value in column] for column in columns]
         divisor = gcd(*(value for column in numbers for value in column))
         self.d, self.c, self.s, self.x, self.y, self.xi, self.eta = (
             tuple(value // divisor for value in column) for column in numbers
@@ -73,7 +73,7 @@ class Course:
 
     @property
     def is_defined(self) -> bool:
-        """Is d certainly positive?"""
+        """True if d is certainly positive."""
         first, *middle, last = bernstein(self.d, ALL)
         return min(first, last) > 0 and min(middle) >= 0
 
@@ -82,11 +82,11 @@ class Course:
         return x / d, y / d, c / d, s / d
 
     def box(self, part: Ring, interval: Interval, unit: int) -> Box:
-        """Around all places of a part, in doubles; larger by more than their rounding.
+        """Box around all places of a part, in doubles; larger by more than their rounding.
 
         Notes
         -----
-        Where Bernstein coefficients of d are positive, a place is a mean of quotients of them. Else: the whole plane.
+        A place is a mean of quotients of Bernstein coefficients where those of d are positive. Else: the whole plane.
         """
         d, c, s, x, y = (bernstein(poly, interval) for poly in (self.d, self.c, self.s, self.x, self.y))
         if min(d) * EVEN < max(d):
@@ -97,7 +97,7 @@ class Course:
         return np.array([min(xs), min(ys), max(xs), max(ys)]) + 2.0**-40 * np.array([-1, -1, 1, 1])
 
     def heights(self, part: Ring, obstacle: Ring) -> Iterator[list[Poly]]:
-        """For every edge of both, the heights of the other's vertices over it, times d; it grows inwards."""
+        """Yield, for every edge of both, the heights of the other's vertices over it, times d; they grow inwards."""
         d, c, s = self.d, self.c, self.s
         for _, (bx, by), end in corners(obstacle):
             e, f = minus(end, (bx, by))
@@ -111,7 +111,7 @@ class Course:
 
 
 def place_of(pose: Pose, scale: int) -> Placed:
-    """Of the reference point, and the robot's cos and sin."""
+    """Position of the reference point, and the robot's cos and sin."""
     x, y, tau = pose.x * scale, pose.y * scale, pose.tau
     if tau is None:
         return x, y, Fraction(-1), Fraction(0)
@@ -124,13 +124,13 @@ def combined(factors: Sequence[int], *polys: Poly) -> Poly:
 
 
 def bernstein(poly: Poly, interval: Interval) -> list[int]:
-    """Its Bernstein coefficients on an interval, all times the same positive number."""
+    """Bernstein coefficients of a polynomial on an interval, all times the same positive number."""
     return [sum(map(mul, row, poly)) for row in bernstein_rows(len(poly) - 1, interval)]
 
 
 @lru_cache(maxsize=1 << 10)
 def bernstein_rows(degree: int, interval: Interval) -> list[list[int]]:
-    """What gives them: of u^k, by the products of k arguments of its polar form."""
+    """Matrix that gives them: row of u^k, by the products of k arguments of its polar form."""
     a, b, n = interval
     whole = lcm(*(comb(degree, k) for k in range(degree + 1)))
     return [
@@ -144,7 +144,7 @@ def bernstein_rows(degree: int, interval: Interval) -> list[list[int]]:
 
 
 def _row(*values: Fraction | int) -> Row:
-    """Of three coefficients."""
+    """Row of three coefficients."""
     return np.array([*values, 0, 0][:3], object)
 
 

@@ -1,8 +1,8 @@
-"""Round shapes against the polygons that an answer has for them: around them for a path, inside for a separation.
+"""Compare round shapes with an answer's polygons: around the shapes for a path, inside them for a separation.
 
-A ring of a shape is cut into pieces until the hull of each is not met by an edge of the polygon's ring: an arc of an
-ellipse lies in the triangle of its ends and the point where their tangents meet, a Bézier curve in the hull of its
-control points. Then each piece is on one side, and where its hull is says which. All of it in rationals.
+A ring of a shape is cut into pieces until no edge of the polygon's ring meets the hull of any. An arc of an ellipse
+lies in the triangle of its ends and the point where their tangents meet, a Bézier curve in the hull of its control
+points. Then each piece is on one side, given by the place of its hull. All of it is in rationals.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ Wrong = Iterator[tuple[str, str]]
 
 
 def mismatches(scene: Scene, polygons: Scene, *, outward: bool) -> Wrong:
-    """Places and texts: where the polygons of a scene are not around the round shapes of another, or inside of them.
+    """Places and texts where polygons of a scene are not around the round shapes of another, or not inside of them.
 
-    A shape too thin to have a polygon inside has none in an answer; then those of the others are in their order.
+    A shape too thin to have a polygon inside has none in an answer; the polygons of the others keep their order.
     """
     parts = [(f"robot[{k}]", shape) for k, shape in enumerate(scene.robot)]
     obstacles = [(placed(scene, k), shape) for k, shape in enumerate(scene.obstacles)]
@@ -74,18 +74,18 @@ def _base(shape: Curved) -> Polygon:
 
 
 def _shape(name: str, shape: AnyShape, polygons: Sequence[Polygon], outward: bool) -> Wrong:
-    """One shape, and its polygons; as many as it has convex pieces if it is grown."""
+    """Compare one shape with its polygons; a grown shape has as many as it has convex pieces."""
     if isinstance(shape, Polygon):
         if list(polygons) != [shape]:
             yield name, "the answer's polygon is another"
         return
     if shape.grown:
         base, radius = _base(shape), _number(shape.grown)
-        for number, (piece, found) in enumerate(zip_longest(base.pieces, polygons)):
+        for number, (piece, polygon) in enumerate(zip_longest(base.pieces, polygons)):
             corners = _ring([base.exact_vertices[k] for k in piece])
-            fits = found is not None and len(found.ring_offsets) == 2
+            fits = polygon is not None and len(polygon.ring_offsets) == 2
             check = _is_around_sum if outward else _is_inside_sum
-            if not (fits and check(corners, radius, _ring(found.exact_vertices))):
+            if not (fits and check(corners, radius, _ring(polygon.exact_vertices))):
                 yield f"{name}, piece {number}", f"it is not {'around' if outward else 'inside'} the grown piece"
         return
     rings = polygons[0].exact_rings if polygons else ()
@@ -103,7 +103,7 @@ def _shape(name: str, shape: AnyShape, polygons: Sequence[Polygon], outward: boo
 
 
 def _with_polygons(curves: Sequence[Curve], rings: Sequence[Sequence[FractionPoint]]) -> list[Curve]:
-    """The outer curve, and for each hole of a polygon the curve that is around it, or else any; others are filled."""
+    """Outer curve, and for each hole of a polygon the curve around it, or else any; other holes are filled."""
     outer, *holes = curves
     return [outer, *(next((hole for hole in holes if _is_inside(hole, _ring(ring))), holes[0]) for ring in rings[1:])]
 
@@ -124,7 +124,7 @@ def _ring(points: Sequence[FractionPoint]) -> list[ExactPoint]:
 
 
 def _is_around_sum(piece: Ring, radius: Number, ring: Ring) -> bool:
-    """Is a disc about each vertex of a convex piece inside a convex ring?"""
+    """True if a disc about each vertex of a convex piece is inside a convex ring."""
     return _is_convex(ring) and all(
         (height := _cross(a, b, p)) > 0 and height**2 >= radius**2 * _square(a, b)
         for a, b in _edges(ring)
@@ -133,12 +133,12 @@ def _is_around_sum(piece: Ring, radius: Number, ring: Ring) -> bool:
 
 
 def _is_inside_sum(piece: Ring, radius: Number, ring: Ring) -> bool:
-    """Is each vertex of a ring so near to a convex piece?"""
+    """True if each vertex of a ring is within the radius of a convex piece."""
     return all(_is_in_hull(p, piece) or any(_is_near(p, a, b, radius) for a, b in _edges(piece)) for p in ring)
 
 
 def _is_convex(ring: Ring) -> bool:
-    """Counter-clockwise, and turning left everywhere; a polygon's ring goes around once."""
+    """True if the ring is counter-clockwise and turns left everywhere; a polygon's ring goes around once."""
     return all(_cross(a, b, c) > 0 for (a, b), (_, c) in pairwise([*_edges(ring), (ring[0], ring[1])]))
 
 
@@ -215,20 +215,20 @@ def _parts(piece: Piece) -> Iterator[_Arc | _Bezier]:
 
 
 def _is_around(curve: Sequence[Piece], ring: Ring) -> bool:
-    """Is all of a closed curve inside a polygon's ring, or on it?"""
+    """True if all of a closed curve is inside a polygon's ring, or on it."""
     return _cut(curve, ring, lambda p: _side(p, ring) >= 0) is not None
 
 
 def _is_inside(curve: Sequence[Piece], ring: Ring) -> bool:
-    """Is no point of a closed curve inside the ring, and does it go around that?"""
+    """True if no point of a closed curve is inside the ring, and the curve goes around it."""
     chords = _cut(curve, ring, lambda p: _side(p, ring) <= 0)
     return chords is not None and _turns(_point_inside(ring), chords) != 0
 
 
 def _cut(curve: Sequence[Piece], ring: Ring, is_right: Callable[[ExactPoint], bool]) -> list[ExactPoint] | None:
-    """Ends of pieces whose hulls no edge of the ring meets, all on the right side; None if one is not."""
+    """Ends of pieces whose hulls no edge of the ring meets, if all are on the right side; else None."""
     ends: list[ExactPoint] = []
-    edges, is_known = _edges(ring), False  # is the side of what comes next that of what came before?
+    edges, is_known = _edges(ring), False  # True if the next hull is on the same side as the last
     for piece in curve:
         for part in _parts(piece):
             waiting = [(part, 0, edges)]
@@ -269,7 +269,7 @@ def _met(hull: Ring, edges: Sequence[Edge]) -> list[Edge]:
 
 
 def _meets_interior(hull: Ring, a: ExactPoint, b: ExactPoint) -> bool:
-    """Does a segment meet the interior of a convex polygon?"""
+    """True if a segment meets the interior of a convex polygon."""
     low, high = fmpq(0), fmpq(1)
     for p, q in _edges(hull):
         start, end = _cross(p, q, a), _cross(p, q, b)
@@ -303,14 +303,14 @@ def _middles(line: Ring, edges: Sequence[Edge]) -> Iterator[ExactPoint]:
 
 
 def _side(p: ExactPoint, ring: Ring) -> int:
-    """1 inside, 0 on the ring, -1 outside."""
+    """Side of a ring: 1 inside, 0 on the ring, -1 outside."""
     if any(_between(a, b, p) and _cross(a, b, p) == 0 for a, b in _edges(ring)):
         return 0
     return 1 if _turns(p, ring) else -1
 
 
 def _turns(p: ExactPoint, ring: Ring) -> int:
-    """How often a closed polygon that does not pass through a point goes around it."""
+    """Number of times a closed polygon that does not pass through a point goes around it."""
     count = 0
     for a, b in _edges(ring):
         if a[1] <= p[1] < b[1] and _cross(a, b, p) > 0:
@@ -321,7 +321,7 @@ def _turns(p: ExactPoint, ring: Ring) -> int:
 
 
 def _point_inside(ring: Ring) -> ExactPoint:
-    """Between the first two crossings of a horizontal line that passes through no vertex."""
+    """Point between the first two crossings of a horizontal line that passes through no vertex."""
     low, high, *_ = sorted({y for _, y in ring})
     y = (low + high) / 2
     xs = sorted(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) for a, b in _edges(ring) if (a[1] < y) != (b[1] < y))
@@ -329,8 +329,8 @@ def _point_inside(ring: Ring) -> ExactPoint:
 
 
 def _convex_hull(points: Sequence[ExactPoint]) -> list[ExactPoint]:
-    """Counter-clockwise; two points if they are on one line."""
-    ordered, found = sorted(set(points)), list[list[ExactPoint]]()
+    """Convex hull, counter-clockwise; two points if all are on one line."""
+    ordered, halves = sorted(set(points)), list[list[ExactPoint]]()
     if len(ordered) < 3:
         return ordered
     for row in (ordered, ordered[::-1]):
@@ -339,8 +339,8 @@ def _convex_hull(points: Sequence[ExactPoint]) -> list[ExactPoint]:
             while len(half) > 1 and _cross(half[-2], half[-1], p) <= 0:
                 half.pop()
             half.append(p)
-        found.append(half[:-1])
-    return [*found[0], *found[1]]
+        halves.append(half[:-1])
+    return [*halves[0], *halves[1]]
 
 
 def _centroid(ring: Ring) -> ExactPoint:
@@ -352,7 +352,7 @@ def _edges(ring: Ring) -> list[Edge]:
 
 
 def _cross(a: ExactPoint, b: ExactPoint, p: ExactPoint) -> Number:
-    """Above 0 if p is to the left of the line from a to b."""
+    """Cross product, above 0 if p is to the left of the line from a to b."""
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 
 

@@ -1,6 +1,6 @@
-"""The driver: trapezoids, isolated parts, and slices, one after the other; then how all sides match.
+"""Run the checks: trapezoids, isolated parts, and slices, one after the other; then the matching of all sides.
 
-`deep` counts the Euler characteristic again in two ways that know nothing of vertices, edges and faces.
+`deep` counts the Euler characteristic again in two ways that use no vertices, edges and faces.
 """
 
 from __future__ import annotations
@@ -40,7 +40,10 @@ BLOCK = 500  # trapezoids between two reports
 PIECES, ANGLES, DOMAINS, FREE = "convex pieces", "names and angles", "domains", "not forbidden"
 CLOSED, ISOLATED, MISSING = "closed surfaces", "isolated parts", "nothing missing"
 EULER, DEGREE = "Euler by slices", "Gauss map"
-SURE, NEAR = 1e-3, 0.25  # errors of degrees that decide; how near twice a degree is to an Euler number, a whole one
+SURE, NEAR = (
+    1e-3,
+    0.25,
+)  # limit of errors of degrees; largest distance of twice a degree from an Euler number, a whole one
 
 
 @checked
@@ -61,18 +64,18 @@ def boundary(
     boundary : Boundary or path
         A file written by `cfree.save`, or a boundary in memory.
     scene : Scene, optional
-        Has to be the scene in the file; if it is not, that is the only finding.
+        Must be the scene in the file; if it is not, that is the only finding.
     slices : int
         Orientations at which the whole slice is computed again: half of them critical angles.
     sample : int, optional
         Check that many trapezoids, chosen at random, and no sides; all by default.
     seed : int
-        Of the random choices.
+        Seed of the random choices.
     deep : bool
         Count Euler numbers in two more ways, if all else is well: by slices at and between all critical angles, and by
         the degree of the Gauss map.
     progress : callable, optional
-        Called with the share that is done, from 0 to 1.
+        Function called with the share done, from 0 to 1.
 
     Returns
     -------
@@ -86,7 +89,7 @@ def boundary(
     Notes
     -----
     Time is about linear in the number of trapezoids, plus the time of the slices: contacts times pillars near them.
-    `deep` takes two slices for each critical angle, which is for scenes of up to some hundreds of trapezoids.
+    `deep` takes two slices for each critical angle; it suits scenes of up to some hundreds of trapezoids.
 
     Examples
     --------
@@ -108,12 +111,12 @@ def _verified(
 ) -> Verification:  # fmt: skip
     """Check with options that are in order; see `boundary`."""
     begin = time.perf_counter()
-    given = read_boundary(boundary) if isinstance(boundary, (str, os.PathLike)) else boundary
-    if (finding := _unfit(given, scene)) is not None:
+    stored = read_boundary(boundary) if isinstance(boundary, (str, os.PathLike)) else boundary
+    if (finding := _unfit(stored, scene)) is not None:
         return Verification((), (finding,), (), time.perf_counter() - begin)
-    contacts = given.contact_kind, given.contact_robot, given.contact_obstacle
-    reader = Reader(given.scene, contacts, given.trapezoids, given.isolated)
-    count, parts = len(given.trapezoids), len(given.isolated)
+    contacts = stored.contact_kind, stored.contact_robot, stored.contact_obstacle
+    reader = Reader(stored.scene, contacts, stored.trapezoids, stored.isolated)
+    count, parts = len(stored.trapezoids), len(stored.isolated)
     chosen = range(count) if sample is None else sorted(random.Random(seed).sample(range(count), min(sample, count)))
     findings = [Finding(PIECES, name, "its convex pieces do not tile it") for name in reader.world.untiled]
     loops: dict[int, list[Side | None]] = {}
@@ -136,7 +139,7 @@ def _verified(
         ]
     deeper: tuple[Check, ...] = ()
     if deep and matching is not None and not findings:
-        deeper, findings = _counted_again(given, reader, matching, report)
+        deeper, findings = _counted_again(stored, reader, matching, report)
     elif deep:
         deeper = tuple(
             Check(name, SKIPPED, "needs a boundary in which nothing else is wrong") for name in (EULER, DEGREE)
@@ -151,9 +154,9 @@ def _verified(
 
 
 def _counted_again(
-    given: Boundary, reader: Reader, matching: Matching, report: Callable[[float], object]
+    stored: Boundary, reader: Reader, matching: Matching, report: Callable[[float], object]
 ) -> tuple[tuple[Check, ...], list[Finding]]:
-    """Euler numbers by slices, of all surfaces together, and by the Gauss map, of each."""
+    """Count Euler numbers again: of all surfaces together by slices, and of each by the Gauss map."""
     findings = []
     total, slices = euler_from_slices(reader, report)
     if total is not None and total != sum(matching.euler):
@@ -162,18 +165,18 @@ def _counted_again(
     of_slices = Check(EULER, SAMPLED, by_slices)
     if total is None:
         of_slices = Check(EULER, SKIPPED, "free sheets of no width, between bounds and a wall, are not in slices")
-    radius = float(np.hypot(*given.features.robot.xy.T).max(initial=0.0))
+    radius = float(np.hypot(*stored.features.robot.xy.T).max(initial=0.0))
     try:
-        found = gauss_map(given, angle_scale=radius or 1.0)
+        gauss = gauss_map(stored, angle_scale=radius or 1.0)
     except UnsupportedError as error:
         return (of_slices, Check(DEGREE, SKIPPED, str(error))), findings
-    if found.error.max(initial=0.0) > SURE:
-        unsure = f"doubles leave degrees open by {found.error.max():.1e}"
+    if gauss.error.max(initial=0.0) > SURE:
+        unsure = f"doubles leave degrees open by {gauss.error.max():.1e}"
         return (of_slices, Check(DEGREE, SKIPPED, unsure)), findings
-    euler, double = given.complex.euler, 2 * found.degree
+    euler, double = stored.complex.euler, 2 * gauss.degree
     off = float(np.abs(double - euler).max(initial=0.0))
     if off > NEAR or sorted(euler.tolist()) != sorted(matching.euler):
-        degrees = ", ".join(f"{x:.3f}" for x in found.degree)
+        degrees = ", ".join(f"{x:.3f}" for x in gauss.degree)
         text = f"degrees {degrees}; Euler numbers {euler.tolist()}, and {matching.euler} as matched here"
         findings.append(Finding(DEGREE, "all surfaces", text))
     by_degree = f"the degree of every surface is half its Euler number, or off by {off / 2:.1e} at most"
@@ -181,7 +184,7 @@ def _counted_again(
 
 
 def _unfit(boundary: Boundary, scene: Scene | None) -> Finding | None:
-    """Why there is nothing to check, if there is a reason."""
+    """Finding that explains why nothing can be checked, if there is a reason."""
     if scene is not None and (differing := differences(scene, boundary.scene)):
         return Finding("scene", differing, f"not the scene of the boundary: {differing} differ")
     if not boundary.complete:
@@ -191,7 +194,7 @@ def _unfit(boundary: Boundary, scene: Scene | None) -> Finding | None:
 
 
 def differences(scene: Scene, other: Scene) -> str:
-    """Which geometry of two scenes differs, exactly."""
+    """Names of the parts of the geometry in which two scenes differ, exactly."""
     names = ("robot", "obstacles", "bounds", "workspace")
     return ", ".join(name for name in names if getattr(scene, name) != getattr(other, name))
 
@@ -199,7 +202,7 @@ def differences(scene: Scene, other: Scene) -> str:
 def trapezoid_findings(
     reader: Reader, numbers: Sequence[int], loops: dict[int, list[Side | None]]
 ) -> Iterator[Finding]:
-    """All about some trapezoids but how their sides match: they go into `loops`."""
+    """Findings about some trapezoids, except for the matching of their sides, which go into `loops`."""
     sound, inside = list[int](), list[tuple[Surface, Turn, Exact, Exact]]()
     for k in numbers:
         kind = ANGLES
@@ -221,7 +224,7 @@ def trapezoid_findings(
 
 
 def isolated_findings(reader: Reader, k: int) -> list[Finding]:
-    """All about an isolated part."""
+    """Findings about an isolated part."""
     try:
         IsolatedPart(reader, k).check()
     except (Fault, IndexError) as fault:
@@ -245,7 +248,7 @@ def _place(reader: Reader, numbers: Sequence[int]) -> str:
 
 
 def trapezoid_checks(count: int, total: int) -> tuple[Check, ...]:
-    """What `trapezoid_findings` looks at, if nothing is wrong with so many trapezoids."""
+    """Checks that `trapezoid_findings` makes, if nothing is wrong with so many trapezoids."""
     every = counted(total, "trapezoid") if count == total else f"{count:,} of {counted(total, 'trapezoid')}"
     proved = PROVED if count == total else SAMPLED
     return (
@@ -256,13 +259,13 @@ def trapezoid_checks(count: int, total: int) -> tuple[Check, ...]:
 
 
 def refuted(checks: Iterable[Check], findings: Iterable[Finding]) -> tuple[Check, ...]:
-    """The same checks, those refuted of which something has been found."""
+    """Return the same checks; those with a finding are refuted."""
     kinds = {finding.kind for finding in findings}
     return tuple(replace(check, how=REFUTED) if check.name in kinds else check for check in checks)
 
 
 def _checks(reader: Reader, matching: Matching | None, count: int, slices: str) -> tuple[Check, ...]:
-    """What was looked at, if nothing is wrong."""
+    """Checks made, if nothing is wrong."""
     world, total, parts = reader.world, len(reader.table), reader.isolated
     closed = Check(CLOSED, SKIPPED, "needs every trapezoid")
     if matching is not None:
@@ -271,7 +274,7 @@ def _checks(reader: Reader, matching: Matching | None, count: int, slices: str) 
         surfaces = f"{counted(len(matching.euler), 'surface')}; Euler numbers: {numbers or 'none'}"
         closed = Check(CLOSED, PROVED, f"{counted(matching.edges, 'edge')} with partners{pinched}; {surfaces}")
     curves = int((parts.kind == CURVE).sum())
-    at = f"; {counted(curves, 'curve')}, looked at three angles each" if curves else ""
+    note = f"; {counted(curves, 'curve')}, sampled at three angles each" if curves else ""
     return (
         Check(
             PIECES, PROVED, f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them"
@@ -281,7 +284,7 @@ def _checks(reader: Reader, matching: Matching | None, count: int, slices: str) 
         Check(
             ISOLATED,
             SAMPLED if curves else PROVED,
-            f"{counted(len(parts), 'part')}: free, no width, on no trapezoid{at}",
+            f"{counted(len(parts), 'part')}: free, no width, on no trapezoid{note}",
         ),
         Check(MISSING, SAMPLED, f"{slices}: computed anew, and the same"),
     )

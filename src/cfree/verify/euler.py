@@ -2,8 +2,8 @@
 
 The closed forbidden space M is cut at its critical angles. With compact support the characteristic is additive, and
 that of a slab between two angles is minus that of a slice in it. So chi(M) is the sum, over critical angles, of that of
-the slice there less that of a slice just after. Closed surfaces bound M, made thicker by nearly nothing, and have
-2 chi(M) in total. Slices are computed from the scene alone; the file only says at which angles.
+the slice there less that of a slice just after. Closed surfaces bound M, made thicker by nearly nothing, and have 2
+chi(M) in total. Slices are computed from the scene alone; the file only gives the angles.
 docs/theory/closed-surfaces.md, "Euler characteristic from slices", has the proof.
 """
 
@@ -26,19 +26,19 @@ from cfree.verify.trapezoids import Reader
 from cfree.verify.world import World
 
 Interval = tuple[Exact, Exact]
-Arc = tuple[Vector, Vector]  # from point to point, times w; what is forbidden is on its left
-CLOSE = Fraction(1, 1 << 40)  # to a critical angle, as a half-angle tangent
-NEAR, BITS = 1e-6, 60  # of points to a line, in doubles, for points of size 1; what these are rounded to
+Arc = tuple[Vector, Vector]  # from point to point, times w; the forbidden side is on its left
+CLOSE = Fraction(1, 1 << 40)  # distance to a critical angle, as a half-angle tangent
+NEAR, BITS = 1e-6, 60  # distance of points to a line, in doubles, for points of size 1; bits to which these are rounded
 ENDS = [Turn.of(chart, Fraction(-1)) for chart in (0, 1)]  # -90 and 90 degrees
 
 
 def euler_from_slices(reader: Reader, report: Callable[[float], object] = lambda share: None) -> tuple[int | None, int]:
-    """Euler characteristic of all closed surfaces together, and at how many angles slices were computed.
+    """Euler characteristic of all closed surfaces together, and the number of angles with slices.
 
     Notes
     -----
-    None if free space has sheets of no width, between bounds and a wall: surfaces run around them, and M has them
-    inside.
+    The first is None if free space has sheets of no width, between bounds and a wall: surfaces run around them, and M
+    has them inside.
     """
     turns, world = critical_turns(reader), reader.world
     total = 0
@@ -53,10 +53,10 @@ def euler_from_slices(reader: Reader, report: Callable[[float], object] = lambda
 
 
 def critical_turns(reader: Reader) -> list[Turn]:
-    """The angles of all trapezoids and isolated parts and the ends of charts, each once, as they follow each other."""
-    found = angles_of(reader, reader.table, range(len(reader.table)))
-    found += angles_of(reader, reader.isolated, range(len(reader.isolated)))
-    apart = {turn.key: turn for turn in found + ENDS}
+    """Angles of all trapezoids and isolated parts and the ends of charts, each once, in cyclic order."""
+    turns = angles_of(reader, reader.table, range(len(reader.table)))
+    turns += angles_of(reader, reader.isolated, range(len(reader.isolated)))
+    apart = {turn.key: turn for turn in turns + ENDS}
 
     def compared(x: Turn, y: Turn) -> int:
         return quarter(x) - quarter(y) or (x.root > y.root) - (x.root < y.root)
@@ -72,7 +72,7 @@ def quarter(turn: Turn) -> int:
 
 
 def after(turn: Turn, following: Turn) -> Turn:
-    """A rational angle between two that follow each other."""
+    """Rational angle between two that follow each other."""
     start = Root.of(Fraction(-1)) if quarter(turn) in (0, 2) else turn.root
     stop = Root.of(Fraction(1)) if quarter(following) in (0, 2) else following.root
     part(start, stop)
@@ -80,14 +80,14 @@ def after(turn: Turn, following: Turn) -> Turn:
 
 
 class Outlines:
-    """Arcs between what is forbidden and what is free at an angle, cut where others end on them.
+    """Arcs between forbidden and free positions at an angle, cut where others end on them.
 
     Attributes
     ----------
     onward, arriving : dict of point to list of Arc
-        Those that begin, and those that end at a point.
+        Arcs that begin, and arcs that end at a point.
     slits : bool
-        True if some segment is free with what is forbidden on both sides. It is left out.
+        True if some segment is free with forbidden positions on both sides. It is left out.
     """
 
     def __init__(self, world: World, turn: Turn) -> None:
@@ -106,7 +106,7 @@ class Outlines:
 
     @property
     def characteristic(self) -> int:
-        """Components less holes of the closed forbidden set, but for what is around the bounds.
+        """Components less holes of the closed forbidden set, except for the one around the bounds.
 
         Notes
         -----
@@ -124,7 +124,7 @@ class Outlines:
         return total
 
     def _following(self, arc: Arc) -> Arc:
-        """The arc that bounds the same free sector where one arrives: the first counter-clockwise from it."""
+        """Return the arc that bounds the same free sector where one arrives: the first counter-clockwise from it."""
         point = arc[1]
         return self.onward[point][0] if len(self.onward[point]) == 1 else first_from(minus(*arc), self.onward[point])
 
@@ -134,7 +134,7 @@ class Outlines:
 
 
 def first_from(direction: Vector, arcs: list[Arc], backwards: bool = False) -> Arc:
-    """The arc that leaves first, counter-clockwise from a direction."""
+    """Arc that leaves first, counter-clockwise from a direction."""
 
     def compared(x: Arc, y: Arc) -> int:
         one, other = minus(x[1], x[0]), minus(y[1], y[0])
@@ -150,7 +150,7 @@ def touching(outlines: Outlines, point: Vector) -> int:
 
     Notes
     -----
-    Surfaces that only touch in a point have a vertex there each, but M hangs together in it: a tube, made thicker.
+    Surfaces that only touch in a point have a vertex there each, but M is connected in it: a tube, made thicker.
     """
     section = outlines.section
     sectors: dict[Arc, list[int]] = {arc: [] for arc in outlines.onward[point]}
@@ -171,7 +171,7 @@ def beside(turn: Turn) -> list[Turn]:
     while turn.root.hi - turn.root.lo > CLOSE:
         turn.root.narrow()
     return [
-        Turn.of(chart, at) for chart, at in ((turn.chart, turn.root.lo - CLOSE), (turn.chart, turn.root.hi + CLOSE))
+        Turn.of(chart, tau) for chart, tau in ((turn.chart, turn.root.lo - CLOSE), (turn.chart, turn.root.hi + CLOSE))
     ]
 
 
@@ -200,18 +200,18 @@ def _arcs(section: Section) -> tuple[list[Arc], bool]:
                 lo, hi = sorted(map(line.position, interval))
                 if lo < hi:
                     on[line.key][line.ascends].append((lo, hi))
-    found, slits = [], False
+    sides, slits = [], False
     for key, facing in on.items():
         ways = {ascends: united(intervals) for ascends, intervals in facing.items()}
         for ascends in (True, False):
             outside = _without(ways[ascends], ways[not ascends])
             slits = slits or outside != ways[ascends]
-            found += [(key, lo, hi, ascends) for lo, hi in outside]
-    points = {point_at(key, x): None for key, *ends, _ in found for x in ends}
+            sides += [(key, lo, hi, ascends) for lo, hi in outside]
+    points = {point_at(key, x): None for key, *ends, _ in sides for x in ends}
     size = world.unit * turn.rounded.w  # no point is farther, but for rounding
     rough = {point: [float(near(x / Fraction(size), BITS)) for x in point] for point in points}
     arcs = []
-    for key, lo, hi, ascends in found:
+    for key, lo, hi, ascends in sides:
         cuts = [lo, *sorted(_between(key, lo, hi, rough)), hi]
         ways_on = [(point_at(key, p), point_at(key, q)) for p, q in pairwise(cuts)]
         arcs += ways_on if ascends else [(q, p) for p, q in ways_on]
@@ -219,7 +219,7 @@ def _arcs(section: Section) -> tuple[list[Arc], bool]:
 
 
 def _between(key: LineKey, lo: Exact, hi: Exact, rough: dict[Vector, list[float]]) -> Iterator[Exact]:
-    """Positions of points within an interval of a line. Doubles say which are not near it."""
+    """Positions of points within an interval of a line. Doubles exclude those that are not near it."""
     (px, py), (qx, qy) = rough[point_at(key, lo)], rough[point_at(key, hi)]
     length = math.hypot(qx - px, qy - py)
     for point, (x, y) in rough.items():
@@ -232,13 +232,13 @@ def _between(key: LineKey, lo: Exact, hi: Exact, rough: dict[Vector, list[float]
 
 def _without(intervals: list[Interval], others: list[Interval]) -> list[Interval]:
     """Remainder of disjoint intervals outside of others, both in order."""
-    found = []
+    rest = []
     for lo, hi in intervals:
         for begin, end in others:
             if begin < hi and lo < end:
                 if lo < begin:
-                    found.append((lo, begin))
+                    rest.append((lo, begin))
                 lo = end
         if lo < hi:
-            found.append((lo, hi))
-    return found
+            rest.append((lo, hi))
+    return rest

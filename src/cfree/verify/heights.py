@@ -1,4 +1,4 @@
-"""Segments against open pillars, many at a time: doubles with a bound say what is certain, exact numbers the rest.
+"""Segments against open pillars, many at a time: doubles with a bound decide the certain cases, exact numbers the rest.
 
 The pillar of a convex piece of an obstacle and a convex part of the robot holds the points x to which the part, turned,
 cannot be moved without overlapping the piece. It is the intersection of open half planes. The *heights* over them,
@@ -6,14 +6,14 @@ cannot be moved without overlapping the piece. It is the intersection of open ha
     u x (x - p) + max over vertices a of u x R a         for an edge of the piece, from p along u,
     max over vertices y of R v x (y - x - R a)           for an edge of the part, from a along v,
 
-are linear in x, and positive inside. A segment without a point in the open pillar is told by them alone.
+are linear in x, and positive inside. They alone decide that a segment has no point in the open pillar.
 
 Notes
 -----
 Coordinates are divided by the world's unit: then none is larger than 1, nor than 1/4 in the robot. A quotient of
 integers is rounded once, cos and sin are off by 2^-50 at most (`rough_rotation`), so the coordinates of x, p and R a
 are off by 2^-48. Of u x (x - p + R a) each of at most eight products is at most 3 (|u_x| + |u_y|), and is off by that
-times 2^-47 at most. `ERROR` times |u_x| + |u_y|, and `LEAST` for what may underflow, are more than all errors together.
+times 2^-47 at most. `ERROR` times |u_x| + |u_y|, and `LEAST` for underflows, are more than all errors together.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ Contacts = Sequence[tuple[Floats, Floats]]
 """The vectors a, g, b and q of surfaces, each x and y, rounded."""
 ERROR, LEAST = 2.0**-42, 2.0**-980
 NEAR = 2.0**-40  # boxes are larger by more than their rounding
-MOST = 1 << 22  # pairs of a box and a segment that are looked at together
+MOST = 1 << 22  # pairs of a box and a segment that are compared at a time
 
 
 class Shape:
@@ -83,8 +83,8 @@ class Segments:
         return cls(c, s, bx + t * qx - (c * rx - s * ry), by + t * qy - (s * rx + c * ry))
 
     def some(self, chosen: Ints) -> Segments:
-        of = chosen if len(self.c) > 1 else slice(None)
-        return Segments(self.c[of], self.s[of], self.x[:, chosen], self.y[:, chosen])
+        rows = chosen if len(self.c) > 1 else slice(None)
+        return Segments(self.c[rows], self.s[rows], self.x[:, chosen], self.y[:, chosen])
 
 
 class World(Protocol):
@@ -101,7 +101,7 @@ class World(Protocol):
 
 
 class Pillars:
-    """All open pillars of a world; `numbers` as of `Section`."""
+    """All open pillars of a world, numbered as in `Section`."""
 
     def __init__(self, world: World) -> None:
         self.unit = world.unit
@@ -112,24 +112,27 @@ class Pillars:
 
     def __getitem__(self, number: int) -> tuple[Shape, Shape]:
         """A piece and a part."""
-        k, of = divmod(number, len(self._parts))
+        k, part = divmod(number, len(self._parts))
         if k < len(self._pieces):
-            return self._pieces[k], self._parts[of]
+            return self._pieces[k], self._parts[part]
         return self._beyond[number - len(self._pieces) * len(self._parts)], self._point
 
     @cached_property
     def _boxes(self) -> tuple[Floats, Floats]:
         """(2, pieces) least and greatest coordinates."""
-        found = [[[of(shape.x), of(shape.y)] for shape in (*self._pieces, *self._beyond)] for of in (np.min, np.max)]
-        low, high = (np.array(box, np.float64).reshape(-1, 2).T for box in found)
+        boxes = [
+            [[extreme(shape.x), extreme(shape.y)] for shape in (*self._pieces, *self._beyond)]
+            for extreme in (np.min, np.max)
+        ]
+        low, high = (np.array(box, np.float64).reshape(-1, 2).T for box in boxes)
         return low, high
 
     def near(self, segments: Segments) -> Iterator[tuple[int, Ints]]:
         """Numbers of pillars, each with the segments that may meet it."""
         count, (low, high) = len(self._pieces), self._boxes
-        groups = [(part, slice(0, count), of) for of, part in enumerate(self._parts)]
+        groups = [(part, slice(0, count), m) for m, part in enumerate(self._parts)]
         groups.append((self._point, slice(count, None), 0))
-        for part, pieces, of in groups:
+        for part, pieces, m in groups:
             meets: NDArray[np.bool_] = np.ones((low[0, pieces].size, segments.x.shape[1]), bool)
             turned = part.turned(segments.c, segments.s)
             for ends, arm, lo, hi in zip(
@@ -138,7 +141,7 @@ class Pillars:
                 meets &= lo[:, None] <= ends.max(axis=0) + arm.max(axis=0) + NEAR
                 meets &= hi[:, None] >= ends.min(axis=0) + arm.min(axis=0) - NEAR
             for k in np.flatnonzero(meets.any(axis=1)).tolist():
-                number = k * len(self._parts) + of if part is not self._point else count * len(self._parts) + k
+                number = k * len(self._parts) + m if part is not self._point else count * len(self._parts) + k
                 yield number, np.flatnonzero(meets[k])
 
     def blocks(self, segments: Segments) -> Iterator[Ints]:
@@ -178,7 +181,7 @@ class HalfPlanes:
         self._made: dict[tuple[int, int, int], tuple[Vector, Exact]] = {}
 
     def over(self, piece: Shape, part: Shape, edge: int, line: Line) -> tuple[Exact, Exact]:
-        """Height over an edge at a line's t = 0, and how it grows; times w, or times its square."""
+        """Height over an edge at a line's t = 0, and its growth; times w, or times its square."""
         key = id(piece), id(part), edge
         if key not in self._made:
             self._made[key] = self._edge(piece, part, edge)
@@ -186,7 +189,7 @@ class HalfPlanes:
         return cross(u, line.start) + constant, cross(u, line.along)
 
     def _edge(self, piece: Shape, part: Shape, edge: int) -> tuple[Vector, Exact]:
-        """Of x, times w, the height is u x (w x) + constant."""
+        """Vector u and constant of the height u x (w x) + constant over an edge."""
         ring, other, (c, s) = piece.ring, part.ring, self._rough
         if edge < len(ring):
             p = ring[edge]
@@ -219,7 +222,7 @@ class HalfPlanes:
     def crossing(self, piece: Shape, part: Shape, line: Line, edges: Iterable[int]) -> Interval | None:
         """The open interval of t at which a line is inside a pillar, from -1 to 2; None if that is nowhere in [0, 1].
 
-        Only some edges are asked: over the others the line is inside from t = 0 to 1.
+        Only some edges are given: over the others the line is inside from t = 0 to 1.
         """
         lo: Exact = -1
         hi: Exact = 2
@@ -236,19 +239,19 @@ class HalfPlanes:
 
 def _highest(values: Floats, bound: float) -> list[int]:
     """Numbers of the values, each off by a bound at most, that may be the greatest."""
-    found: list[int] = np.flatnonzero(values >= values.max() - 2 * bound).tolist()
-    return found
+    numbers: list[int] = np.flatnonzero(values >= values.max() - 2 * bound).tolist()
+    return numbers
 
 
-# --- what is asked ---
+# --- queries ---
 
 
 def covered(world: World, items: Sequence[tuple[Surface, Turn, Fraction, Fraction]]) -> list[int]:
     """Numbers of the parts of contacts that an open pillar covers, each at its own rational angle, t in [0, 1].
 
-    Decided exactly: an edge that doubles put a segment outside of counts only by more than their error.
+    Decided exactly: an edge that a segment is outside of, by doubles, counts only beyond their error.
     """
-    pillars, found = world.pillars, set[int]()
+    pillars, numbers = world.pillars, set[int]()
     t = np.array([[float(item[2]) for item in items], [float(item[3]) for item in items]])
     surfaces, turns = [item[0] for item in items], [item[1] for item in items]
     contacts = [columns([getattr(surface, name) for surface in surfaces], pillars.unit) for name in "agbq"]
@@ -271,12 +274,12 @@ def covered(world: World, items: Sequence[tuple[Surface, Turn, Fraction, Fractio
                 if vertex >= 0 and lies_along(surface, piece, part, edges[0], vertex):
                     continue
                 if exact[k].meet(piece, part, turn.line(surface), (ends[0], ends[1]), edges):
-                    found.add(k)
-    return sorted(found)
+                    numbers.add(k)
+    return sorted(numbers)
 
 
 def _is_own(piece: Shape, part: Shape, segments: Segments, edge: Ints) -> Ints:
-    """The vertex over which the height over an edge, one for each segment, is counted; -1 where that is uncertain."""
+    """Vertex over which the height over an edge, one for each segment, is counted; -1 where that is uncertain."""
     count, result = len(piece.ring), np.full(len(edge), -1)
     for is_piece in (True, False):
         which = np.flatnonzero((edge < count) == is_piece)
@@ -298,7 +301,7 @@ def _is_own(piece: Shape, part: Shape, segments: Segments, edge: Ints) -> Ints:
 
 
 def lies_along(surface: Surface, piece: Shape, part: Shape, edge: int, vertex: int) -> bool:
-    """True if a contact is that of an edge and the vertex that counts over it: then its height is 0 all along."""
+    """True if a contact is that of an edge and the vertex that counts over it; then its height is 0 all along."""
     count = len(piece.ring)
     if edge < count:
         p, q = piece.ring[edge], piece.ring[(edge + 1) % count]
@@ -340,7 +343,7 @@ def left_over(world: World, turn: Turn) -> Iterator[tuple[Surface, list[Interval
 
 @dataclass(frozen=True)
 class _Sure:
-    """An interval in which a line is inside a pillar for certain, and the edges that decide its exact ends."""
+    """An interval in which a line is certainly inside a pillar, and the edges that decide its exact ends."""
 
     lo: float
     hi: float
@@ -350,7 +353,7 @@ class _Sure:
 
 
 def _surely_inside(above: Floats) -> tuple[Floats, Floats]:
-    """An open interval of t for each segment, heights positive in it for certain; from -1 or to 2 if ends are in."""
+    """Open interval of t for each segment in which heights are certainly positive; from -1 or to 2 if ends are in."""
     first, last = above
     with np.errstate(all="ignore"):
         t = first / (first - last)
@@ -361,23 +364,23 @@ def _surely_inside(above: Floats) -> tuple[Floats, Floats]:
 
 
 def _cover_all(known: Sequence[_Sure]) -> bool:
-    """True if open intervals cover all of [0, 1] for certain."""
-    at = -1.0
+    """True if open intervals certainly cover all of [0, 1]."""
+    end = -1.0
     for sure in sorted(known, key=lambda sure: sure.lo):
-        if sure.lo < at or sure.lo == at == -1.0:
-            at = max(at, sure.hi)
-    return at > 1
+        if sure.lo < end or sure.lo == end == -1.0:
+            end = max(end, sure.hi)
+    return end > 1
 
 
 def without(intervals: Iterable[Interval]) -> list[Interval]:
-    """[0, 1] without open intervals; some of what is left are points."""
-    found: list[Interval] = []
-    at: Exact = 0
+    """Remainder of [0, 1] outside open intervals; some parts of it are points."""
+    gaps: list[Interval] = []
+    end: Exact = 0
     for lo, hi in sorted(intervals):
-        if at <= lo:
-            found.append((at, lo))
-        at = max(at, hi)
-    return [(lo, min(hi, 1)) for lo, hi in [*found, (at, 1)] if lo <= min(hi, 1)]
+        if end <= lo:
+            gaps.append((end, lo))
+        end = max(end, hi)
+    return [(lo, min(hi, 1)) for lo, hi in [*gaps, (end, 1)] if lo <= min(hi, 1)]
 
 
 def columns(points: Sequence[Vector], unit: int) -> tuple[Floats, Floats]:

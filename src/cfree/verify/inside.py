@@ -1,4 +1,4 @@
-"""Is a polygon in the interior of another? By signs of integers."""
+"""Polygons in the interior of others, decided by signs of integers."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from cfree.verify.surfaces import Vector, cross, dot, minus
 
 
 def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
-    """Is all of a polygon, its boundary included, in the interior of another?
+    """True if all of a polygon, its boundary included, is in the interior of another.
 
     Notes
     -----
-    Exactly if no edge of one meets an edge of the other, every ring of the one begins inside the other, and no ring of
-    the other begins inside the one: it would be a hole.
+    This is so exactly if no edge of one meets an edge of the other, every ring of the one begins inside the other, and
+    no ring of the other begins inside the one. Such a ring would be a hole.
 
     Examples
     --------
@@ -39,11 +39,11 @@ def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
 
 
 def is_near(polygon: Polygon, core: Polygon, distance: Fraction) -> bool:
-    """Is one polygon convex, and all of another nearer to it than a distance?
+    """True if one polygon is convex, and all of another is nearer to it than a distance.
 
     Notes
     -----
-    Exactly if its vertices are: what is nearer to a convex set is convex.
+    This is so exactly if its vertices are: the points nearer to a convex set form a convex set.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def is_near(polygon: Polygon, core: Polygon, distance: Fraction) -> bool:
 
 
 def _square(point: Vector, a: Vector, b: Vector) -> Fraction:
-    """Of the distance of a point from a segment."""
+    """Squared distance of a point from a segment."""
     u, v = minus(point, a), minus(b, a)
     share = min(max(Fraction(int(dot(u, v)), int(dot(v, v))), Fraction(0)), Fraction(1))
     return sum(((p - share * q) ** 2 for p, q in zip(u, v, strict=True)), Fraction(0))
@@ -81,7 +81,7 @@ def _edges(ring: Ring) -> list[Ring]:
 
 
 def _meet(first: Ring, second: Ring) -> bool:
-    """Have two closed segments a point in common?"""
+    """True if two closed segments have a point in common."""
     (a, b), (c, d) = first, second
     sides = [_side(a, b, c), _side(a, b, d), _side(c, d, a), _side(c, d, b)]
     if sides[0] * sides[1] < 0 and sides[2] * sides[3] < 0:
@@ -96,7 +96,7 @@ def _side(p: Vector, q: Vector, r: Vector) -> int:
 
 
 def encloses(rings: list[Ring], point: Vector) -> bool:
-    """Is a point that is on none of the rings inside an odd number of them? Crossings of a ray towards -x."""
+    """True if a point on none of the rings is inside an odd number of them. Counts crossings of a ray towards -x."""
     crossings = 0
     for ring in rings:
         for p, q in _edges(ring):

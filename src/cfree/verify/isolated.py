@@ -1,8 +1,8 @@
-"""Isolated parts: free curves, segments at one angle, and points, next to which there is nothing free at their angles.
+"""Isolated parts: free curves, segments at one angle, and points that have no free pose beside them at their angles.
 
-Of a segment and of a point everything is decided at their own angle, in its number field. Of a curve that turns with
-theta, its angles are, and that it has a place at all angles between them; that it is free and has no width, at three
-rational ones.
+For a segment and a point everything is decided at their own angle, in its number field. For a curve that turns with
+theta, its angles are decided, and that it has a place at all angles between them. That it is free and has no width is
+checked at three rational ones.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class IsolatedPart:
         return t, turn.line(self.reader.surface(curve[0])).point(t)
 
     def piece(self, turn: Turn) -> Piece | None:
-        """Itself at an angle, ends included."""
+        """Closed piece at an angle, ends included."""
         for chart, here in turn.in_charts():
             if chart == self.chart and self.start <= here <= self.stop:
                 line = turn.line(self.reader.surface(int(self._columns.patch[self.index])))
@@ -59,7 +59,7 @@ class IsolatedPart:
         return None
 
     def check(self) -> None:
-        """That it is what it says, free, and has no width; see above."""
+        """Check that the part is named correctly, is free and has no width."""
         p, k = self._columns, self.index
         turns = [Turn(self.chart, root) for root in (self.start, self.stop)]
         ends = [self.end(turns[0], self.start, self.lower), self.end(turns[1], self.stop, self.upper)]
@@ -91,7 +91,7 @@ class IsolatedPart:
             self._check_at(turn, piece)
 
     def _check_at(self, turn: Turn, piece: Piece) -> None:
-        """All of a point; all of a segment but finitely many points of its sides, where a free part may end."""
+        """Check all of a point; of a segment all but finitely many points of its sides, where a free part may end."""
         surface = self.reader.surface(int(self._columns.patch[self.index]))
         patch = sorted(map(turn.line(surface).position, (0, 1)))
         if any(turn.value(limit) > 0 for limit in surface.limits) or piece.hi < patch[0] or patch[1] < piece.lo:
@@ -127,19 +127,19 @@ def pieces(reader: Reader, turn: Turn) -> Iterator[Piece]:
 
 @lru_cache(maxsize=1)
 def resolved(reader: Reader) -> list[IsolatedPart]:
-    """All isolated parts. What is faulty is left out, and reported where it is checked."""
-    found = []
+    """All isolated parts. Faulty ones are left out, and reported where they are checked."""
+    parts = []
     for k in range(len(reader.isolated)):
         with suppress(Fault, IndexError):
-            found.append(IsolatedPart(reader, k))
-    return found
+            parts.append(IsolatedPart(reader, k))
+    return parts
 
 
 def _overlap(mine: Piece, other: Piece) -> bool:
-    """Does a piece have more in common with a segment than ends, or a point anything?"""
+    """True if a piece has more in common with a segment than ends, or a point with anything."""
     if mine.lo == mine.hi:
-        at = position_of(other.line, point_at(mine.line, mine.lo))
-        return at is not None and other.lo <= at <= other.hi
+        place = position_of(other.line, point_at(mine.line, mine.lo))
+        return place is not None and other.lo <= place <= other.hi
     return mine.line == other.line and max(mine.lo, other.lo) < min(mine.hi, other.hi)
 
 

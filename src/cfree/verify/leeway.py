@@ -1,4 +1,4 @@
-"""What a path keeps its distance from: the scene, for a robot larger by a square or a disc, in smaller bounds."""
+"""Scenes that prove a path's distance: a robot larger by a square or a disc, in smaller bounds."""
 
 from __future__ import annotations
 
@@ -21,35 +21,35 @@ TURNING = Fraction(1, 2**21)  # of a clearance: half the square by which a small
 
 
 def roomier(world: World, leeway: Fraction) -> World | None:
-    """A world in which only poses are free at which the robot keeps a distance; None if nothing is left of the bounds.
+    """World in which only poses are free at which the robot keeps a distance; None if nothing is left of the bounds.
 
     The robot is larger by the square [-leeway, leeway]^2 in its own frame, and so by a disc of that radius.
     """
-    found = _finer(world, leeway.denominator)
-    by = int(leeway * found.scale)
+    larger = _finer(world, leeway.denominator)
+    by = int(leeway * larger.scale)
     if world.bounds:
-        x0, y0, x1, y1 = found.bounds
-        found.bounds = [x0 + by, y0 + by, x1 - by, y1 - by]
+        x0, y0, x1, y1 = larger.bounds
+        larger.bounds = [x0 + by, y0 + by, x1 - by, y1 - by]
         if x0 + by >= x1 - by or y0 + by >= y1 - by:
             return None
     if by:
-        found.parts = [convex_sum(ring, rectangle(-by, -by, by, by)) for ring in found.parts]
-    return found
+        larger.parts = [convex_sum(ring, rectangle(-by, -by, by, by)) for ring in larger.parts]
+    return larger
 
 
 def with_disc(world: World, disc: Sequence[ExactPoint]) -> World:
-    """A world in which the robot is larger by a convex polygon in its own frame."""
-    found = _finer(world, lcm(*(c.denominator for point in disc for c in point)))
-    ring = [(int(x * found.scale), int(y * found.scale)) for x, y in disc]
-    found.parts = [convex_sum(part, ring) for part in found.parts]
-    return found
+    """World in which the robot is larger by a convex polygon in its own frame."""
+    larger = _finer(world, lcm(*(c.denominator for point in disc for c in point)))
+    ring = [(int(x * larger.scale), int(y * larger.scale)) for x, y in disc]
+    larger.parts = [convex_sum(part, ring) for part in larger.parts]
+    return larger
 
 
 def turning(world: World, proof: Separated) -> World | None:
-    """A world of the smaller robot of a proof about a clearance, larger by a square.
+    """World of the smaller robot of a proof about a clearance, larger by a square.
 
     Where this robot is free at a place, the smaller one turns without touching. Orientations at which the scene's robot
-    keeps the clearance are among these: all of this one is nearer to it. None if it is not.
+    keeps the clearance are among these if all of this one is nearer to it than that. Else the result is None.
     """
     by = TURNING * proof.clearance
     square = [(-by, -by), (by, -by), (by, by), (-by, by)]
@@ -57,9 +57,11 @@ def turning(world: World, proof: Separated) -> World | None:
     cores = zip(proof.robot, larger, proof.cores, strict=True)
     if not all(_is_convex(part) and is_near(grown, core, proof.clearance) for part, grown, core in cores):
         return None
-    found = _finer(world, lcm(*(part.denominator for part in larger)))
-    found.parts = [[(int(x * found.scale), int(y * found.scale)) for x, y in part.exact_vertices] for part in larger]
-    return found
+    smaller = _finer(world, lcm(*(part.denominator for part in larger)))
+    smaller.parts = [
+        [(int(x * smaller.scale), int(y * smaller.scale)) for x, y in part.exact_vertices] for part in larger
+    ]
+    return smaller
 
 
 def _is_convex(polygon: Polygon) -> bool:
@@ -67,7 +69,7 @@ def _is_convex(polygon: Polygon) -> bool:
 
 
 def is_around_disc(ring: Sequence[ExactPoint], radius: Fraction) -> bool:
-    """Is a ring a convex polygon, counter-clockwise, with a disc about the origin inside?"""
+    """True if a ring is a convex polygon, counter-clockwise, with a disc about the origin inside."""
     ends = list(pairwise([*ring, *ring[:2]]))
     turns = (cross(minus(q, p), minus(s, q)) > 0 for (p, q), (_, s) in pairwise(ends))
     heights = (cross(p, q) for p, q in ends)
@@ -79,12 +81,12 @@ def is_around_disc(ring: Sequence[ExactPoint], radius: Fraction) -> bool:
 
 def _finer(world: World, factor: int) -> World:
     """The same world in other coordinates."""
-    found = copy(world)
-    found.scale, found.unit = factor * world.scale, factor * world.unit
-    found.bounds = [factor * b for b in world.bounds]
-    found.obstacle_pieces = [_scaled(ring, factor) for ring in world.obstacle_pieces]
-    found.parts = [_scaled(ring, factor) for ring in world.parts]
-    return found
+    finer = copy(world)
+    finer.scale, finer.unit = factor * world.scale, factor * world.unit
+    finer.bounds = [factor * b for b in world.bounds]
+    finer.obstacle_pieces = [_scaled(ring, factor) for ring in world.obstacle_pieces]
+    finer.parts = [_scaled(ring, factor) for ring in world.parts]
+    return finer
 
 
 def _scaled(ring: Ring, factor: int) -> Ring:

@@ -1,9 +1,9 @@
-"""Is the surface closed? The sides of all trapezoids are matched; what that makes is counted: V - E + F.
+"""Match the sides of all trapezoids, to prove the surface closed; the result is counted: V - E + F.
 
 Sides lie on curves, or on lines at critical angles. The ends of all sides on one of them cut each into *edges*. The
-forbidden side of a patch is on its left, so that going round an edge, sheets after which space is free and sheets
-before which it is take turns, and run opposite ways: two that bound one free sector are partners. If every edge has
-one, what they make are closed surfaces.
+forbidden side of a patch is on its left. So, going round an edge, sheets with free space after them and sheets with
+free space before them take turns, and run opposite ways. Two that bound one free sector are partners. If every edge has
+one, the result is closed surfaces.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Matching:
     pinched : int
         Edges where more than two sheets meet.
     euler : list of int
-        V - E + F of every closed surface, in order; vertices are counted as often as surfaces meet there.
+        V - E + F of every closed surface, in order; vertices are counted once for each surface that meets there.
     """
 
     unmatched: Counter[tuple[int, ...]] = field(default_factory=Counter)
@@ -58,7 +58,7 @@ def matched(reader: Reader, loops: dict[int, list[Side | None]]) -> Matching:
     partner: dict[int, int] = {}
     count = 0
     for sheets in on.values():
-        if len(sheets) == 2:  # mostly they are the same, seen from both sides
+        if len(sheets) == 2:  # mostly they are the same from both sides
             (_, *one), (_, *other) = (_side(loops, sheet) for sheet in sheets)
             if one == other[::-1]:
                 edges[sheets[0]], edges[sheets[1]] = [count], [count + 1]
@@ -105,7 +105,7 @@ def _side(loops: dict[int, list[Side | None]], sheet: Sheet) -> Side:
 
 
 def _around(reader: Reader, meeting: list[Any], lo: Exact, hi: Exact) -> list[Any]:
-    """Counter-clockwise round an edge. Of sheets in one place, free space, of no width, is after the first."""
+    """Sort sheets counter-clockwise round an edge. Those in one place have free space, of no width, after the first."""
     is_curve = isinstance(lo, Root)
     if is_curve:
         part(lo, hi)
@@ -120,7 +120,7 @@ def _around(reader: Reader, meeting: list[Any], lo: Exact, hi: Exact) -> list[An
 
 
 def _compare(x: tuple[int, Any], y: tuple[int, Any]) -> int:
-    """Half turns, then directions in them, vectors or slopes."""
+    """Compare half turns, then directions in them, vectors or slopes."""
     if x[0] != y[0]:
         return x[0] - y[0]
     first, second = (0, cross(x[1], y[1])) if isinstance(x[1], tuple) else (x[1], y[1])
@@ -128,7 +128,7 @@ def _compare(x: tuple[int, Any], y: tuple[int, Any]) -> int:
 
 
 def _ray(reader: Reader, sheet: Sheet, tau: Fraction) -> tuple[int, Vector]:
-    """In which direction a trapezoid leaves one of its curves, at one angle."""
+    """Direction in which a trapezoid leaves one of its curves, at one angle."""
     k, number = sheet
     t = reader.table
     u, v = Turn.of(int(t.chart[k]), tau).line(reader.surface(int(t.patch[k]))).along
@@ -138,14 +138,14 @@ def _ray(reader: Reader, sheet: Sheet, tau: Fraction) -> tuple[int, Vector]:
 
 
 def _slope(reader: Reader, sheet: Sheet, position: Exact) -> tuple[int, Exact]:
-    """How fast a patch's line moves to the left of the side's, at a position, as theta grows; first those after it.
+    """Speed of a patch's line to the left of the side's, at a position, as theta grows; first those after it.
 
     Notes
     -----
     The line of a surface is where h = U x (P - b + R a) vanishes. It moves to the left of the side's direction D at the
     rate -h' / (U . D), where h' = -R' g x (P - b + R a) + U x R' a and R' = J R. Going round, rates fall among sheets
-    after the side, and among those before it. If rates are equal the surfaces are: two of one kind belong to one vertex
-    then, and those of a v-e and an e-v contact differ but at one position, where a vertex of the boundary would be.
+    after the side, and among those before it. If rates are equal the surfaces are. Two of one kind then belong to one
+    vertex. Those of a v-e and an e-v contact differ in all but one position, where a vertex of the boundary would be.
     """
     k, number = sheet
     t = reader.table

@@ -1,7 +1,7 @@
-"""Is anything missing? All free contacts at one angle, computed from scratch, against the file's.
+"""Search for missing contacts: all free ones at one angle, computed from scratch, are compared with the file's.
 
-What the open pillars leave of the closed contacts has to be what trapezoids, ends included, and isolated parts make at
-that angle. Both are compared as sets of points: segments on one line are united, and a point may lie on any of them.
+The remainder of the closed contacts outside open pillars must equal the trapezoids, ends included, and isolated parts
+at that angle. Both are compared as sets of points: segments on one line are united, and a point may lie on any of them.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ Wrong = list[tuple[str, str]]  # where, what
 class Places:
     """A set of points that consists of segments and points of lines."""
 
-    def __init__(self, found: Iterable[tuple[LineKey, Interval]]) -> None:
+    def __init__(self, parts: Iterable[tuple[LineKey, Interval]]) -> None:
         on: dict[LineKey, list[Interval]] = defaultdict(list)
         self.points: set[Vector] = set()
-        for key, (lo, hi) in found:
+        for key, (lo, hi) in parts:
             if lo < hi:
                 on[key].append((lo, hi))
             else:
@@ -39,8 +39,8 @@ class Places:
     def has(self, point: Vector) -> bool:
         if point in self._ends or point in self.points:
             return True
-        found = ((position_of(key, point), intervals) for key, intervals in self.segments.items())
-        return any(x is not None and any(lo <= x <= hi for lo, hi in intervals) for x, intervals in found)
+        positions = ((position_of(key, point), intervals) for key, intervals in self.segments.items())
+        return any(x is not None and any(lo <= x <= hi for lo, hi in intervals) for x, intervals in positions)
 
 
 def united(intervals: Iterable[Interval]) -> list[Interval]:
@@ -54,17 +54,17 @@ def united(intervals: Iterable[Interval]) -> list[Interval]:
 
 
 def compared(reader: Reader, turn: Turn) -> tuple[int, Wrong]:
-    """Scene and file at one angle: how many segments and points there are, and where the two differ."""
+    """Compare scene and file at one angle: the number of segments and points, and the places where the two differ."""
     listed = list(pieces(reader, turn))
-    true, found = free_contacts(reader.world, turn), Places((piece.line, (piece.lo, piece.hi)) for piece in listed)
+    true, stored = free_contacts(reader.world, turn), Places((piece.line, (piece.lo, piece.hi)) for piece in listed)
     wrong = []
-    for line in true.segments.keys() | found.segments.keys():
-        ours, theirs = true.segments.get(line, []), found.segments.get(line, [])
+    for line in true.segments.keys() | stored.segments.keys():
+        ours, theirs = true.segments.get(line, []), stored.segments.get(line, [])
         if ours != theirs:
             text = "on this line other contacts are free" if ours else "a contact of the file is not free"
             wrong.append((point_at(line, (ours or theirs)[0][0]), text))
-    wrong += [(point, "a free point is not in the file") for point in true.points if not found.has(point)]
-    wrong += [(point, "a point of the file is not free") for point in found.points if not true.has(point)]
+    wrong += [(point, "a free point is not in the file") for point in true.points if not stored.has(point)]
+    wrong += [(point, "a point of the file is not free") for point in stored.points if not true.has(point)]
     sheets: dict[tuple[LineKey, bool], list[Interval]] = defaultdict(list)
     for piece in listed:
         if piece.facing is not None:
@@ -77,7 +77,7 @@ def compared(reader: Reader, turn: Turn) -> tuple[int, Wrong]:
 
 
 def free_contacts(world: World, turn: Turn) -> Places:
-    """What open pillars leave of all contacts, their ends included."""
+    """Parts of all contacts that open pillars leave, their ends included."""
 
     def left() -> Iterator[tuple[LineKey, Interval]]:
         for surface, intervals in left_over(world, turn):
@@ -90,7 +90,7 @@ def free_contacts(world: World, turn: Turn) -> Places:
 
 
 def place(world: World, turn: Turn, point: Vector) -> str:
-    """In the scene's coordinates, rounded; they may be beyond doubles."""
+    """Text of a place in the scene's coordinates, rounded; they may be beyond doubles."""
     x, y, w = (n.rounded(Fraction(1, 10**9)) if isinstance(n, Number) else Fraction(n) for n in (*point, turn.w))
     true = (c / w / world.scale for c in (x, y))
     shown = (f"{Decimal(c.numerator) / Decimal(c.denominator):.6g}" for c in true)

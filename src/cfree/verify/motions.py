@@ -1,10 +1,10 @@
-"""Is a path free? Motion by motion: robot and obstacles in convex pieces, which never overlap if a line parts them.
+"""Check a path motion by motion: convex pieces of robot and obstacles never overlap if a line separates them.
 
-Every pose of a motion is a quotient of polynomials in u, 0 <= u <= 1, and so is the height of a vertex of one piece
-over an edge of the other: a polynomial over a positive one. Two pieces are apart on an interval of u if none of the
-heights over one of their edges is positive there, as Bernstein coefficients may say. Where no edge does, the interval
-is halved; where that does not end, because two edges take turns at a contact, the roots of all heights cut it into
-parts with one sample each.
+Every pose of a motion is a quotient of polynomials in u, 0 <= u <= 1. So is the height of a vertex of one piece over an
+edge of the other: a polynomial over a positive one. Two pieces are apart on an interval of u if none of the heights
+over one of their edges is positive there; Bernstein coefficients may prove this. Where no edge does, the interval is
+halved. Where that does not end, because two edges take turns at a contact, the roots of all heights cut it into parts
+with one sample each.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ if TYPE_CHECKING:
 ENDS, CONTINUOUS, FREE, KEPT = "start and goal", "continuous", "free of collisions", "contacts kept"
 DECIMALS, CLEARANCE = "decimals", "clearance"
 TOO_NEAR = {
-    DECIMALS: 'they are said to be "free", and this is too near to something; say "approximate"',
-    CLEARANCE: "it is nearer to something than that, or for its polygon around a disc; say less",
+    DECIMALS: 'they are claimed to be "free", and this is too near to something; say "approximate"',
+    CLEARANCE: "it is nearer to something than that, or its polygon around a disc is; claim less",
 }
 STANDING, ZERO = Translation((0, 0)), Fraction(0)
 HALVINGS = 16
@@ -48,9 +48,9 @@ HALVINGS = 16
 def path_findings(
     path: Path, world: World, report: Callable[[float], object], larger: dict[str, World] | None = None
 ) -> Iterator[Finding]:
-    """All that is wrong with a path in a scene, and in worlds of larger robots that it is said to be free in, too.
+    """Findings about a path in a scene, and in worlds of larger robots in which it is claimed to be free.
 
-    Each of these has the name of its check, and who is free there is free in the scene.
+    Each of these has the name of its check, and a pose free there is free in the scene.
     """
     placed, open_ = place_of(path.start, world.scale), dict(larger or {})
 
@@ -85,15 +85,15 @@ def _course_in(there: World, placed: Placed, motion: Motion, world: World) -> Co
     return Course((factor * x, factor * y, c, s), motion, there.scale)
 
 
-def end_findings(given: Path | Separated, world: World) -> Iterator[Finding]:
-    """Start and goal, if they are forbidden."""
-    for name, pose in (("start", given.start), ("goal", given.goal)):
+def end_findings(answer: Path | Separated, world: World) -> Iterator[Finding]:
+    """Findings for a forbidden start and goal."""
+    for name, pose in (("start", answer.start), ("goal", answer.goal)):
         if (fault := fault_at(pose, world)) is not None:
             yield Finding(ENDS, name, fault)
 
 
 def fault_at(pose: Pose, world: World) -> str | None:
-    """What is wrong with a pose; None if it is free."""
+    """Fault of a pose; None if it is free."""
     placed = place_of(pose, world.scale)
     where = _beyond(world, placed)
     if where is None and collision(world, Course(placed, STANDING, world.scale)) is not None:
@@ -102,7 +102,7 @@ def fault_at(pose: Pose, world: World) -> str | None:
 
 
 def touches(world: World, pose: Pose) -> bool:
-    """Has the robot at a free pose no distance from something: an obstacle, bounds or workspace?"""
+    """True if the robot at a free pose has no distance from something: an obstacle, bounds or workspace."""
     course = Course(place_of(pose, world.scale), STANDING, world.scale)
     if world.scene.bounds and any(value in world.scene.bounds[k::2] for k, value in enumerate((pose.x, pose.y))):
         return True
@@ -117,7 +117,7 @@ def touches(world: World, pose: Pose) -> bool:
 
 
 def _beyond(world: World, placed: Placed) -> str | None:
-    """Is the robot outside the frame around the workspace? It cannot pass the frame later."""
+    """Fault if the robot is outside the frame around the workspace, which it cannot pass later."""
     if world.scene.workspace is None:
         return None
     x, y, c, s = placed
@@ -130,7 +130,7 @@ def _beyond(world: World, placed: Placed) -> str | None:
 
 
 def _not_kept(world: World, course: Course, touch: Touch) -> str | None:
-    """Why a contact is not kept by a slide: a vertex is not on an edge all the way."""
+    """Reason why a slide does not keep a contact: a vertex is not on an edge all the way."""
     is_vertex_edge = touch.kind == "vertex-edge"
     try:
         (i,), (j,) = numbers(world.robot, [touch.robot]), numbers(world.obstacles, [touch.obstacle])
@@ -148,8 +148,8 @@ def _not_kept(world: World, course: Course, touch: Touch) -> str | None:
         return "the vertex is not on the edge's line all the way"
     squared = u * u + v * v
     for beyond in (combined((-u, -v), x, y), combined((u, v, -squared), x, y, d)):
-        if (found := positive(beyond)) is not None:
-            return f"the vertex is beyond an end of the edge at u = {found}"
+        if (place := positive(beyond)) is not None:
+            return f"the vertex is beyond an end of the edge at u = {place}"
     return None
 
 
@@ -158,12 +158,12 @@ def collision(world: World, course: Course) -> Fraction | None:
     for k, b in enumerate(world.bounds):
         sign = -1 if k < 2 else 1
         over = combined((sign, -sign * b), (course.x, course.y)[k % 2], course.d)
-        if (found := positive(over)) is not None:
-            return found
+        if (place := positive(over)) is not None:
+            return place
     for ring in world.parts:
-        found = _collision(world, course, ring, ALL, np.arange(len(world.obstacle_pieces), dtype=np.int32))
-        if found is not None:
-            return found
+        place = _collision(world, course, ring, ALL, np.arange(len(world.obstacle_pieces), dtype=np.int32))
+        if place is not None:
+            return place
     return None
 
 
@@ -186,18 +186,18 @@ def _collision(world: World, course: Course, part: Ring, interval: Interval, pie
     if last or not left:
         return None
     for half in ((2 * a, a + b, 2 * n), (a + b, 2 * b, 2 * n)):
-        found = _collision(world, course, part, half, np.array(left, np.int32))
-        if found is not None:
-            return found
+        place = _collision(world, course, part, half, np.array(left, np.int32))
+        if place is not None:
+            return place
     return None
 
 
 def is_nowhere_positive(poly: Poly, interval: Interval) -> bool:
-    """By its Bernstein coefficients; they are none of them positive, or f, m, g with f, g <= 0 and m^2 <= f g.
+    """True if Bernstein coefficients prove it: all are <= 0, or (f, m, g) with f, g <= 0 and m^2 <= f g.
 
     Notes
     -----
-    Of a quadratic this is the truth. Of other polynomials no may be wrong, but not yes.
+    For a quadratic the result is exact. For other polynomials False may be wrong, but not True.
     """
     rows = bernstein_rows(len(poly) - 1, interval)
     if all(sum(map(mul, row, poly)) <= 0 for row in rows):
@@ -218,8 +218,8 @@ def positive(poly: Poly) -> Fraction | None:
 def _samples(polys: list[Poly], interval: Interval) -> Iterator[Fraction]:
     """One number between any two neighbouring roots in an interval."""
     lo, hi = Fraction(interval[0], interval[2]), Fraction(interval[1], interval[2])
-    found = {root.key: root for f in polys if any(f[1:]) for root, _ in roots(fmpz_poly(list(f)), lo, hi)}
-    found |= {end.key: end for end in map(Root.of, (lo, hi))}
-    for one, other in pairwise(sorted(found.values())):
+    ends = {root.key: root for f in polys if any(f[1:]) for root, _ in roots(fmpz_poly(list(f)), lo, hi)}
+    ends |= {end.key: end for end in map(Root.of, (lo, hi))}
+    for one, other in pairwise(sorted(ends.values())):
         part(one, other)
         yield between(one.hi, other.lo)

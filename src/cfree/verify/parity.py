@@ -1,7 +1,7 @@
-"""On which side of a closed surface is a pose? Pieces are counted along a ray towards -x, just after its orientation.
+"""The side of a closed surface that a pose is on, by pieces on a ray towards -x, just after its orientation.
 
-The pose's own orientation may be critical. A pose that is on no piece keeps its side when it is turned a little, so
-all signs are those at tau + epsilon: of the first derivative that is not zero.
+The pose's own orientation may be critical. A pose that is on no piece keeps its side when it is turned a little, so all
+signs are those at tau + epsilon: those of the first derivative that is not zero.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def chart_of(pose: Pose) -> tuple[int, Fraction]:
 
 
 def is_inside(pose: Pose, scale: int, pieces: Iterable[Trapezoid]) -> bool:
-    """Does the ray from a pose meet pieces an odd number of times? Raises Fault if the pose is on one of them."""
+    """True if the ray from a pose meets pieces an odd number of times. Raises Fault if the pose is on one of them."""
     chart, tau = chart_of(pose)
     turn, q = Turn.of(chart, tau), (pose.x * scale, pose.y * scale)
     crossings = 0
@@ -44,7 +44,7 @@ def is_inside(pose: Pose, scale: int, pieces: Iterable[Trapezoid]) -> bool:
 
 
 def _is_on(piece: Trapezoid, turn: Turn, q: Vector) -> bool:
-    """Is a point on a piece at an orientation?"""
+    """True if a point is on a piece at an orientation."""
     line = turn.line(piece.surface)
     beyond = turn.w * q[0] - line.start[0], turn.w * q[1] - line.start[1]
     if line.along[0] * beyond[1] != line.along[1] * beyond[0]:
@@ -54,7 +54,7 @@ def _is_on(piece: Trapezoid, turn: Turn, q: Vector) -> bool:
 
 
 def _is_crossed(piece: Trapezoid, turn: Turn, q: Vector) -> bool:
-    """Does the ray from a point meet a piece just after an orientation?
+    """True if the ray from a point meets a piece just after an orientation.
 
     Notes
     -----
@@ -72,7 +72,7 @@ def _is_crossed(piece: Trapezoid, turn: Turn, q: Vector) -> bool:
 
 
 def _is_above(curve: Curve, s: Surface, turn: Turn, q: Vector) -> bool:
-    """Is the point of a curve strictly above a point just after an orientation?"""
+    """True if the point of a curve is strictly above a point just after an orientation."""
     unit = q[1].denominator
     fixed = polynomial((s.b[1] * unit - q[1].numerator, -s.a[1] * unit, -s.a[0] * unit), turn.chart)
     along = polynomial((s.q[1] * unit, -s.g[1] * unit, -s.g[0] * unit), turn.chart)
@@ -83,7 +83,7 @@ def _is_above(curve: Curve, s: Surface, turn: Turn, q: Vector) -> bool:
 def _sign_after(poly: fmpz_poly, tau: Fraction) -> int:
     """Sign of a polynomial just after a number; 0 only if it vanishes everywhere."""
     while poly:
-        if found := sign([int(c) for c in poly.coeffs()], tau):
-            return found
+        if here := sign([int(c) for c in poly.coeffs()], tau):
+            return here
         poly = poly.derivative()
     return 0

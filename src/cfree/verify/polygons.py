@@ -1,4 +1,4 @@
-"""Rings of exact points, the interior on the left: convex pieces, sums, and boxes to look around with."""
+"""Rings of exact points, the interior on the left: convex pieces, sums, and boxes for rough searches."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ def rectangle(x0: int, y0: int, x1: int, y1: int) -> Ring:
 
 
 def frame(outer: Sequence[int], inner: Sequence[int]) -> list[Ring]:
-    """Four rectangles that cover the space between two."""
+    """Four rectangles that cover the space between two boxes."""
     (X0, Y0, X1, Y1), (x0, y0, x1, y1) = outer, inner
     return [rectangle(*side) for side in ((X0, Y0, x0, Y1), (x1, Y0, X1, Y1), (X0, Y0, X1, y0), (X0, y1, X1, Y1))]
 
 
 def tile(pieces: Iterable[Ring], rings: Iterable[Ring]) -> bool:
-    """Are the pieces convex, and do they cover the region of rings without overlap?
+    """True if the pieces are convex, and cover the region of rings without overlap.
 
     Notes
     -----
-    On every line the pieces' directed edges have to add up to those of the rings: then the sum of the pieces'
-    indicators is the rings' winding number. A sum of directed segments of one line vanishes if their ends cancel.
+    On every line the pieces' directed edges must add up to those of the rings: then the sum of the pieces' indicators
+    is the rings' winding number. A sum of directed segments of one line vanishes if their ends cancel.
     """
     ends: Counter[tuple[Vector, int, Vector]] = Counter()
     for shapes, times in ((pieces, 1), (rings, -1)):
@@ -75,15 +75,15 @@ def shortest(u: Vector) -> Vector:
     return u[0] // k, u[1] // k
 
 
-# --- looking around, in doubles ---
+# --- rough searches, in doubles ---
 
 Boxes = NDArray[np.float64]  # (n, 4): xmin, ymin, xmax, ymax
 
 
 def boxes(rings: Iterable[Ring], unit: int) -> Boxes:
     """Boxes around rings of integers, in a unit as large as the scene; larger by more than their rounding."""
-    found = [[of(p[k] / unit for p in ring) for of in (min, max) for k in (0, 1)] for ring in rings]
-    return np.array(found, float).reshape(-1, 4) + 2.0**-40 * np.array([-1, -1, 1, 1])
+    extremes = [[extreme(p[k] / unit for p in ring) for extreme in (min, max) for k in (0, 1)] for ring in rings]
+    return np.array(extremes, float).reshape(-1, 4) + 2.0**-40 * np.array([-1, -1, 1, 1])
 
 
 def roughly(ring: Iterable[Vector], unit: Exact) -> NDArray[np.complex128]:
@@ -92,7 +92,7 @@ def roughly(ring: Iterable[Vector], unit: Exact) -> NDArray[np.complex128]:
 
 
 def near(around: Boxes, box: Boxes) -> list[int]:
-    """Which boxes meet a box."""
+    """Numbers of the boxes that meet a box."""
     meets = (around[:, :2] <= box[2:]) & (box[:2] <= around[:, 2:])
-    found: list[int] = np.flatnonzero(meets.all(axis=1)).tolist()
-    return found
+    numbers: list[int] = np.flatnonzero(meets.all(axis=1)).tolist()
+    return numbers

@@ -1,4 +1,4 @@
-"""What a verification found: one line for each check, and every finding with its place."""
+"""Result of a verification: one line for each check, and every finding with its place."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One check: its name, whether it PROVED, SAMPLED, MEASURED, SKIPPED or REFUTED, and what it says of how many."""
+    """One check: its name, its outcome (PROVED, SAMPLED, MEASURED, SKIPPED or REFUTED), and its extent with counts."""
 
     name: str
     how: str
@@ -48,14 +48,14 @@ class Verification:
     Attributes
     ----------
     checks : tuple of Check
-        What was proved and what was sampled, with counts.
+        Proved and sampled checks, with counts.
     findings : tuple of Finding
-        What is wrong; empty if all is well.
+        Faults; empty if all is well.
     euler : tuple of int
         V - E + F of every closed surface, in order; empty if they were not matched.
     seconds : float
     proved : str
-        Of an answer that is verified: what was proved, in one sentence.
+        Statement proved, in one sentence, if an answer is verified.
     """
 
     checks: tuple[Check, ...]
@@ -66,7 +66,7 @@ class Verification:
 
     @property
     def verified(self) -> bool:
-        """Whether no check found anything."""
+        """True if no check found anything."""
         return not self.findings
 
     def __str__(self) -> str:
@@ -76,7 +76,7 @@ class Verification:
 
     @property
     def verdict(self) -> str:
-        """The last line of a report."""
+        """Last line of a report."""
         if self.verified:
             return f"{self.proved and self.proved + ' '}verified ({self.seconds:.1f} s)"
         more = len(self.findings) - SHOWN

@@ -1,6 +1,6 @@
-"""The scene at one angle, rational or critical: what the open pillars leave free.
+"""The scene at one angle, rational or critical, and its free part outside the open pillars.
 
-A pair of convex pieces forbids the inside of a convex polygon, the pillar O_k (+) -R A_p, and the bounds forbid what is
+A pair of convex pieces forbids the inside of a convex polygon, the pillar O_k (+) -R A_p; the bounds forbid everything
 beyond them. All is decided in the field of the angle.
 """
 
@@ -19,7 +19,7 @@ from cfree.verify.surfaces import Line, Surface, Turn, Vector, cross, minus
 from cfree.verify.world import World
 
 Interval = tuple[Exact, Exact]
-ERROR = Fraction(1, 1 << 45)  # of a rounded point, in the world's unit; boxes are larger by 2^-40
+ERROR = Fraction(1, 1 << 45)  # error of a rounded point, in the world's unit; boxes are larger by 2^-40
 
 
 class Pillar:
@@ -31,7 +31,7 @@ class Pillar:
         self._across = (u / np.maximum(abs(u), 1e-300)).conj()
 
     def guess(self, start: np.complex128, end: np.complex128) -> tuple[int, int, int]:
-        """Edges that a line is outside of, or enters and leaves by."""
+        """Guess edges that a line is outside of, or enters and leaves by."""
         height, slope = (self._across * (start - self._rough)).imag, (self._across * (end - start)).imag
         outside = np.maximum(height, height + slope).argmin()
         with np.errstate(all="ignore"):
@@ -60,13 +60,13 @@ class Section:
 
     def _sum(self, k: int) -> Pillar:
         world = self.world
-        number, of = divmod(k, len(world.parts))
+        number, part_number = divmod(k, len(world.parts))
         if number >= len(world.obstacle_pieces):
             beyond = world.beyond[k - len(world.obstacle_pieces) * len(world.parts)]
             return Pillar([self.turn.fixed(p) for p in beyond], roughly(beyond, world.unit))
-        obstacle, part = [self.turn.fixed(p) for p in world.obstacle_pieces[number]], self._parts[of]
+        obstacle, part = [self.turn.fixed(p) for p in world.obstacle_pieces[number]], self._parts[part_number]
         i, j = zip(*(pairs := summands(obstacle, part)), strict=True)
-        rough = roughly(world.obstacle_pieces[number], world.unit)[list(i)] + self._rough_parts[of][list(j)]
+        rough = roughly(world.obstacle_pieces[number], world.unit)[list(i)] + self._rough_parts[part_number][list(j)]
         return Pillar([(obstacle[i][0] + part[j][0], obstacle[i][1] + part[j][1]) for i, j in pairs], rough)
 
     def _near(self, points: Ring, w: Exact) -> Iterator[Pillar]:
@@ -74,11 +74,11 @@ class Section:
         return map(self._pillar, near(self._boxes, box))
 
     def _left_over(self, rough: Ring, w: Exact, line: Line) -> list[Interval]:
-        """What pillars near two rounded points, times w, leave of a line from one to the other."""
+        """Intervals that pillars near two rounded points, times w, leave of a line from one to the other."""
         return left_over(self._near(rough, w), line, roughly(rough, w * self.world.unit))
 
     def ring(self, number: int) -> Ring:
-        """A pillar."""
+        """Return a pillar."""
         return self._pillar(number).ring
 
     def at_point(self, point: Vector) -> list[int]:
@@ -97,7 +97,7 @@ class Section:
         return self._left_over([rough.start, rough.point(1)], rounded.w, self.turn.line(surface))
 
     def on_segment(self, line: Line) -> list[Interval]:
-        """The same from a line's start to start + along."""
+        """Closed free intervals from a line's start to start + along."""
         return self._left_over(*self._rounded(line.start, line.point(1)), line)
 
     def _around(self, *points: Vector) -> Iterator[Ring]:
@@ -108,12 +108,12 @@ class Section:
         return [(_rounded(x, error), _rounded(y, error)) for x, y in points], _rounded(self.turn.w, ERROR)
 
     def encloses(self, point: Vector, along: Vector | None = None) -> bool:
-        """Is a point free, and from it every direction into an open pillar, but for those along a line?
+        """True if a point is free, and every direction from it is into an open pillar, except those along a line.
 
         Notes
         -----
-        A pillar that touches the point takes an open cone of directions. If some are left over, so is a side of a
-        cone, or, if all of them are along the line, one of its normals.
+        A pillar that touches the point takes an open cone of directions. If some are left over, so is a side of a cone,
+        or, if all of them are along the line, one of its normals.
         """
         cones = []
         for ring in self._around(point):
@@ -130,13 +130,13 @@ class Section:
 
     def touching(self, line: Line) -> list[Exact]:
         """Values of t in (0, 1) at which a line passes a vertex of a pillar."""
-        found = set()
+        places = set()
         for ring in self._around(line.start, line.point(1)):
             for p in ring:
                 if cross(line.along, minus(p, line.start)) == 0:
                     t = ratio(p[line.axis] - line.start[line.axis], line.along[line.axis])
-                    found |= {t} if 0 < t < 1 else set()
-        return sorted(found)
+                    places |= {t} if 0 < t < 1 else set()
+        return sorted(places)
 
 
 def _mirrored(turn: Turn, part: Ring) -> Ring:
@@ -148,23 +148,23 @@ def _rounded(x: Exact, error: Fraction) -> Fraction:
 
 
 def crossing(pillar: Pillar, line: Line, rough: NDArray[np.complex128]) -> Interval | None:
-    """The open interval of t at which a line is inside a pillar; None if that is nowhere in [0, 1].
+    """Open interval of t at which a line is inside a pillar; None if that is nowhere in [0, 1].
 
     Notes
     -----
-    Doubles only say which edges to look at first. Decided exactly: that the line is outside of one edge from t = 0 to
-    1; or that it comes in through one and goes out through another.
+    Doubles only choose the edges that are tried first. Decided exactly: that the line is outside of one edge from t = 0
+    to 1; or that it comes in through one and goes out through another.
     """
     ring, count = pillar.ring, len(pillar.ring)
 
     def edge(k: int) -> tuple[Exact, Exact]:
-        """Height over an edge, inside positive, at t = 0, and how it grows."""
+        """Height over an edge, positive inside, at t = 0, and its growth."""
         p, q = ring[k % count], ring[(k + 1) % count]
         u = minus(q, p)
         return cross(u, minus(line.start, p)), cross(u, line.along)
 
     def passed(k: int, sign: int) -> int | None:
-        """The edge that leaves one side of the line, 1 for its left; None if all is on one side. Begin at edge k."""
+        """Edge that leaves one side of the line, 1 for its left; None if all is on one side. Begin at edge k."""
 
         def side(k: int) -> Exact:
             return sign * cross(line.along, minus(ring[k % count], line.start))
@@ -196,10 +196,10 @@ def crossing(pillar: Pillar, line: Line, rough: NDArray[np.complex128]) -> Inter
 
 
 def left_over(pillars: Iterable[Pillar], line: Line, rough: NDArray[np.complex128]) -> list[Interval]:
-    """[0, 1] without open intervals; some are points."""
-    found, at = [], 0
+    """Remainder of [0, 1] outside open intervals; some parts are points."""
+    gaps, end = [], 0
     for lo, hi in sorted(filter(None, (crossing(pillar, line, rough) for pillar in pillars))):
-        if at <= lo:
-            found.append((at, lo))
-        at = max(at, hi)
-    return [(lo, min(hi, 1)) for lo, hi in [*found, (at, 1)] if lo <= min(hi, 1)]
+        if end <= lo:
+            gaps.append((end, lo))
+        end = max(end, hi)
+    return [(lo, min(hi, 1)) for lo, hi in [*gaps, (end, 1)] if lo <= min(hi, 1)]

@@ -1,4 +1,4 @@
-"""Is a separation a proof? Its pieces are contacts, mod 2 they have no boundary, and the poses are on two sides."""
+"""Check that a separation is a proof: its pieces are contacts without a boundary mod 2, with the poses on two sides."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ BLOCK = 100  # pieces between two reports
 
 
 def separation_findings(proof: Separated, world: World, report: Callable[[float], object]) -> Iterator[Finding]:
-    """All that is wrong with a separation in a scene."""
+    """Findings about a separation in a scene."""
     scene, apart = world.scene, False
     if proof.of == "closed":
         yield from _not_inside(proof, scene)
@@ -65,7 +65,7 @@ def separation_findings(proof: Separated, world: World, report: Callable[[float]
 
 
 def _not_inside(proof: Separated, scene: Scene) -> Iterator[Finding]:
-    """Of a clearance: what is inside are cores, and the robot is nearer to them than the clearance."""
+    """Findings about the smaller robot; with a clearance, cores are inside, and it is nearer to them than that."""
     if not proof.robot or len(proof.cores) != (len(proof.robot) if proof.clearance else 0):
         yield Finding(INSIDE, "smaller robot", "there is none, or not as many cores as its polygons")
     for k, (part, core) in enumerate(zip(proof.robot, proof.cores, strict=False)):

@@ -21,14 +21,14 @@ from flint import fmpz_poly
 from cfree.exact.algebraic import Exact, Root, at, homogeneous, ratio
 
 Vector = tuple[Exact, Exact]
-LineKey = tuple[Exact | None, Exact]  # slope, None if upright, and where the line meets an axis
+LineKey = tuple[Exact | None, Exact]  # slope, None if upright, and the place where the line meets an axis
 Form = tuple[int, int, int]
 ZERO = (0, 0)
 WEIGHT = fmpz_poly([1, 0, 1])  # 1 + tau^2
 
 
 class Fault(Exception):
-    """What a file says does not make sense; the message says why."""
+    """A statement in a file makes no sense; the message gives the reason."""
 
 
 def cross(u: Vector, v: Vector) -> Exact:
@@ -77,13 +77,13 @@ class Turn:
         return angle_key(self.chart, self.root)
 
     def in_charts(self) -> list[tuple[int, Root]]:
-        """The angle in its chart, or in both."""
+        """Angle in its chart, or in both."""
         other = [(1 - self.chart, Root.of(-self.tau))] if self.tau in (1, -1) else []
         return [(self.chart, self.root), *other]
 
     @cached_property
     def rounded(self) -> Turn:
-        """A rational angle beside it: for looking around, never for a decision."""
+        """Rational angle beside it, for rough searches, never for a decision."""
         while self.root.hi - self.root.lo > Fraction(1, 1 << 60):
             self.root.narrow()
         return Turn.of(self.chart, self.root.lo)
@@ -104,12 +104,12 @@ class Turn:
         return self.w * v[0], self.w * v[1]
 
     def line(self, surface: Surface) -> Line:
-        """From w S(0, theta) along w U."""
+        """Line from w S(0, theta) along w U."""
         return Line(minus(self.fixed(surface.b), self(surface.a)), minus(self.fixed(surface.q), self(surface.g)))
 
 
 def angle_key(chart: int, root: Root) -> tuple[Any, ...]:
-    """Equal for equal angles: the charts share their ends."""
+    """Key, equal for equal angles: the charts share their ends."""
     if root.value in (1, -1):
         return ("end", chart == (root.value < 0))
     return chart, *root.key
@@ -130,7 +130,7 @@ class Line:
 
     @property
     def ascends(self) -> bool:
-        """Whether positions grow with t."""
+        """True if positions grow with t."""
         return bool(self.along[self.axis] > 0)
 
     def position(self, t: Exact) -> Exact:
@@ -147,7 +147,7 @@ def point_at(key: LineKey, position: Exact) -> Vector:
 
 
 def position_of(key: LineKey, point: Vector) -> Exact | None:
-    """The position of a point on a line, None if it is beside it."""
+    """Position of a point on a line, None if it is beside it."""
     position = point[1 if key[0] is None else 0]
     return position if point_at(key, position) == point else None
 
@@ -173,7 +173,9 @@ def helix(surface: Surface, a: Vector, b: Vector) -> tuple[Form, Form]:
         return (int((alpha, beta) != (ZERO, ZERO)), 0, 0), (1, 0, 0)
     n, d = dot(beta, surface.q) + dot(alpha, surface.g), dot(surface.q, surface.q) + dot(surface.g, surface.g)
     on_it = all(
-        d * x == n * u for at, along in ((beta, surface.q), (alpha, surface.g)) for x, u in zip(at, along, strict=True)
+        d * x == n * u
+        for start, along in ((beta, surface.q), (alpha, surface.g))
+        for x, u in zip(start, along, strict=True)
     )
     if not on_it:
         raise Fault("a helix that bounds t does not lie on the surface")
@@ -181,7 +183,7 @@ def helix(surface: Surface, a: Vector, b: Vector) -> tuple[Form, Form]:
 
 
 class Moving:
-    """A surface's line as tau changes in a chart: S(0) and U as polynomials, times 1 + tau^2, and so U x S(0)."""
+    """Line of a surface as tau changes in a chart: S(0) and U as polynomials, times 1 + tau^2, and so U x S(0)."""
 
     __slots__ = ("across", "along", "chart", "limits", "start", "surface")
 
@@ -194,7 +196,7 @@ class Moving:
         self.limits = [polynomial(limit, chart) for limit in surface.limits]
 
     def key(self, tau: Exact) -> LineKey:
-        """The line at an angle; equal for equal lines. The places (x, y) on it have U x (x, y) = U x S(0)."""
+        """Line at an angle; equal for equal lines. The places (x, y) on it have U x (x, y) = U x S(0)."""
         u, v = (at(poly, tau) for poly in self.along)
         if u == 0:
             return None, ratio(-at(self.across, tau), v)
@@ -203,7 +205,7 @@ class Moving:
 
 
 class Curve:
-    """t = n / d on a surface in a chart, in lowest terms; `key` is made of its reference points (x : y : z)."""
+    """Curve t = n / d on a surface in a chart, in lowest terms; `key` is made of its reference points (x : y : z)."""
 
     __slots__ = ("_coefficients", "d", "key", "n", "point")
 
@@ -222,7 +224,7 @@ class Curve:
         self.key = moving.chart, *map(str, self.point)
 
     def place(self, axis: int, tau: Exact) -> Exact:
-        """The coordinate x or y of its reference point at an angle."""
+        """Coordinate x or y of its reference point at an angle."""
         z = at(self.point[2], tau)
         if z == 0:
             raise Fault("a curve leaves the surface's line to infinity")

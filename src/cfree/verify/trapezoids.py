@@ -1,4 +1,4 @@
-"""What a boundary file says, its names resolved in the scene; one trapezoid: its angles, curves, sides, and a point.
+"""A boundary file, its names resolved in the scene; one trapezoid: its angles, curves, sides, and a point.
 
 A trapezoid is {lower(theta) <= t <= upper(theta), start <= theta <= stop} on a patch.
 """
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 Contacts = tuple[NDArray[np.uint8], NDArray[np.int32], NDArray[np.int32]]  # kind, robot and obstacle feature by patch
 NAMES = ("first", "second", "lo", "hi", "place")
 ENDS = {end: [f"{end}_{name}" for name in NAMES] for end in ("from", "to")}
-MOST = 1 << 17  # places on curves that are kept
+MOST = 1 << 17  # cached places on curves
 FIRST, LAST = Root.of(Fraction(-1)), Root.of(Fraction(1))  # of a chart
-Side = tuple[bytes, Exact, Exact]  # a curve, or a line at one angle; angles, or positions, where a side begins and ends
+Side = tuple[bytes, Exact, Exact]  # a curve, or a line at one angle; angles, or positions, of its beginning and end
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class Piece:
     lo: Exact
     hi: Exact
     owner: tuple[str, int]
-    facing: bool | None = None  # inside a trapezoid: whether positions grow with t
+    facing: bool | None = None  # inside a trapezoid: True if positions grow with t
 
 
 class Reader:
@@ -73,13 +73,13 @@ class Reader:
         return Curve(self.moving(patch, chart), self.world.curve(self.surface(patch), name_of(code)))
 
     def place(self, curve: Curve, axis: int, angle: Root) -> Exact:
-        """See `Curve.place`: trapezoids around the end of a curve ask for the same."""
+        """Return `Curve.place`, cached: trapezoids around the end of a curve need the same."""
         key = curve.key, axis, angle
-        if (found := self._places.get(key)) is None:
+        if (place := self._places.get(key)) is None:
             if len(self._places) > MOST:
                 self._places.clear()
-            found = self._places[key] = curve.place(axis, angle.value)
-        return found
+            place = self._places[key] = curve.place(axis, angle.value)
+        return place
 
     def trapezoid(self, k: int) -> Trapezoid:
         """Trapezoid k, its names resolved and its angles checked. Raises Fault."""
@@ -92,7 +92,7 @@ class Reader:
         return Trapezoid(self, self.moving(patch, chart), lower, upper, start, stop)
 
     def angle(self, columns: Trapezoids, k: int, end: str, patch: int) -> Root:
-        """A critical angle as the root that its names, on the surface of a patch, and its interval define."""
+        """Critical angle as the root that its names, on the surface of a patch, and its interval define."""
         first, second, low, high, place = (getattr(columns, name)[k].item() for name in ENDS[end])
         chart, surface = int(columns.chart[k]), self.surface(patch)
         if not first:
@@ -101,29 +101,29 @@ class Reader:
             return FIRST if low < 0 else LAST
         if not -2 < low <= high < 2:
             raise Fault(f"its {end} angle is beyond the chart")
-        found = self.roots(self.defining(first, second, surface, chart), low, high)
-        if place > len(found) or (len(found) != 1) == (place == 0):
-            raise Fault(f"its {end} angle: {counted(len(found), 'root')} in the interval, place {place}")
+        roots = self.roots(self.defining(first, second, surface, chart), low, high)
+        if place > len(roots) or (len(roots) != 1) == (place == 0):
+            raise Fault(f"its {end} angle: {counted(len(roots), 'root')} in the interval, place {place}")
         root: Root
-        root, is_inside = found[max(place, 1) - 1]
+        root, is_inside = roots[max(place, 1) - 1]
         if not is_inside:
             raise Fault(f"its {end} angle is beyond the chart")
         return root
 
     def defining(self, first: int, second: int, surface: Surface, chart: int) -> Coefficients:
-        """The polynomial that names define on a surface: one pair's condition, or that two curves meet."""
+        """Polynomial that names define on a surface: one pair's condition, or that two curves meet."""
         if second:
             curves = (self.world.curve(surface, name_of(code)) for code in (first, second))
             (n, d), (m, e) = (tuple(polynomial(form, chart) for form in t) for t in curves)
-            found = n * e - m * d
+            defined = n * e - m * d
         else:
-            found = polynomial(self.world.angle(surface, name_of(first)), chart)
-        if found.degree() < 0:
+            defined = polynomial(self.world.angle(surface, name_of(first)), chart)
+        if defined.degree() < 0:
             raise Fault("an angle is named by what holds at every angle")
-        return tuple(map(int, found.coeffs()))
+        return tuple(map(int, defined.coeffs()))
 
     def pieces(self, turn: Turn) -> Iterator[Piece]:
-        """Trapezoids, ends included, at an angle. What is faulty is left out, and reported elsewhere."""
+        """Trapezoids, ends included, at an angle. Faulty ones are left out, and reported elsewhere."""
         t = self.table
         for chart, here in turn.in_charts():
             there = turn if chart == turn.chart else Turn(chart, here)
@@ -142,12 +142,12 @@ class Reader:
                 yield Piece(line.key, min(lo, hi), max(lo, hi), ("trapezoid", k), facing)
 
     def _at(self, patch: int, turn: Turn, code: int) -> Exact:
-        """t of a curve at an angle: the quotient of its two forms, unless the denominator vanishes there."""
+        """Value t of a curve at an angle: the quotient of its two forms, unless the denominator vanishes there."""
         n, d = map(turn.value, self.world.curve(self.surface(patch), name_of(code)))
         return ratio(n, d) if d != 0 else self.curve(patch, turn.chart, code).at(turn.tau)
 
     def _order(self, here: Root, k: int, end: str) -> int:
-        """Is an angle before, at or after one end of a trapezoid?"""
+        """Order of an angle and one end of a trapezoid: -1 before, 0 at, 1 after it."""
         t = self.table
         if here.lo > Fraction(float(getattr(t, f"{end}_hi")[k])):
             return 1
@@ -169,7 +169,7 @@ class Trapezoid:
         self._interval = (first + last) / 2, (last - first) / 2 + 2.0**-50  # its middle, and half of a longer one
 
     def turn(self) -> Turn:
-        """A rational angle strictly between start and stop where the curves, which may touch, do not."""
+        """Rational angle strictly between start and stop where the curves, which may touch, do not."""
         if self._gap.degree() < 0:
             raise Fault("its two curves are one")
         part(self.start, self.stop)
@@ -185,7 +185,7 @@ class Trapezoid:
         Returns
         -------
         lower, upper
-            At the angle that `turn` has found, at which their order is looked at.
+            Values at the angle of `turn`, at which their order is compared.
         """
         p, q = self.lower, self.upper
         lower, upper = self._values
@@ -203,17 +203,17 @@ class Trapezoid:
         return lower, upper
 
     def _changes(self, poly: fmpz_poly) -> bool:
-        """Does a polynomial's sign change between start and stop?"""
-        given = [int(c) for c in poly.coeffs()]
-        if len(given) < 2 or self._keeps_sign(given):
+        """True if a polynomial's sign changes between start and stop."""
+        coefficients = [int(c) for c in poly.coeffs()]
+        if len(coefficients) < 2 or self._keeps_sign(coefficients):
             return False
-        odd = (factor for factor, times in factors(tuple(given)) if times % 2)
+        odd = (factor for factor, times in factors(tuple(coefficients)) if times % 2)
         return any(self._has_root_inside(factor) for factor in odd)
 
     def _vanishes(self, poly: fmpz_poly) -> bool:
         """True if a polynomial has a root from start to stop, ends included."""
-        given = [int(c) for c in poly.coeffs()]
-        return len(given) > 1 and not self._keeps_sign(given) and has_root(poly, self.start, self.stop)
+        coefficients = [int(c) for c in poly.coeffs()]
+        return len(coefficients) > 1 and not self._keeps_sign(coefficients) and has_root(poly, self.start, self.stop)
 
     def _has_root_inside(self, factor: Coefficients) -> bool:
         """True if an irreducible polynomial has a root strictly between start and stop."""
@@ -226,22 +226,22 @@ class Trapezoid:
                     off = float(root.hi - root.lo) + 2.0**-40 * (1 + abs(other))
                     if abs(other - self._interval[0]) > self._interval[1] + off:
                         return False
-        found = roots(fmpz_poly(list(factor)), self.start.lo, self.stop.hi)
-        return any(self.start < root < self.stop for root, _ in found)
+        roots_around = roots(fmpz_poly(list(factor)), self.start.lo, self.stop.hi)
+        return any(self.start < root < self.stop for root, _ in roots_around)
 
-    def _keeps_sign(self, given: Sequence[int]) -> bool:
+    def _keeps_sign(self, coefficients: Sequence[int]) -> bool:
         """True if it is certain in doubles that a polynomial has no root from start to stop.
 
         Notes
         -----
         Its value in the middle is greater than all else of its Taylor polynomial there at the ends. Coefficients are
-        divided by the greatest: for a degree of at most 8, and |tau| < 2, no number is greater than 2^17, and 100
+        divided by the greatest. Then, for a degree of at most 8 and |tau| < 2, no number is greater than 2^17, and 100
         operations are off by less than 2^-29.
         """
-        if len(given) > 9:
+        if len(coefficients) > 9:
             return False
-        most = max(map(abs, given))
-        c, (middle, radius) = [k / most for k in given], self._interval
+        most = max(map(abs, coefficients))
+        c, (middle, radius) = [k / most for k in coefficients], self._interval
         for k in range(len(c) - 1):
             for j in range(len(c) - 2, k - 1, -1):
                 c[j] += middle * c[j + 1]
@@ -268,13 +268,13 @@ class Trapezoid:
 
 
 def _roots_between(poly: Coefficients, low: float, high: float) -> tuple[tuple[Root, bool], ...]:
-    """Roots of a polynomial, and whether they are in the chart."""
-    found = roots(fmpz_poly(list(poly)), Fraction(low), Fraction(high))
-    return tuple((root, FIRST <= root <= LAST) for root, _ in found)
+    """Roots of a polynomial, each with True if it is in the chart."""
+    all_roots = roots(fmpz_poly(list(poly)), Fraction(low), Fraction(high))
+    return tuple((root, FIRST <= root <= LAST) for root, _ in all_roots)
 
 
 def has_root(poly: fmpz_poly, start: Root, stop: Root) -> bool:
-    """In the closed interval."""
+    """True if a polynomial has a root in the closed interval."""
     return poly.degree() > 0 and any(start <= root <= stop for root, _ in roots(poly, start.lo, stop.hi))
 
 

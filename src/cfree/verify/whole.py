@@ -1,7 +1,7 @@
 """Answers of folders: they are about some obstacles of a scene, and are checked in the scene with all of them.
 
-What parts two poses among some of the obstacles parts them among all, so a separation is checked among its own. A path
-is checked among all.
+A separating surface among some of the obstacles separates two poses among all, so a separation is checked among its
+own. A path is checked among all.
 """
 
 from __future__ import annotations
@@ -17,23 +17,23 @@ from cfree.scene.digest import Whole, stamp_of
 from cfree.scene.scene import Scene
 
 
-def whole_of(scene: Scene, given: Path | Separated | AllSeparated) -> Whole | None:
+def whole_of(scene: Scene, answer: Path | Separated | AllSeparated) -> Whole | None:
     """The answer's record of the whole scene, if this scene is that one."""
-    whole = None if isinstance(given, AllSeparated) else given.whole
+    whole = None if isinstance(answer, AllSeparated) else answer.whole
     return whole if whole is not None and whole.sha256 == stamp_of(scene).sha256 else None
 
 
-def part_of(scene: Scene, given: Path | Separated, whole: Whole) -> Scene | None:
-    """The scene with the obstacles that an answer is about; None if that is not the scene that it says."""
+def part_of(scene: Scene, answer: Path | Separated, whole: Whole) -> Scene | None:
+    """Scene with the obstacles that an answer is about; None if its scene is another one."""
     if whole.obstacles and not whole.obstacles[-1] < len(scene.obstacles):
         return None
     obstacles = [scene.obstacles[k] for k in whole.obstacles]
-    found = Scene(scene.robot, obstacles, bounds=scene.bounds, workspace=scene.workspace)
-    return None if given.stamp is not None and given.stamp.sha256 != stamp_of(found).sha256 else found
+    part = Scene(scene.robot, obstacles, bounds=scene.bounds, workspace=scene.workspace)
+    return None if answer.stamp is not None and answer.stamp.sha256 != stamp_of(part).sha256 else part
 
 
 def renumbered(path: Path, numbers: Sequence[int]) -> Path:
-    """The path, whose slides name obstacles by other numbers: of obstacle k the number is numbers[k]."""
+    """Path whose slides name obstacles by other numbers: obstacle k has the number numbers[k]."""
     motions = tuple(
         Slide((_touch(m.contacts[0], numbers), _touch(m.contacts[1], numbers)), m.x, m.y, m.d, m.tau)
         if isinstance(m, Slide)

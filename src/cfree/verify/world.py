@@ -1,7 +1,7 @@
-"""What the scene forbids, and which contacts it has, recomputed from its exact coordinates.
+"""Forbidden space and contacts of the scene, recomputed from its exact coordinates.
 
-Coordinates are integers, the scene's times `scale`. `cfree.scene.features` is the address book: it says which vertex a
-number in the file means; whether two features make a contact is decided here, from the rings.
+Coordinates are integers, the scene's times `scale`. `cfree.scene.features` is the address book: it maps numbers in the
+file to vertices. The contacts of two features are decided here, from the rings.
 """
 
 from __future__ import annotations
@@ -47,12 +47,12 @@ class World:
     Attributes
     ----------
     auxiliary : mapping, optional
-        Points of what names may use and the scene does not have. If not
-        given these are the features' own: diagonals of pieces, corners beyond the bounds.
+        Points of features that names may use and the scene does not have. The default are the features' own: diagonals
+        of pieces, corners beyond the bounds.
     parts, obstacle_pieces : list of Ring
         Convex pieces of the robot and of the obstacles, the complement of the workspace among them.
     beyond : list of Ring
-        What is outside the bounds, for the reference point.
+        Region outside the bounds, for the reference point.
     untiled : list of str
         Shapes whose pieces are not convex, or do not tile them.
     bounds : list of int
@@ -103,10 +103,10 @@ class World:
     def _add_pieces(self, pieces: list[Ring], polygon: Polygon, name: str, scale: int = 0) -> None:
         factor = (scale or self.scale) // polygon.denominator
         vertices = [(x * factor, y * factor) for x, y in polygon.numerators]
-        found = [[vertices[k] for k in piece] for piece in polygon.pieces]
-        if not tile(found, rings_of(polygon, scale or self.scale)):
+        tiles = [[vertices[k] for k in piece] for piece in polygon.pieces]
+        if not tile(tiles, rings_of(polygon, scale or self.scale)):
             self.untiled.append(name)
-        pieces += found
+        pieces += tiles
 
     @cached_property
     def pillars(self) -> Pillars:
@@ -116,7 +116,7 @@ class World:
     # --- contacts ---
 
     def contacts(self) -> Iterator[Surface]:
-        """Every contact surface of the scene."""
+        """Yield every contact surface of the scene."""
         convex = [corner for corner in self.robot_corners if is_convex(corner)]
         for corner in self.obstacle_corners:
             yield from (vertex_edge(c, corner[1], corner[2]) for c in convex)
@@ -125,16 +125,16 @@ class World:
         yield from self._bounding()
 
     def contacts_at(self, turn: Turn) -> tuple[Contacts, Callable[[int], Surface]]:
-        """The contacts whose closed range holds an angle: rounded, and a function that makes the surface of one."""
-        (robot, at, before), (obstacles, there, behind) = self._directions
+        """Contacts whose closed range holds an angle: rounded, and a function that makes the surface of one."""
+        (robot, here, before), (obstacles, there, behind) = self._directions
         sign = sides(obstacles, robot, turn)
-        side = sign[there][:, at]  # (obstacle edges, robot edges)
+        side = sign[there][:, here]  # (obstacle edges, robot edges)
         convex_a, convex_b = (
             np.array([is_convex(corner) for corner in corners], bool)
             for corners in (self.robot_corners, self.obstacle_corners)
         )
         on_edge = (side <= 0) & (sign[there][:, before] >= 0) & convex_a
-        on_vertex = (side >= 0) & (sign[behind][:, at] <= 0) & convex_b[:, None]
+        on_vertex = (side >= 0) & (sign[behind][:, here] <= 0) & convex_b[:, None]
         bounds = list(self._bounding())
         (ej, ei), (vj, vi) = np.nonzero(on_edge), np.nonzero(on_vertex)
         i, j = np.concatenate([ei, vi]), np.concatenate([ej, vj])
@@ -146,13 +146,13 @@ class World:
             a, b = self.robot_corners[i[k]], self.obstacle_corners[j[k]]
             return vertex_edge(a, b[1], b[2]) if is_edge[k] else edge_vertex(a[1], a[2], b)
 
-        def rounded(name: str, of: Sequence[NDArray[np.float64]], numbers: NDArray[np.int64], factor: Any) -> Any:
+        def rounded(name: str, vectors: Sequence[NDArray[np.float64]], numbers: NDArray[np.int64], factor: Any) -> Any:
             more = columns([getattr(bound, name) for bound in bounds], self.unit)
-            return [np.append(factor * column[numbers], m) for column, m in zip(of, more, strict=True)]
+            return [np.append(factor * column[numbers], m) for column, m in zip(vectors, more, strict=True)]
 
         (a, g), (b, q) = self._rounded
-        found = rounded("a", a, i, 1), rounded("g", g, i, ~is_edge), rounded("b", b, j, 1), rounded("q", q, j, is_edge)
-        return found, surface
+        arrays = rounded("a", a, i, 1), rounded("g", g, i, ~is_edge), rounded("b", b, j, 1), rounded("q", q, j, is_edge)
+        return arrays, surface
 
     @cached_property
     def _directions(self) -> tuple[Directed, Directed]:
@@ -160,7 +160,7 @@ class World:
 
     @cached_property
     def _rounded(self) -> Sequence[Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]]]:
-        """Vertices, and the edges that start there: of the robot's corners, then of the obstacles'."""
+        """Vertices, and the edges that start there, first for the robot's corners, then for the obstacles'."""
         return [
             [columns([p for _, p, _ in them], self.unit), columns([minus(q, p) for _, p, q in them], self.unit)]
             for them in (self.robot_corners, self.obstacle_corners)
@@ -170,7 +170,7 @@ class World:
         return (Surface(ZERO, ZERO, p, minus(q, p)) for _, p, q in self.bound_corners)
 
     def contact(self, name: Name) -> Surface:
-        """The contact surface that a patch of the file is part of."""
+        """Contact surface that a patch of the file is part of."""
         kind, i, j = name
         a, b = corner_of(self.robot, i), corner_of(self.obstacles, j)
         if kind == 1 and a == (ZERO, ZERO, ZERO) and b in self.bound_corners:
@@ -195,7 +195,7 @@ class World:
         return cut(surface, Surface(a, minus(end, a), self._vertex(self.obstacles, j), ZERO))
 
     def angle(self, surface: Surface, name: Name) -> Form:
-        """Zero at the angle that one pair of features names."""
+        """Form that is zero at the angle that one pair of features names."""
         kind, i, j = name
         if kind == 3:
             a, b = self._vertex(self.robot, i), self._vertex(self.obstacles, j)
@@ -218,12 +218,12 @@ class World:
         return first, last
 
     def _foreign(self, shape: ShapeFeatures, kind: str, k: int) -> list[Vector]:
-        of = "robot" if shape is self.robot else "obstacles"
-        if self.auxiliary is None or (points := self.auxiliary.get((of, kind, k))) is None:
-            raise Fault(f"{kind} {k} of the {of} is neither in the scene nor among the auxiliary features")
+        side = "robot" if shape is self.robot else "obstacles"
+        if self.auxiliary is None or (points := self.auxiliary.get((side, kind, k))) is None:
+            raise Fault(f"{kind} {k} of the {side} is neither in the scene nor among the auxiliary features")
         scaled = [(x * self.scale, y * self.scale) for x, y in points]
         if any(c.denominator > 1 for point in scaled for c in point):
-            raise Fault(f"auxiliary {kind} {k} of the {of} has another denominator than the scene")
+            raise Fault(f"auxiliary {kind} {k} of the {side} has another denominator than the scene")
         return [(int(x), int(y)) for x, y in scaled]
 
 
@@ -231,13 +231,13 @@ def directed(corners: Sequence[Corner]) -> Directed:
     """Directions of edges, each once; and the numbers of the directions that start, and end, at each corner."""
     numbers: dict[Vector, int] = {}
     edges = [[minus(q, p), minus(p, before)] for before, p, q in corners]
-    found = [[numbers.setdefault(shortest(u), len(numbers)) for u in both] for both in edges]
-    starts, ends = np.array(found, np.int64).reshape(-1, 2).T
+    edge_numbers = [[numbers.setdefault(shortest(u), len(numbers)) for u in both] for both in edges]
+    starts, ends = np.array(edge_numbers, np.int64).reshape(-1, 2).T
     return list(numbers), starts, ends
 
 
 def sides(fixed: Sequence[Vector], turned: Sequence[Vector], turn: Turn) -> NDArray[np.int64]:
-    """The sign of f x R e for every f and e.
+    """Signs of f x R e for every f and e.
 
     Notes
     -----
@@ -261,7 +261,7 @@ def _scaled(u: Vector) -> tuple[float, float]:
 
 
 def vertex_edge(corner: Corner, b: Vector, end: Vector) -> Surface:
-    """Both edges at the robot's vertex leave the obstacle's edge to its right: q x R E_i, q x -R E_{i-1} < 0."""
+    """Contact of a vertex: both edges there leave the obstacle's edge to its right: q x R E_i, q x -R E_{i-1} < 0."""
     before, a, after = corner
     q = minus(end, b)
     limits = tuple((0, cross(q, e), dot(q, e)) for e in (minus(after, a), minus(before, a)))
@@ -269,7 +269,7 @@ def vertex_edge(corner: Corner, b: Vector, end: Vector) -> Surface:
 
 
 def edge_vertex(a: Vector, end: Vector, corner: Corner) -> Surface:
-    """Both edges at the obstacle's vertex leave the robot's edge to its right: R g x F_j, R g x -F_{j-1} < 0."""
+    """Contact of an edge: both edges at the vertex leave it to its right: R g x F_j, R g x -F_{j-1} < 0."""
     before, b, after = corner
     g = minus(end, a)
     limits = tuple((0, cross(g, f), -dot(g, f)) for f in (minus(after, b), minus(before, b)))
@@ -282,7 +282,7 @@ def corner_of(shape: Any, k: int) -> Corner:
 
 
 def _is_own(shape: ShapeFeatures, k: int) -> bool:
-    """Is it a feature of a polygon of the scene, or of its bounds?"""
+    """True if it is a feature of a polygon of the scene, or of its bounds."""
     return bool(k < len(shape.owner_vertex) and shape.owner_vertex[k] >= 0)
 
 
@@ -292,7 +292,7 @@ def name_of(code: int) -> Name:
 
 
 def numbers(shape: ShapeFeatures, named: Iterable[Sequence[int]]) -> Ints:
-    """Of features that an answer names by polygon and vertex."""
+    """Numbers of features that an answer names by polygon and vertex."""
     owners = zip(shape.owner_polygon.tolist(), shape.owner_vertex.tolist(), strict=True)
     number = {owner: k for k, owner in enumerate(owners) if owner[1] >= 0}
     try:
