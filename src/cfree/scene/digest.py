@@ -129,7 +129,7 @@ class SceneDigest:
 
     @property
     def sha256(self) -> str:
-        """Of what has been added so far."""
+        """Digest of all that was added."""
         found, scene = self._hash.copy(), self._scene
         if scene.workspace is not None:
             found.update(_text(_shape("workspace", scene.workspace)))
