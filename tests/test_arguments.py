@@ -102,11 +102,12 @@ def fitting(name: str, function: Callable[..., Any], pool: list[Any]) -> dict[st
             arguments["self"] = owner.__new__(owner)
         elif other.default is inspect.Parameter.empty:
             hint = hints.get(other.name, Any)
-            arguments[other.name] = SQUARE if hint is Any else next(value for value in pool if fits(hint, value))
+            words = words_of(hint)
+            value = words[0] if words else SQUARE if hint is Any else next(v for v in pool if fits(hint, v))
+            arguments[other.name] = value
     return arguments
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("name", "function", "parameter"), PARAMETERS, ids=[f"{x[0]}-{x[2]}" for x in PARAMETERS])
 def test_an_argument_of_a_wrong_type_is_named(
     name: str, function: Callable[..., Any], parameter: str, pool: list[Any]
@@ -122,7 +123,6 @@ def test_an_argument_of_a_wrong_type_is_named(
 WORDS = [(*x, words_of(get_type_hints(x[1])[x[2]])) for x in PARAMETERS if words_of(get_type_hints(x[1]).get(x[2]))]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("name", "function", "parameter", "words"), WORDS, ids=[f"{x[0]}-{x[2]}" for x in WORDS])
 def test_a_word_that_is_no_option_is_refused_with_those_that_are(
     name: str, function: Callable[..., Any], parameter: str, words: tuple[Any, ...], pool: list[Any]
@@ -143,7 +143,7 @@ def test_the_options_of_words_are_found() -> None:
     found = {(name, parameter) for name, _, parameter, _ in WORDS}
     assert found >= {
         ("load_shapes", "unknown"), ("plan", "objective"), ("plan_many", "objective"), ("save", "form"),
-        ("Shapes.of", "role"), ("film.save_film", "storyboard"), ("figures.draw_all", "renderer"),
+        ("formats.Shapes.of", "role"), ("film.save_film", "storyboard"), ("figures.draw_all", "renderer"),
         ("plot.painted", "by"), ("collision.Touch", "kind"), ("distributed.Sharded.plan", "objective"),
     }  # fmt: skip
 

@@ -7,6 +7,7 @@ import sys
 
 import pytest
 
+import cfree
 from cfree import lazy
 
 
@@ -24,3 +25,11 @@ def test_cfree_is_imported_without_what_it_registers() -> None:
     assert "cfree.lazy" in modules
     assert "viewer" not in modules
     assert "plot" not in modules
+
+
+@pytest.mark.parametrize("name", " ".join(cfree._MOVED.values()).split())
+def test_a_name_that_moved_says_where_it_is(name: str) -> None:
+    with pytest.raises(AttributeError, match=rf"^cfree\.{name} is now cfree\.(\w+)\.{name}$") as caught:
+        getattr(cfree, name)
+    home = str(caught.value).split(".")[-2]
+    assert getattr(getattr(cfree, home), name).__name__ == name and name not in dir(cfree)

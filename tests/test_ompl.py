@@ -49,7 +49,6 @@ ROOM = Scene(
 PLANNERS = ["RRTConnect", "RRT", "RRTstar", "PRM", "KPIECE1", "LBKPIECE1"]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("planner", PLANNERS)
 @pytest.mark.parametrize("kind", ["linear", "rotation"])
 def test_what_planners_find_is_free(exact: Any, planner: str, kind: str) -> None:
@@ -80,7 +79,6 @@ def test_what_planners_find_is_free(exact: Any, planner: str, kind: str) -> None
         assert exact.to_path(path, ROOM).is_free(checker)
 
 
-@pytest.mark.slow
 def test_the_car_park(exact: Any) -> None:
     scene = load_scene(ROOT / "examples/scenes/benchmr_parking1.json")
     setup = exact.simple_setup(scene)
@@ -175,7 +173,6 @@ def test_validity_is_exact(exact: Any) -> None:
         assert valid.isValid(state) == expected
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_even_motions_told_free_are_free(kind: str) -> None:
     rng, told = np.random.default_rng(5), 0

@@ -137,7 +137,6 @@ def test_exact_hull_has_the_exact_area(A: Shape, O: Shape) -> None:
 # --- each oracle against the others ---
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_slices_agree_with_overlap_at_random_poses(kind: str) -> None:
     for seed in range(4):
@@ -158,7 +157,6 @@ def test_slices_agree_with_overlap_at_random_poses(kind: str) -> None:
                 assert oracles.overlaps(robot, obstacles, (x, y, theta)) is inside
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_points_on_the_rim_of_a_slice_are_in_contact(kind: str) -> None:
     for seed in range(4):
@@ -176,7 +174,6 @@ def test_points_on_the_rim_of_a_slice_are_in_contact(kind: str) -> None:
                 assert free.distance(point) < 1e-9
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_exact_hulls_unite_to_the_slice(kind: str) -> None:
     robot, obstacles, *_ = random_scene(1, kind)

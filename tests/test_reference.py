@@ -127,7 +127,6 @@ def test_a_place_is_found_on_a_line_next_to_where_it_is_at_infinity(epsilon: Fra
     assert junction.value(pack(on_vertex), (pack(on_edge), pack(slope))) == pytest.approx(1 / 2, abs=1e-9)
 
 
-@pytest.mark.slow
 def test_bounds_hold_where_products_underflow() -> None:
     # one far vertex, so that the core's doubles of the others are about 2^-535
     for number in range(40):

@@ -37,7 +37,6 @@ def test_the_paper_in_15_minutes(run: Run) -> None:
     assert said.rstrip().endswith("True")  # the robot's point is at the obstacle's vertex, exactly
 
 
-@pytest.mark.slow
 def test_ompl_without_collisions(run: Run) -> None:
     pytest.importorskip("ompl", reason="the extra `ompl` is not installed")
     found, said = run("plot_ompl_without_collisions.py")

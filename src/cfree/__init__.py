@@ -5,12 +5,8 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names, register
 
 if TYPE_CHECKING:
-    from cfree.analysis.blockers import Blocker as Blocker
     from cfree.analysis.blockers import blockers as blockers
-    from cfree.analysis.fits import Fit as Fit
     from cfree.analysis.fits import fits as fits
-    from cfree.analysis.margins import Interval as Interval
-    from cfree.analysis.margins import NearestMiss as NearestMiss
     from cfree.analysis.margins import max_margin as max_margin
     from cfree.analysis.margins import max_scale as max_scale
     from cfree.analysis.margins import nearest_miss as nearest_miss
@@ -40,27 +36,21 @@ if TYPE_CHECKING:
     from cfree.exact.pose import Poses as Poses
     from cfree.forbidden.boundary import Boundary as Boundary
     from cfree.forbidden.boundary import boundary as boundary
-    from cfree.forbidden.cell_complex import CellComplex as CellComplex
-    from cfree.forbidden.mesh import Mesh as Mesh
-    from cfree.forbidden.slice import Slice as Slice
     from cfree.formats.drawings.footprints import footprint as footprint
     from cfree.formats.files import load as load
     from cfree.formats.files import save as save
     from cfree.formats.scene_file import load_polygons as load_polygons
     from cfree.formats.scene_file import load_scene as load_scene
     from cfree.formats.scene_file import load_shapes as load_shapes
-    from cfree.formats.shapes import Shapes as Shapes
     from cfree.free.largest_disc import largest_disc as largest_disc
     from cfree.free.space import Cell as Cell
     from cfree.free.space import FreeSpace as FreeSpace
     from cfree.free.space import free_space as free_space
     from cfree.free.turn_in_place import turn_in_place as turn_in_place
-    from cfree.paths.clearance import Clearance as Clearance
     from cfree.paths.clearance import clearance as clearance
     from cfree.paths.clearance import narrowest as narrowest
     from cfree.paths.path import Path as Path
     from cfree.paths.preferences import Preferences as Preferences
-    from cfree.paths.preferences import Unwanted as Unwanted
     from cfree.paths.preferences import unwanted as unwanted
     from cfree.planning.goals import AllSeparated as AllSeparated
     from cfree.planning.many import plan_many as plan_many
@@ -90,36 +80,38 @@ _HOMES = {
     "collision.motion_checker": "MotionChecker first_contact is_free_motion",
     "collision.nearest_free": "ForbiddenPoseError free_nearby nearest_free require_free",
     "forbidden.boundary": "Boundary boundary",
-    "forbidden.cell_complex": "CellComplex",
-    "forbidden.mesh": "Mesh",
-    "forbidden.slice": "Slice",
     "free.space": "Cell FreeSpace free_space",
     "free.largest_disc": "largest_disc",
     "free.turn_in_place": "turn_in_place",
     "paths.path": "Path",
-    "paths.clearance": "Clearance clearance narrowest",
-    "paths.preferences": "Preferences Unwanted unwanted",
+    "paths.clearance": "clearance narrowest",
+    "paths.preferences": "Preferences unwanted",
     "planning.goals": "AllSeparated",
     "planning.plan": "plan",
     "planning.planner": "Planner",
     "planning.many": "plan_many",
     "planning.separation": "Separated separation",
-    "analysis.blockers": "Blocker blockers",
-    "analysis.fits": "Fit fits",
-    "analysis.margins": "Interval NearestMiss max_margin max_scale nearest_miss",
+    "analysis.blockers": "blockers",
+    "analysis.fits": "fits",
+    "analysis.margins": "max_margin max_scale nearest_miss",
     "formats.files": "load save",
     "formats.drawings.footprints": "footprint",
     "formats.scene_file": "load_polygons load_scene load_shapes",
-    "formats.shapes": "Shapes",
     "viewer.browser": "view",
     "viewer.notebook": "widget",
 }
 _PACKAGES = (
-    "analysis arrangements collision contact curves distributed exact figures film geometry "
-    "ompl planning plot rational verify viewer"
+    "analysis arrangements collision contact curves distributed exact figures film forbidden formats geometry "
+    "ompl paths planning plot rational verify viewer"
 )
+_MOVED = {
+    "analysis": "Blocker Fit Interval NearestMiss",
+    "forbidden": "CellComplex Mesh Slice",
+    "formats": "Shapes",
+    "paths": "Clearance Unwanted",
+}
 register("page", "cfree.viewer.notebook", "live")
 register("picture", "cfree.viewer.pictures", "picture")
 register("figure", "cfree.plot", "picture")
-__getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES)
+__getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES, _MOVED)
 __all__ = ["__version__", *_NAMES]

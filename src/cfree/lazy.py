@@ -5,13 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from types import MappingProxyType
 from typing import Any
 
 _FUNCTIONS: dict[str, tuple[str, str]] = {}  # module and name of each registered function
 
 
 def lazy_names(
-    package: str, homes: Mapping[str, str], packages: str = ""
+    package: str, homes: Mapping[str, str], packages: str = "", moved: Mapping[str, str] = MappingProxyType({})
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a package.
 
@@ -22,13 +23,18 @@ def lazy_names(
         Public names, separated by blanks, by their file in the package.
     packages : str, optional
         Subpackages that are attributes of it without an import, separated by blanks.
+    moved : mapping of str to str, optional
+        Names that were public here, separated by blanks, by the subpackage that has them now.
     """
     home = {name: file for file, names in homes.items() for name in names.split()}
     others = packages.split()
+    left = {name: subpackage for subpackage, names in moved.items() for name in names.split()}
 
     def __getattr__(name: str) -> Any:
         if name in others:
             return import_module(f"{package}.{name}")
+        if name in left:
+            raise AttributeError(f"{package}.{name} is now {package}.{left[name]}.{name}")
         if name not in home:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         value = getattr(import_module(f"{package}.{home[name]}"), name)

@@ -47,7 +47,6 @@ def test_bounds_and_workspace_are_none() -> None:
         blockers(caged, (0, 0, 0), (1, 1, 0))
 
 
-@pytest.mark.slow
 def test_paths_that_touch_count() -> None:
     """In a slot as wide as the robot only one that touches leads out; a lid that is on no surface shuts it."""
     slot = [box(-3, 0, 0, 9)[0], box(1, 0, 4, 9)[0]]

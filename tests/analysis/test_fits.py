@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import oracles
-from cfree import Fit, Polygon, Pose, fits
+from cfree import Polygon, Pose, fits
+from cfree.analysis import Fit
 from cfree.exact import AngleInterval
 from shapes import Point, Shape, box, l_shape, mapped
 

@@ -94,7 +94,6 @@ def test_scales() -> None:
     assert max_scale(empty, Pose(0, 0), Pose(9, 9)).lo == 0
 
 
-@pytest.mark.slow
 def test_margins() -> None:
     shares: list[float] = []
     half = Fraction(1, 2)

@@ -70,7 +70,6 @@ def test_an_obstacle_that_touches_another_from_within_parts_it() -> None:
     assert cells_of(whole) == sliced_cells(plain, angles_of(whole))
 
 
-@pytest.mark.slow
 def test_surfaces_that_touch_in_points_share_vertices_there() -> None:
     # congruent obstacles that touch: helices of both meet crosswise
     kites = [(3, 0), (1, 0), (2, -2), (3, -1)], [(2, 2), (0, 2), (1, 0), (2, 1)], [(-3, 2), (-3, 0), (-1, 1), (-2, 2)]
@@ -122,7 +121,6 @@ def test_cells_and_their_characteristics_are_those_of_slices(kind: str) -> None:
     assert compared >= 3
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["lattices", "boxes", "parts", "feet", "chain", "congruent"])
 def test_depths_are_those_of_shapely_at_random_poses(kind: str) -> None:
     for number in (1, 5, 9):
@@ -138,7 +136,6 @@ def test_depths_are_those_of_shapely_at_random_poses(kind: str) -> None:
                 assert whole.depth(Pose(x, y, theta)) == sum(area > 0 for area in areas)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["lattices", "rims", "corridor", "cut", "feet"])
 def test_depth_0_is_the_free_space(kind: str) -> None:
     for number in range(4):

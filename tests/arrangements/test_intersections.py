@@ -219,7 +219,6 @@ def is_end(end: VertexVertex, contact: VertexEdge | EdgeVertex) -> bool:
     return end.j == j and end.i in (i, (i + 1) % 3)
 
 
-@pytest.mark.slow
 @settings(max_examples=25)
 @given(st.data())
 def test_poses_of_a_range_have_both_contacts(data: st.DataObject) -> None:
@@ -315,7 +314,6 @@ def curves() -> dict[str, IntersectionCurve]:
     return found
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("name", "curve"), curves().items())
 def test_tangent_curvature_and_torsion_are_those_of_the_harmonics(name: str, curve: IntersectionCurve) -> None:
     scale = 0.7
@@ -341,7 +339,6 @@ def test_tangent_curvature_and_torsion_are_those_of_the_harmonics(name: str, cur
             assert curve.torsion(theta, angle_scale=scale) == pytest.approx(normal @ d3 / (normal @ normal), rel=1e-8)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["two v-e", "two e-v", "both", "far"])
 def test_the_length_is_that_of_a_fine_polyline_and_within_its_error(name: str) -> None:
     curve = curves()[name]

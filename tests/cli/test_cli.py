@@ -107,7 +107,6 @@ def test_check_describes_the_car_park(run: Run) -> None:
     assert "licence: MIT" in text and "theta 90 degrees: free" in text
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("file", [p for p in POLYGONS if p.stem[0] != "n"], ids=lambda file: file.stem)
 def test_check_expects_the_patches_there_are(file: Path, run: Run) -> None:
     expected = json.loads(run("check", file, "--json").stdout)["patches"]["total"]
@@ -260,7 +259,6 @@ def test_the_free_area_is_that_of_bounds_without_the_region(run: Run) -> None:
 # bad input
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -420,7 +418,6 @@ def test_verify_refuses_bad_files_with_exit_code_2(run: Run, fig9_boundary: Path
         assert result.stderr.startswith("error: ") and result.stderr.count("\n") == 1
 
 
-@pytest.mark.slow
 def test_a_limit_of_time_or_memory_has_exit_code_3_and_a_marked_file(run: Run, tmp_path: Path) -> None:
     scene, file = SCENES / "benchmr_warehouse.json", tmp_path / "part.npz"
     for limit in (("--max-seconds", "0"), ("--max-memory", "1 MB")):
@@ -471,7 +468,6 @@ def test_bad_wishes_for_figures_write_nothing(options: tuple[str, str], message:
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.slow
 def test_figures_in_space_say_who_would_draw_them_better(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

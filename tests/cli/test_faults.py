@@ -78,7 +78,6 @@ def test_only_a_proof_and_a_refutation_end_with_1(raised: str, code: int, said: 
     assert result.returncode == code and said in result.stderr and "\x1b" not in result.stderr
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("command", ["", "--colour", "simplify", "check", "check a b", "plan --improve", "film -o"])
 def test_usage_errors_end_with_2(command: str) -> None:
     result = shell(f"cfree {command}")

@@ -79,7 +79,6 @@ WRITTEN = {
 SUFFIXES = ["stl", "json", "csv", "yaml", "geojson", "svg", "png", "npz", "gif", "html", "txt", "wkt", "docx"]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("command", WRITTEN)
 def test_a_file_is_refused_whose_suffix_does_not_fit(
     command: str, folder: Path, monkeypatch: pytest.MonkeyPatch
@@ -150,13 +149,11 @@ IDLE = [
 ]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("command", "options"), IDLE)
 def test_an_option_that_would_do_nothing_is_refused(command: str, options: str, folder: Path) -> None:
     assert refusal(command, folder).startswith(f"error: {options}:")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "option"),
     [
@@ -174,7 +171,6 @@ def test_an_option_that_would_do_nothing_with_a_folder_is_refused(command: str, 
     assert refusal(command, folder).startswith(f"error: {option}:")
 
 
-@pytest.mark.slow
 def test_options_that_do_something_are_taken(folder: Path) -> None:
     for command in (
         "boundary hall.npz --mesh a.glb --threads 1",
@@ -330,7 +326,7 @@ def length(gif: Path) -> float:
     ("command", "told"),
     [
         ("boundary {hall.json}", "boundary"),
-        ("boundary {hall.json} --folder {new}", "tiles"),
+        ("boundary {hall.json} --folder {new}", r"\d of 1 tile"),
         ("plan {hall.json}", ""),
         ("film {hall.json} -o {a.gif} --storyboard path --seconds 3 --size 160x90 --fps 4", r"film \d+%"),
         ("film {hall.json} {path.json} -o {a.gif} --seconds 3 --size 160x90 --fps 4", r"film \d+%"),
@@ -351,7 +347,6 @@ def test_progress_is_told_in_lines_where_there_is_no_terminal(
     assert re.search(told, result.stderr) and "\r" not in result.stderr and "%" not in result.stdout
 
 
-@pytest.mark.slow
 def test_lines_are_told_every_few_seconds_also_where_nothing_is_done(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -367,7 +362,6 @@ def test_lines_are_told_every_few_seconds_also_where_nothing_is_done(
     assert re.fullmatch(r"film \d+%", lines[2])
 
 
-@pytest.mark.slow
 def test_short_phases_of_a_long_command_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(terminal, "EVERY", 0.1)
 

@@ -98,7 +98,6 @@ def test_motions_are_free_as_exact_poses_between_all_critical_ones_are(
     check(Scene(robot=robot, obstacles=obstacles), pose, motion)
 
 
-@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(strategies.convex_polygons(3), strategies.simple_polygons(6), poses, motions)
 def test_bounds_and_workspaces_hold(
@@ -139,7 +138,6 @@ def test_nothing_is_free_beyond_the_frames() -> None:
             assert checker.is_free(Pose(x, 0), step) == checker.is_free((float(x), 0, 0), step) == is_within
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["shared_edge", "identical", "square_pair", "two_part_robot", "workspace_with_hole", "l_in_u"]
 )

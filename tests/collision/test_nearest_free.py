@@ -52,7 +52,6 @@ def test_messages_name_who_overlaps_whom() -> None:
         assert "robot part 0 is not inside the workspace; " in fault(room, Pose(x, 0))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_suggestions_are_free_by_another_test_and_always_the_same(kind: str) -> None:
     rng, suggested = np.random.default_rng(2), 0

@@ -130,7 +130,6 @@ def test_poses_on_the_limits() -> None:
             assert checker.is_free(np.array(poses)).tolist() == [checker.is_free(pose) for pose in inside]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", shapes.KINDS)
 def test_random_scenes(kind: str) -> None:
     plain = shapes.random_scene(3, kind)
@@ -160,7 +159,6 @@ def test_contacts_of_one_pair_and_one_hairline_off(seed: int) -> None:
     assert 0 < sum(answers) < len(answers)
 
 
-@pytest.mark.slow
 def test_what_doubles_are_certain_of_is_true() -> None:
     """Poses 1e-9 to 1e-18 off contact: some certain, some not."""
     rng, certain, uncertain = random.Random(5), 0, 0
@@ -183,7 +181,6 @@ def test_what_doubles_are_certain_of_is_true() -> None:
     assert certain > 20 and uncertain > 20
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("path", POLYGONS, ids=lambda path: path.stem)
 def test_shipped_scenes_beside_areas_of_shapely(path: Path) -> None:
     scene = load_scene(path)
@@ -458,3 +455,17 @@ def test_what_is_no_pose_is_refused(poses: object) -> None:
 def test_no_threads_are_refused() -> None:
     with pytest.raises(ValueError, match="threads: 0"):
         is_free(Scene(robot=TRIANGLE), [[0, 0, 0]], threads=0)
+
+
+@pytest.mark.parametrize("far", [0, 10**9, Fraction(10**12, 7), -(10**9) - Fraction(1, 3)])
+@pytest.mark.parametrize("height", [Fraction(1, 2**k) for k in (3, 20, 40, 70)])
+def test_a_strip_thinner_than_doubles_tell_holds_the_robot_or_does_not(far: Fraction, height: Fraction) -> None:
+    """Limits of the reference point are then the same double, or in the wrong order."""
+    y = far + Fraction(3, 7)
+    room = [(far, y), (far + 1, y), (far + 1, y + height), (far, y + height)]
+    dart = [(0, 0), (height / 8, -height / 8), (-height / 8, -height / 8)]
+    checker = PoseChecker(Scene(dart, workspace=room))
+    x = far + Fraction(1, 2)
+    for share, free in ((Fraction(1, 2), True), (Fraction(1), True), (Fraction(9, 8), False), (Fraction(1, 8), True)):
+        assert checker.is_free(Pose(x, y + share * height)) is free
+    assert checker.is_free(Pose(x, y + height / 16)) is False

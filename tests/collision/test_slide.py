@@ -166,7 +166,6 @@ def test_huge_turns_have_an_angle() -> None:
 # --- is it free? ---
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("tau", ["1/16", "1/2", 1])
 def test_a_square_turns_in_corridors_as_wide_as_it(tau: object) -> None:
     assert verdicts(TEE, START, turning(tau)) == (True, True)
@@ -238,7 +237,6 @@ def test_a_slide_has_no_first_contact() -> None:
 # --- what verify says ---
 
 
-@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.lists(st.integers(-9, 9), min_size=1, max_size=7))
 def test_polynomials_are_nowhere_positive(terms: list[int]) -> None:

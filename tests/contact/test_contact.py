@@ -95,7 +95,6 @@ def test_edges_slide_along_each_other_until_a_reflex_vertex() -> None:
 # properties: the paper
 
 
-@pytest.mark.slow
 @settings(max_examples=30)
 @given(st.lists(strategies.fractions(5), min_size=3, max_size=6, unique=True), strategies.convex_polygons())
 def test_remark_4_for_vertices_on_a_circle(tangents: list[Fraction], shape: Shape) -> None:

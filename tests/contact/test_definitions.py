@@ -153,7 +153,6 @@ def test_the_roles_of_robot_and_obstacle_can_be_exchanged(one: Shape, other: Sha
     assert is_forbidden(A, O, pose) == is_forbidden(O, A, pose.inverse())
 
 
-@pytest.mark.slow
 @settings(max_examples=60)
 @given(
     strategies.convex_polygons(),

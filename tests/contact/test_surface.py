@@ -211,7 +211,6 @@ def test_remark_3_regular_polygons_need_their_reference_point_in_the_middle() ->
     assert len(radii(SQUARE)) == 3
 
 
-@pytest.mark.slow
 @settings(max_examples=60)
 @given(strategies.convex_polygons(), strategies.convex_polygons(), inner, inner, st.data())
 def test_a_contact_surface_lies_in_the_closure_of_the_forbidden_space(
@@ -299,7 +298,6 @@ def test_segments_join_the_four_vertex_contacts_of_two_edges() -> None:
 RIGHT_ANGLES = {(1, 0): "0deg", (0, 1): "90deg", (-1, 0): "180deg", (0, -1): "270deg"}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("A", "O"), [(SQUARE, SQUARE), (SQUARE, L_SHAPE), (L_SHAPE, SQUARE), (L_SHAPE, L_SHAPE)])
 def test_edges_are_in_contact_exactly_on_the_closed_range(A: Polygon, O: Polygon) -> None:
     found = {curve for curve in contact_curves(A, O) if isinstance(curve, EdgeEdge)}
@@ -321,7 +319,6 @@ def test_edges_are_in_contact_exactly_on_the_closed_range(A: Polygon, O: Polygon
             contact_segment(A, O, EdgeEdge(2, 3))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("A", "O"), [(SQUARE, SQUARE), (L_SHAPE, L_SHAPE)])
 def test_edges_have_more_than_a_point_in_common_exactly_on_two_segments(A: Polygon, O: Polygon) -> None:
     for contact in (EdgeEdge(i, j) for i in range(0, len(A), 2) for j in range(len(O))):

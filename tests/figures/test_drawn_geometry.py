@@ -129,7 +129,6 @@ def test_figure_11_lets_the_darkest_part_be_seen_on_its_background() -> None:
 # figure 14
 
 
-@pytest.mark.slow
 def test_figure_14_adds_up_to_eulers_number_in_every_metric() -> None:
     (ax,) = figure(14).axes
     *parts, total, zero = ax.lines
@@ -145,7 +144,6 @@ def test_figure_14_adds_up_to_eulers_number_in_every_metric() -> None:
 # figure 15: Lemma 3
 
 
-@pytest.mark.slow
 def test_figure_15_shows_a_minimal_surface_and_one_that_is_none() -> None:
     for k, robot, is_minimal in ((2, minimal.THROUGH, True), (3, minimal.BESIDE, False)):
         S = contact_surface(robot, minimal.CORNER, EdgeVertex(0, 0))
@@ -207,7 +205,6 @@ def test_figure_19_draws_lines_of_curvature_and_asymptotic_lines(name: str, k: i
         assert lines.PHI.phi_min - 1e-9 <= phi <= lines.PHI.phi_max + 1e-9 and -1e-6 < t < 1 + 1e-6
 
 
-@pytest.mark.slow
 def test_lines_of_figure_19_cover_the_patch() -> None:
     for k, colour in ((0, palette.VERTEX_EDGE), (0, palette.INK), (1, palette.FRAME), (1, palette.INK)):
         ends = strokes(19, colour, k).reshape(-1, 3) * (1, 1, math.pi / 180)

@@ -86,7 +86,6 @@ def test_figure_9_draws_all_patches_helices_and_segments_of_two_triangles(k: int
         assert placed.distance(O.to_shapely()) < 0.01 and placed.intersection(O.to_shapely()).area < 0.01
 
 
-@pytest.mark.slow
 def test_figure_9_names_the_patches_that_are_seen() -> None:
     named: set[str] = set()
     for k in (0, 2):

@@ -56,7 +56,6 @@ def test_files_have_the_same_bytes_each_time(tmp_path: Path) -> None:
     assert [file.read_bytes() for file in first] == [file.read_bytes() for file in second]
 
 
-@pytest.mark.slow
 def test_a_figure_that_cannot_be_written_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (file,) = draw_all(tmp_path, only=[6], formats=["png"])
     before = file.read_bytes()

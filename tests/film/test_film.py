@@ -88,14 +88,12 @@ def apart(first: np.ndarray, second: np.ndarray) -> np.ndarray:
 # what is shown is true
 
 
-@pytest.mark.slow
 def test_every_pose_is_free(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     for shot in shots:
         assert all(is_free(result.checker, moment.pose) for moment in shot.moments)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", PAPER)
 def test_no_pose_of_the_papers_scenes_is_forbidden_by_any_obstacle(name: str) -> None:
     result, shots = tale(name)
@@ -105,7 +103,6 @@ def test_no_pose_of_the_papers_scenes_is_forbidden_by_any_obstacle(name: str) ->
             assert not any(is_forbidden(robot, obstacle, moment.pose) for obstacle in result.scene.obstacles)
 
 
-@pytest.mark.slow
 def test_captions_agree_with_touch(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     scene, seen = result.scene, set()
@@ -125,14 +122,12 @@ def test_captions_agree_with_touch(told: tuple[Boundary, list[Shot]]) -> None:
         assert seen >= {"v-e", "v-v"}
 
 
-@pytest.mark.slow
 def test_a_film_is_as_long_as_it_should_be(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     has_room = len(result.trapezoids) > 0
     assert sum(len(shot.moments) for shot in shots) == (FRAMES if has_room else 0)
 
 
-@pytest.mark.slow
 def test_shots_without_contact_have_no_caption(told: tuple[Boundary, list[Shot]]) -> None:
     _, shots = told
     for shot in shots:
@@ -141,7 +136,6 @@ def test_shots_without_contact_have_no_caption(told: tuple[Boundary, list[Shot]]
     assert caption(None) == "no contact"
 
 
-@pytest.mark.slow
 def test_a_helix_keeps_its_vertex_in_place(fig9: Boundary) -> None:
     shot = shot_of("paper_fig9", "helix")
     contact = shot.moments[0].contact
@@ -155,7 +149,6 @@ def test_a_helix_keeps_its_vertex_in_place(fig9: Boundary) -> None:
 # it moves as a robot does
 
 
-@pytest.mark.slow
 def test_motions_are_continuous(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     x0, y0, x1, y1 = extent(result)
@@ -180,7 +173,6 @@ def test_more_frames_mean_smaller_steps(fig9: Boundary) -> None:
     assert largest(1200) < 0.25 * largest(200)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", PAPER)
 def test_the_papers_scenes_are_told_without_cuts(name: str) -> None:
     _, shots = tale(name)
@@ -297,7 +289,6 @@ def test_a_full_turn_has_room_where_it_is_made(five: Boundary) -> None:
 # frames
 
 
-@pytest.mark.slow
 def test_what_is_swept_appears_and_stays(fig9: Boundary) -> None:
     (shots,) = shots_of([fig9], 120, "paper")
     stage = Stage(fig9, (160, 90), 25)
@@ -367,7 +358,6 @@ def test_frames_show_the_robot_in_its_pose_and_the_configuration_space_at_its_or
         assert np.ptp(image) > 200
 
 
-@pytest.mark.slow
 def test_the_title_says_whether_theta_turns_between_slices(fig9: Boundary) -> None:
     for found in (fig9, boundary(Scene([(0, 0), (1, 0), (0, 1)], [[(4, 0), (5, 0), (5, 1), (4, 1)]]))):
         (shot,) = storyboard(found, 60, ("slices",))
@@ -375,7 +365,6 @@ def test_the_title_says_whether_theta_turns_between_slices(fig9: Boundary) -> No
         assert ("constant orientation" in shot.title) == (not turns) and ("two slices" in shot.title) == turns
 
 
-@pytest.mark.slow
 def test_later_scenes_show_what_is_new(fig9: Boundary, five: Boundary) -> None:
     first, second = shots_of([fig9, five], 60, "paper")
     assert [shot.kind for shot in first] == list(STORYBOARDS["paper"])

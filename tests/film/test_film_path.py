@@ -60,7 +60,6 @@ def test_long_ways_take_longer_within_limits(length: int, seconds: float, monkey
     assert len(frames) == round(10 * seconds) + sum(round(10 * rest) for rest in REST)
 
 
-@pytest.mark.slow
 def test_a_frame_shows_the_robot_its_trace_and_its_clearance() -> None:
     track = Track.of(WAY, WALL)
     stage = PathStage(track, None, SMALL)
@@ -80,7 +79,6 @@ def test_a_frame_shows_the_robot_its_trace_and_its_clearance() -> None:
     assert len(stage.ghosts.get_paths()) == len(track.ghosts)
 
 
-@pytest.mark.slow
 def test_the_line_in_configuration_space_has_the_colours_of_the_trace(five: tuple[Path, Boundary]) -> None:
     path, found = five
     track = Track.of(path, found.scene)
@@ -95,7 +93,6 @@ def test_the_line_in_configuration_space_has_the_colours_of_the_trace(five: tupl
     assert lines[-1][1][-1, :2] == pytest.approx(track.travel.at([track.travel.total / 2])[0, :2])
 
 
-@pytest.mark.slow
 def test_a_gif_is_read_back(tmp_path: FilePath) -> None:
     shares: list[float] = []
     cfree.film.film_path(WAY, WALL, tmp_path / "way.gif", seconds=1, fps=5, size=SMALL, progress=shares.append)
@@ -134,7 +131,6 @@ def test_an_interrupted_film_leaves_what_was_there(name: str, tmp_path: FilePath
     assert [file.name for file in tmp_path.iterdir()] == [name] and (tmp_path / name).read_text() == "before"
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "message"),
     [

@@ -98,7 +98,6 @@ def test_letters_are_nine_pixels_high_at_least(five: Boundary) -> None:
         assert min(sizes) > 9
 
 
-@pytest.mark.slow
 def test_obstacles_are_numbered_from_1_and_the_robot_is_A_where_nothing_is_on_it(five: Boundary) -> None:
     stage = Stage(five, SMALL, 4)
     names = stage.plane.shapes
@@ -138,7 +137,6 @@ def test_where_the_robot_touches_a_trail_stays_for_four_seconds(five: Boundary) 
     assert (np.diff(alpha) > 0).all() and alpha[-1] == 1 and alpha[0] < 0.1
 
 
-@pytest.mark.slow
 def test_swept_patches_stay_visible_above_the_plane(five: Boundary) -> None:
     (shots,) = shots_of([five], 60, "paper")
     stage = Stage(five, SMALL, 4)
@@ -183,7 +181,6 @@ def test_a_path_and_what_fits_exactly_are_no_separations_to_film(five: Boundary,
 # turntables
 
 
-@pytest.mark.slow
 def test_the_axes_stay_at_the_near_edges_all_around() -> None:
     ax = Stage(boundary(Scene([(0, 0), (1, 0), (0, 1)], [WALL])), (160, 90), 4).space.point.axes
     window = (0.0, 0.0, 4.0, 2.0)

@@ -117,7 +117,6 @@ def test_the_volume_of_a_convex_pair_is_the_papers(seed: int) -> None:
     assert math.isclose(volume, expected, rel_tol=1e-11)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_obstacles_forbid_what_their_pillars_do_together(seed: int) -> None:
     """Section 3.4 with many obstacles, some of which overlap: inside at least one pillar is forbidden, else free."""
@@ -243,7 +242,6 @@ def test_scaling_scales_the_slices(plain: PlainScene, factor: Fraction) -> None:
     assert np.allclose(np.multiply(areas(before), float(factor) ** 2), areas(after))
 
 
-@pytest.mark.slow
 @quick
 @given(strategies.scenes())
 def test_mirroring_reverses_the_orientations(plain: PlainScene) -> None:
@@ -264,7 +262,6 @@ def owners(result: Boundary) -> Counter[object]:
     return Counter(features(patch) for patch in result.patches if patch.is_live)
 
 
-@pytest.mark.slow
 @quick
 @given(strategies.scenes(), st.randoms(use_true_random=False))
 def test_the_order_of_input_changes_nothing(plain: PlainScene, rng: random.Random) -> None:
@@ -283,7 +280,6 @@ def test_the_order_of_input_changes_nothing(plain: PlainScene, rng: random.Rando
 
 
 # but where bounds or a workspace change, or a diagonal names an angle: those are numbered after all rings
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", sorted({*KINDS} - {"bounds", "workspace", "integer_grid"}))
 def test_what_the_robot_cannot_reach_leaves_names_and_intervals_alone(kind: str) -> None:
     plain = random_scene(3, kind)
@@ -313,7 +309,6 @@ COINCIDENT = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", COINCIDENT)
 def test_coincident_surfaces_count_once(name: str) -> None:
     for robot in ([ROBOT], [box(0, 0, 1, 1), box(0, 1, 1, 2)], [box(0, 0, 1, 2), box(0, 0, 1, 1)]):
@@ -376,7 +371,6 @@ def stars(scale: float, offset: float) -> PlainScene:
     )
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("scale", [1e-150, 1e-6, 1e6, 1e30])
 def test_tiny_and_huge_coordinates_give_the_same_boundary(scale: float) -> None:
     first, result = built(stars(1.0, 0.0)), built(stars(scale, 0.0))
@@ -421,7 +415,6 @@ def test_float_regular_polygons_are_decided(n: int) -> None:
 # --- threads, progress, interruption ---
 
 
-@pytest.mark.slow
 def test_any_number_of_threads_gives_the_same_bytes(tmp_path: Path) -> None:
     for kind in KINDS:
         scene = scene_of(random_scene(7, kind))
@@ -438,7 +431,6 @@ def test_threads_below_one_are_refused() -> None:
         boundary(scene_of(random_scene(0, "convex")), threads=0)
 
 
-@pytest.mark.slow
 def test_progress_rises_from_0_to_1() -> None:
     seen: list[float] = []
     boundary(load_scene(TESTS.parent / "examples" / "scenes" / "benchmr_warehouse.json"), progress=seen.append)
@@ -496,7 +488,6 @@ def test_a_limit_after_the_last_patch_leaves_no_isolated_part_out() -> None:
     assert found.trimmed.all() and len(found.isolated.parts.patch) == 40
 
 
-@pytest.mark.slow
 def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
     scene = load_scene(TESTS.parent / "examples/scenes/benchmr_warehouse.json")
     for limit in ({"max_seconds": 0.0}, {"max_memory": 1.0}):
@@ -509,7 +500,7 @@ def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
             lambda part=part: part.mesh(0.1),
         )
         for ask in questions:
-            with pytest.raises(IncompleteError, match=r"of \d+ patches trimmed"):
+            with pytest.raises(IncompleteError, match=r"of [\d,]+ patches trimmed"):
                 ask()
         save(part, tmp_path / "part.npz")
         loaded = load_boundary(tmp_path / "part.npz")

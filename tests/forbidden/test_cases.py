@@ -44,7 +44,6 @@ def test_slices_of_cases_are_exact(name: str) -> None:
     assert not [line for tau in taus for line in differences(result, tau, plain)]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in NAMES if not any(hair in name for hair in HAIRS)])
 def test_slices_of_cases_are_those_of_shapely(name: str) -> None:
     plain, result = case(name)

@@ -66,13 +66,11 @@ def check_places(result: Boundary, cells: CellComplex) -> None:
     assert forwards.min(initial=0.0) > -1e-5 * size and (forwards - length).max(initial=0.0) < 1e-5 * size
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("path", SMALL + CASES, ids=lambda path: path.stem)
 def test_boundaries_are_closed(path: Path) -> None:
     check(boundary(load_scene(path), threads=1))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_boundaries_are_closed(kind: str) -> None:
     for seed in range(12):
@@ -174,7 +172,6 @@ def test_a_lost_trapezoid_is_noticed() -> None:
             _core.glue(part.core, 1)
 
 
-@pytest.mark.slow
 def test_any_number_of_threads_gives_the_same_complex() -> None:
     scene = load_scene(ROOT / "examples/scenes/benchmr_parking1.json")  # several blocks of everything
     found = []

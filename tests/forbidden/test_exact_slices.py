@@ -207,7 +207,6 @@ def without_trapezoid(result: Boundary, k: int) -> Boundary:
     return with_parts(result, trapezoids=rows(result.trapezoids, [*range(k), *range(k + 1, count)]))
 
 
-@pytest.mark.slow
 def test_every_trapezoid_is_missed() -> None:
     plain = PlainScene([box(0, 0, 1, 2)], [box(0, 0, 3, 1), box(3, 0, 4, 4)])
     result = boundary(scene_of(plain), threads=1)

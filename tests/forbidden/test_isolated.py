@@ -216,7 +216,6 @@ def test_bounds_and_workspaces_fit_exactly_too() -> None:
     assert kinds(found) == ["segment"] * 4
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["axis_parallel", "integer_grid", "touching", "bounds", "workspace", "overlapping"])
 def test_parts_of_random_scenes_are_isolated(kind: str) -> None:
     for seed in range(20):
@@ -251,7 +250,6 @@ def test_regularized_leaves_out_what_has_no_width() -> None:
     assert slit.complex.components > 0 and slit.regularized.complex.components > 0
 
 
-@pytest.mark.slow
 def test_regularized_boundaries_are_closed() -> None:
     for seed in range(30):
         assert np.all(boundary(scene_of(random_scene(seed, "bounds")), threads=1).regularized.complex.euler <= 2)

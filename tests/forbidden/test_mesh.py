@@ -178,7 +178,6 @@ def test_triangles_of_thin_trapezoids_are_as_near_as_theory_says(name: str) -> N
         assert off.max() <= 2e-9 * radius + 1e-13 * abs(corners).max()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("scale", [0.2, 1.0, 5.0])
 def test_error_holds_in_the_metric_asked_for(triangles: Boundary, scale: float) -> None:
     for error in (0.2, 0.02, 0.002):
@@ -197,7 +196,6 @@ def test_robots_far_from_their_reference_point(triangles: Boundary) -> None:
             check_error(mesh, result)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["paper_fig9", "five_convex", "degenerate_island", "degenerate_hexagons", "sofa_corner"]
 )
@@ -260,7 +258,6 @@ def test_vertices_next_to_a_side_stay_on_the_surface_where_it_is_steep() -> None
     check_error(mesh, result)
 
 
-@pytest.mark.slow
 def test_half_the_error_is_not_met(triangles: Boundary) -> None:
     # the bound is sharp: with few triangles to spare, some points are almost as far as allowed
     mesh = triangles.mesh(0.001)
@@ -304,7 +301,6 @@ def ratios_of_large_patches(mesh: Mesh, result: Boundary) -> Any:
     return count[count >= 100] / least[count >= 100]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("corners", "middle", "most"), [((3, 4), 1.23, 1.6), ((5, 7), 1.32, 1.75)])
 def test_large_patches_of_convex_pairs_are_near_the_best_known_density(
     corners: tuple[int, int], middle: float, most: float
@@ -321,7 +317,6 @@ def test_large_patches_of_convex_pairs_are_near_the_best_known_density(
     assert np.median(found) < middle and max(found) < most
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "middle"), [("nonconvex", 1.6), ("workspace", 1.6)])
 def test_large_patches_cut_by_others_need_more_for_their_curves(kind: str, middle: float) -> None:
     result = boundary(make(shapes.random_scene(1, kind)), threads=1)
@@ -329,7 +324,6 @@ def test_large_patches_cut_by_others_need_more_for_their_curves(kind: str, middl
     assert len(found) > 20 and np.median(found) < middle and min(found) < 1.25
 
 
-@pytest.mark.slow
 def test_no_scene_needs_more_than_it_did_with_fewer_ways_to_lay_out_points() -> None:
     # counts at a hundredth of the robot's radius with rows and lattices, but neither columns nor bounds by edges
     for name, before in (

@@ -140,7 +140,6 @@ def test_one_pose_in_doubles_is_in_the_cell_of_its_exact_pose(kind: str) -> None
             space.locate(wrong)  # type: ignore[arg-type]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_location_agrees_with_exact_overlap(kind: str) -> None:
     rng = np.random.default_rng(0)
@@ -224,7 +223,6 @@ def test_largest_discs_are_in_their_cells_and_have_that_room() -> None:
             assert not oracles.overlaps(plain.robot, plain.obstacles, (x, y, pose.theta))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["benchmr_parking1", "nest_shirts", "flat"])
 def test_many_poses_are_in_the_cells_that_each_of_them_is_in(name: str) -> None:
     space = free_space(boundary(load_scene(ROOT / f"examples/scenes/{name}.json")))

@@ -82,7 +82,6 @@ def test_patches_are_congruent_just_if_an_isometry_is_found(one: Shape, other: S
         check(A, O, classes, every)
 
 
-@pytest.mark.slow
 @settings(max_examples=40)
 @given(robots, robots, st.tuples(st.integers(-3, 0), st.integers(-3, 0)))
 def test_arcs_are_congruent_just_if_an_isometry_is_found(one: Shape, other: Shape, by: tuple[int, int]) -> None:

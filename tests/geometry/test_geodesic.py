@@ -68,7 +68,6 @@ def test_on_v_e_surfaces_they_are_straight_in_the_development() -> None:
     assert not found.error.any() and np.array_equal(found.xi, xi)
 
 
-@pytest.mark.slow
 def test_clairauts_relation_holds_on_e_v_surfaces() -> None:
     rng = np.random.default_rng(6)
     ruled, w = rows(rng, 50, False), 0.7
@@ -84,7 +83,6 @@ def test_clairauts_relation_holds_on_e_v_surfaces() -> None:
     np.testing.assert_allclose(momentum[0], momentum[1], atol=1e-9)
 
 
-@pytest.mark.slow
 def test_errors_on_helicoids_are_no_larger_than_stated() -> None:
     # k = 0: with p = R sin(alpha) < w the geodesic never turns back, and length and angle are integrals over s
     w, p, end = 0.7, 0.5, 5.0

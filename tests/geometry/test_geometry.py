@@ -229,7 +229,6 @@ def test_curvatures_keep_their_digits_far_from_the_reference_point() -> None:
     assert k1 * k2 == pytest.approx(float(at.gaussian_curvature), rel=1e-14)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("A", "O"), PAIRS)
 def test_the_normal_points_to_the_free_side(A: Polygon, O: Polygon) -> None:
     for contact in contacts(A, O):

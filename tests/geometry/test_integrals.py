@@ -66,7 +66,6 @@ def test_short_edges_far_away_lose_no_digits() -> None:
         patch_curvatures(row, -1.0)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["five_convex", "degenerate_island", "comb_hook"])
 @pytest.mark.parametrize("w", [0.5, 3.0])
 def test_integrals_over_trapezoids_are_those_of_other_quadrature(name: str, w: float) -> None:
@@ -157,7 +156,6 @@ def test_curvature_adds_up_to_the_euler_number_on_all_example_scenes(path: Path)
     assert found.gap < 1e-8 * size  # where surfaces meet at small angles, rounding moves their curves
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", shapes.KINDS)
 def test_curvature_adds_up_on_random_surfaces_in_every_metric(kind: str) -> None:
     for seed in range(3):
@@ -266,7 +264,6 @@ def sampled(robot: Polygon, obstacle: Polygon, count: int) -> tuple[float, np.nd
     return float(np.prod(high - low) * math.tau), np.array(found, dtype=float)
 
 
-@pytest.mark.slow
 def test_mean_measures_of_a_moving_robot_are_those_of_integral_geometry() -> None:
     robot, obstacle = TRIANGLE, Polygon([(0, 0), (3, 0), (4, 1), (1, 3)])
     whole, found = sampled(robot, obstacle, 6000)

@@ -107,7 +107,6 @@ def test_motions_that_miss_the_goal_are_refused(tmp_path: FilePath) -> None:
         load_answer(file)
 
 
-@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(paths, st.floats(0.1, 2), st.floats(0.1, 2))
 def test_samples_are_close_together_and_on_the_path(path: Path, step: float, turn: float) -> None:
@@ -346,7 +345,6 @@ def test_a_path_that_touches_has_no_clearance() -> None:
     assert not Path(Pose(0, -2), []).is_free(MotionChecker(scene))
 
 
-@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(strategies.convex_polygons(3), strategies.simple_polygons(5), poses, st.lists(motions, min_size=1, max_size=2))
 def test_no_sample_has_less_than_the_least_clearance(
@@ -416,7 +414,6 @@ def test_places_after_a_distance_are_where_samples_are() -> None:
         path.after(total + 1, angle_scale=2)
 
 
-@pytest.mark.slow
 def test_narrowest_places_are_those_of_dense_samples() -> None:
     gates = [box(x, -9, x + 1, Fraction(-gap, 8)) for x, gap in ((4, 11), (9, 8), (14, 16), (20, 9))]
     scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=gates)

@@ -34,7 +34,6 @@ def test_rows_are_poses_of_the_path(path: Path, share: float) -> None:
     assert math.remainder(row[2] - pose.theta, math.tau) == pytest.approx(0, abs=1e-9)
 
 
-@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(paths)
 def test_theta_is_unrolled_and_no_vertex_outruns_the_travel(path: Path) -> None:

@@ -51,7 +51,6 @@ def test_a_throat_is_passed_in_its_middle(width: float) -> None:
     assert len(path.motions) <= 16
 
 
-@pytest.mark.slow
 def test_it_keeps_more_where_there_is_more() -> None:
     walls = [box(4, -9, 1, 8.45), box(4, 0.55, 1, 8.45), box(14, -9, 1, 8), box(14, 1, 1, 8)]
     robot, room = box(-0.5, -0.5, 1, 1), box(-5, -9, 30, 18)
@@ -88,7 +87,6 @@ def test_a_maze_is_passed_without_needless_turning() -> None:
     assert path.turning < math.pi and len(path.motions) <= 26 and least(path, scene) >= 0.2
 
 
-@pytest.mark.slow
 def test_a_way_that_touches_by_necessity_stays() -> None:
     walls = [box(3, -5, 2, 4.5), box(3, 0.5, 2, 4.5)]
     scene = Scene(box(-0.5, -0.5, 1, 1), walls, workspace=box(-5, -5, 15, 10), start=Pose(0, 2), goal=Pose(8, 2))

@@ -41,7 +41,6 @@ def gate(turn: object = 0, robot: object = SQUARE, **more: object) -> Scene:
 UP, DOWN = Pose(0, 5), Pose(0, -5)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("clearance", ["0.3", "0.4999999", "1/2"])
 def test_what_has_room_gets_through(clearance: str) -> None:
     path = plan(gate(), UP, DOWN, clearance=clearance)

@@ -151,7 +151,6 @@ def test_remark_4_equation_7_is_solved_by_sums_of_products(shapes: tuple[Shape, 
     assert (left[0] ** 2 + left[1] ** 2) == (ux * ux + uy * uy) * phi.n
 
 
-@pytest.mark.slow
 def test_remark_4_no_function_of_an_angle_is_called() -> None:
     program = """
 import cmath, math, numpy

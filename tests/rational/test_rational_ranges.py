@@ -40,7 +40,6 @@ from rational_pairs import (
 from shapes import Shape
 
 
-@pytest.mark.slow
 @settings(max_examples=60)
 @given(convex_pairs, inner, taus, st.data())
 def test_a_convex_pair_is_in_contact_exactly_in_phi(
@@ -103,7 +102,6 @@ def test_a_range_through_infinity_is_two_intervals() -> None:
     assert alone.locate(None) is Location.BOUNDARY
 
 
-@pytest.mark.slow
 @settings(max_examples=60)
 @given(pairs, st.integers(2, 60), st.data())
 def test_outer_ends_are_just_outside(shapes: tuple[Shape, Shape], bits: int, data: st.DataObject) -> None:

@@ -25,7 +25,6 @@ def mixed(small: Fraction) -> cfree.Scene:
     return cfree.Scene([SQUARE], [*near, triangle(Fraction(10), 1 / small), triangle(Fraction(9, 2), Fraction(1))])
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [100, 148])
 def test_lengths_of_all_sizes_meet_in_one_scene(exponent: int) -> None:
     usual, extreme = (cfree.boundary(mixed(Fraction(1, 10**e)), threads=1) for e in (3, exponent))

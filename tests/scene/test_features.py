@@ -34,7 +34,6 @@ def test_classes_number_equal_keys_alike() -> None:
     assert ranks([0, 0, 1, 0], [5, 3, 9, 4]) == [2, 0, 0, 1]
 
 
-@pytest.mark.slow
 @brief
 @given(strategies.scenes())
 def test_equal_features_and_no_others_share_an_identity(plain: PlainScene) -> None:

@@ -86,13 +86,11 @@ def test_the_command_says_it_in_one_line_and_an_exit_code(tmp_path: FilePath) ->
         assert found[0] == code and said in found[1] and found[1].count("\n") == 1, (arguments, found)
 
 
-@pytest.mark.slow
 def test_right_answers_are_verified_by_both() -> None:
     for scene, answer in (corridor(), tee(), *separations()):
         assert verified_in_a_file(scene, answer).verified
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["comb_hook", "degenerate_exact_fit", "degenerate_workspace", "sofa_corner"])
 def test_answers_in_the_examples_are_verified_by_both(name: str) -> None:
     scene = load_scene(ROOT / f"examples/scenes/{name}.json")
@@ -181,7 +179,6 @@ def test_rings_alone_are_read_alike() -> None:
         assert found.sha256 == stamp_of(scene).sha256
 
 
-@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.lists(st.tuples(st.integers(-6, 6), st.integers(1, 4)), max_size=4), st.integers(1, 3), st.booleans())
 def test_roots_are_found_each_once(linear: list[tuple[int, int]], times: int, with_surd: bool) -> None:

@@ -67,7 +67,6 @@ def test_free_contacts_of_touching_squares_are_those_of_the_exact_section() -> N
     check_sections(load_scene(SCENES / "degenerate_touching_squares.json"), 1)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["degenerate_workspace", "sofa_corner", "degenerate_bounds_on_walls", "comb_hook"])
 def test_parts_of_contacts_are_covered_where_the_exact_section_says_so(name: str) -> None:
     scene = load_scene(SCENES / f"{name}.json")

@@ -306,7 +306,6 @@ def test_a_line_crosses_a_pillar_where_it_is_over_every_edge_whatever_the_double
     assert min(found.values()) > 200
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["sofa_corner", "flat", "degenerate_overlapping"])
 def test_slices_have_the_oracles_perimeter(name: str) -> None:
     scene = load_scene(SCENES / f"{name}.json")

@@ -45,7 +45,6 @@ def test_paths_are_free_where_the_core_says_so(
     assert cfree.verify.answer(scene, path).verified == free
 
 
-@pytest.mark.slow
 @settings(max_examples=300, deadline=None)
 @given(st.tuples(*[st.integers(-9, 9)] * 3), st.integers(0, 6), st.integers(1, 6))
 def test_a_quadratic_is_nowhere_positive(q: tuple[int, int, int], a: int, length: int) -> None:

@@ -13,8 +13,6 @@ import cfree
 from cfree import view
 from pages import Tried, bare_page
 
-pytestmark = pytest.mark.slow
-
 OTHER = '{"name": "other", "robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "start": [0, 0, 0]}'
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 

@@ -247,8 +247,12 @@ void PoseChecker::fill(Grid& g, const Fineness& fineness) const {
         around.x0 = std::min(around.x0, b.x0 - reach), around.x1 = std::max(around.x1, b.x1 + reach);
         around.y0 = std::min(around.y0, b.y0 - reach), around.y1 = std::max(around.y1, b.y1 + reach);
     }
-    around = {std::max(around.x0, limits[0]), std::max(around.y0, limits[1]), std::min(around.x1, limits[2]),
-              std::min(around.y1, limits[3])};
+    // limits are rounded inwards: an exact pose within them may be rounded to the next double beyond
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto below = [](double x) { return std::nextafter(x, -infinity); };
+    const auto above = [](double x) { return std::nextafter(x, infinity); };
+    around = {std::max(around.x0, below(limits[0])), std::max(around.y0, below(limits[1])), std::min(around.x1, above(limits[2])),
+              std::min(around.y1, above(limits[3]))};
     const double width = around.x1 - around.x0, height = around.y1 - around.y0;
     if (!(width >= 0 && height >= 0)) return;  // nothing is near
     const double side = std::max({std::sqrt(width / most_cells) * std::sqrt(height), width / most_cells, height / most_cells,

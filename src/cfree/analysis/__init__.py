@@ -5,11 +5,18 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from cfree.analysis.blockers import Blocker as Blocker
     from cfree.analysis.bottleneck import Bottleneck as Bottleneck
+    from cfree.analysis.fits import Fit as Fit
+    from cfree.analysis.margins import Interval as Interval
+    from cfree.analysis.margins import NearestMiss as NearestMiss
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
+        "blockers": "Blocker",
         "bottleneck": "Bottleneck",
+        "fits": "Fit",
+        "margins": "Interval NearestMiss",
     },
 )

@@ -26,6 +26,7 @@ MOST_TRIPLES = 10_000
 RELATIONS = ("points", "curve", "parallel", "identical")
 
 
+@checked
 @dataclass(frozen=True, slots=True, repr=False)
 class Census:
     """All poses on three contact surfaces of a scene; see `census`.

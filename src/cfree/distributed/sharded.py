@@ -44,7 +44,7 @@ class Surfaces:
     Attributes
     ----------
     faces, euler, turns, parent, cell_of : (n,) int64
-        As in `cfree.FreeSpace` and `cfree.CellComplex`.
+        As in `cfree.FreeSpace` and `cfree.forbidden.CellComplex`.
     free_inside : (n,) bool
     """
 

@@ -12,3 +12,12 @@ Each part imports only from those before it:
 8. `answers/`: paths and separations.
 9. `files.py`: `save` and `load`.
 """
+
+from typing import TYPE_CHECKING
+
+from cfree.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from cfree.formats.shapes import Shapes as Shapes
+
+__getattr__, __dir__, __all__ = lazy_names(__name__, {"shapes": "Shapes"})

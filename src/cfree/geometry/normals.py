@@ -41,6 +41,7 @@ DERIVATIVE = legendre.legvander(NODES, 14) @ legendre.legder(np.eye(16), axis=0)
 AT_START, AT_END = legendre.legvander(np.array([-1.0, 1.0]), 14) @ legendre.legder(np.eye(16), axis=0) @ _MODES
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class GaussMap(Value):
     """Areas of the sphere that the normals of closed surfaces cover; see `gauss_map`.

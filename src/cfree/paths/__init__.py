@@ -1,1 +1,11 @@
 """Paths: sequences of motions, their lengths, and their clearance."""
+
+from typing import TYPE_CHECKING
+
+from cfree.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from cfree.paths.clearance import Clearance as Clearance
+    from cfree.paths.preferences import Unwanted as Unwanted
+
+__getattr__, __dir__, __all__ = lazy_names(__name__, {"clearance": "Clearance", "preferences": "Unwanted"})

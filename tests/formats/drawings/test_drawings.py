@@ -23,7 +23,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def of(shapes: cfree.Shapes, name: str) -> list[cfree.Polygon]:
+def of(shapes: cfree.formats.Shapes, name: str) -> list[cfree.Polygon]:
     return [shape.polygon for shape in shapes.shapes if shape.name == name]
 
 
