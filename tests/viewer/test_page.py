@@ -8,6 +8,8 @@ import re
 from importlib.resources import files
 from pathlib import Path
 
+import pytest
+
 import cfree
 from cfree.viewer import page
 from page_hash import page_hash, tokens
@@ -17,6 +19,7 @@ TEXT = files("cfree.viewer").joinpath("page.html").read_text(encoding="utf-8")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
 
+@pytest.mark.slow  # only `make check` asks for a page of the newest core
 def test_page_is_made_of_these_sources() -> None:
     made_of = re.search(r"<!-- inputs (\w+) -->", TEXT)
     assert made_of and made_of[1] == page_hash(), "the core or the viewer has changed: `make viewer`"
