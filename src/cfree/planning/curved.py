@@ -36,7 +36,7 @@ from cfree.planning.separation import Separated
 Answer = Path | Separated | AllSeparated
 Ask = Callable[[Planner, float | None, Number | None], Answer]
 POSES = 400  # poses of a path at which overlaps are looked up
-PATCHES = 100_000  # default limit of contact patches trimmed for one query; about 10 s
+PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
 NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
 TOUCHING = "these touch, or all but do; give a smaller tolerance, or other shapes"

@@ -91,7 +91,7 @@ def plan(
         Called with the completed share of the free space, if that has to be computed.
     tolerance : float, optional
         The least error of the polygons for round shapes; by default a 2**14th of the robot's size. With neither this
-        nor `max_seconds`, a query with round shapes ends undecided after 100,000 contact patches, about 10 s.
+        nor `max_seconds`, a query with round shapes ends undecided after 80,000 contact patches, about 10 s.
     nearest_free : bool
         Move a start or goal that is not free, or has less than the clearance, to the nearest free pose that a search
         finds. The answer has the requested ones: `Path.moved`, `Separated.moved`.
