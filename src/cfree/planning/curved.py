@@ -142,9 +142,9 @@ class CurvedPlanner:
             with suppress(IncompleteError, InvalidPoseError):
                 answer = ask(planner, 0.0, other) if other > 0 else None
                 if outward and isinstance(answer, Path):
-                    lo = max(lo, float(other))
+                    lo = max(lo, math.nextafter(float(other), 0.0))  # rounded down
                 elif not outward and answer is not None and not isinstance(answer, Path):
-                    hi = min(hi, float(other))
+                    hi = min(hi, math.nextafter(float(other), math.inf))  # rounded up
         return lo, hi
 
     def _refined(
