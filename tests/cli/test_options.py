@@ -341,7 +341,7 @@ def length(gif: Path) -> float:
 def test_progress_is_told_in_lines_where_there_is_no_terminal(
     command: str, told: str, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(terminal, "EVERY", 0.001)
+    monkeypatch.setattr(terminal, "EVERY", 0.0001)
     result = run(*(re.sub(r"\{(.*)\}", lambda name: str(folder / name[1]), word) for word in command.split()))
     assert result.exit_code == 0, result.output
     assert re.search(told, result.stderr) and "\r" not in result.stderr and "%" not in result.stdout

@@ -60,22 +60,30 @@ def _lines() -> Iterator[Callable[[str], None]]:
     told.setdefault("told", time.monotonic())
     texts, over = [""], threading.Event()
 
+    def rest() -> float:
+        return max(0.0, float(told["told"]) + EVERY - time.monotonic())
+
     def tell() -> None:
-        while not over.wait(max(0.0, told["told"] + EVERY - time.monotonic())):
-            told["told"] = time.monotonic()
-            if texts[0] and sys.stderr is not None:
-                print(texts[0], file=sys.stderr, flush=True)
+        told["told"] = time.monotonic()
+        if texts[0] and sys.stderr is not None:
+            print(texts[0], file=sys.stderr, flush=True)
+
+    def tell_often() -> None:
+        while not over.wait(rest()):
+            tell()
 
     def say(text: str) -> None:
         texts[0] = text
 
-    thread = threading.Thread(target=tell, daemon=True)
+    thread = threading.Thread(target=tell_often, daemon=True)
     thread.start()
     try:
         yield say
     finally:
         over.set()
         thread.join()
+        if not rest():  # the thread did not run in time
+            tell()
 
 
 def columns(rows: Sequence[Sequence[str]], sides: str, width: int = 0) -> list[str]:
