@@ -14,11 +14,15 @@ from cfree.arguments import checked
 from cfree.errors import UnsupportedError
 from cfree.formats.text.findings import InvalidFileError, whole
 from cfree.polygons.polygon import Polygon
+from cfree.scene.reading import Note
 from cfree.scene.scene import AnyShape, Scene, shapes_in
 
 Role = Literal["robot", "obstacle", "workspace", "part"]
 ROLES = ("robot", "obstacle", "workspace")
 PART, IGNORE = "part", "ignore"
+
+
+_CHANGED = ("guess", "assumption", "joined", "near", "mended", "info")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,17 +46,26 @@ class Shapes:
         The shapes in the order of the file; each has a ``role``, a ``name`` or None, and a ``polygon``.
     settings : mapping
         The file's other members of a scene: bounds, start, goal, units and so on, as arguments of `Scene`.
-    changed, dropped : tuple of str
-        The parts of the file that reading changed, and those that it dropped; one line for all of a kind.
+    reading : tuple of Note
+        Losses, guesses and changes of reading, the most serious first.
     """
 
     form: str
     shapes: tuple[Shape, ...]
     settings: Mapping[str, Any] = field(default_factory=dict, hash=False)
-    changed: tuple[str, ...] = ()
-    dropped: tuple[str, ...] = ()
+    reading: tuple[Note, ...] = ()
     file: str = ""
     remedy: str = ""
+
+    @property
+    def changed(self) -> tuple[str, ...]:
+        """Lines about the parts that reading changed; `reading` has them as notes."""
+        return tuple(_line(note) for note in self.reading if note.kind in _CHANGED)
+
+    @property
+    def dropped(self) -> tuple[str, ...]:
+        """Lines about the parts that reading dropped; `reading` has them as notes."""
+        return tuple(_line(note) for note in self.reading if note.kind not in _CHANGED)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
@@ -95,3 +108,7 @@ class Shapes:
             workspace=rooms[0].polygon if rooms else None,
             **self.settings,
         )
+
+
+def _line(note: Note) -> str:
+    return note.what if note.count == 1 else f"{note.what} ({note.count:,} times)"

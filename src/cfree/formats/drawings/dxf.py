@@ -34,7 +34,8 @@ from cfree.curves.drawn import (
     reversed_ring,
 )
 from cfree.exact.number import ExactPoint
-from cfree.formats.drawings.outlines import Drawn, shapes_of_drawing
+from cfree.formats.drawings.content import Drawn
+from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.source import DEEPEST, Source, read_bytes
 from cfree.formats.scenes.scene_settings import read_settings
 from cfree.formats.shapes import Shapes
@@ -66,7 +67,7 @@ def read_dxf(source: Source) -> Shapes:
     except Exception as error:  # a damaged file raises any of them
         source.refuse(f"{str(error)[:100] or type(error).__name__}; give DXF")
     if audit.fixes:
-        source.changed["faults of the file, mended by ezdxf"] += len(audit.fixes)
+        source.note("info", "faults of the file, mended by ezdxf", count=len(audit.fixes))
     walk = _Walk(source, hidden)
     walk.all(entities, None, 0)
     drawn = list(walk.drawn())
@@ -100,17 +101,17 @@ class _Walk:
                 layer = str(entity.dxf.get("layer", "0"))
                 layer = block_layer if layer == "0" and block_layer is not None else layer
                 if layer.lower() in self.hidden:
-                    self.source.dropped[f"{kind} on layer {layer}, which is off"] += 1
+                    self.source.note("lost", f"{kind} on layer {layer}, which is off", "less")
                 elif kind == "INSERT":
                     self.block(entity, layer, depth)
                 elif kind in _READERS:
                     _READERS[kind](self, entity, layer)
                 else:
-                    self.source.dropped[f"{kind}: no outline"] += 1
+                    self.source.note("lost", f"{kind}: no outline", "less")
             except InvalidFileError:
                 raise
             except Exception as error:  # ezdxf raises errors of many types
-                self.source.dropped[f"{kind}: {str(error)[:80] or type(error).__name__}"] += 1
+                self.source.note("lost", f"{kind}: {str(error)[:80] or type(error).__name__}", "less")
 
     def block(self, entity: Any, layer: str, depth: int) -> None:
         copies = entity.multi_insert() if entity.mcount > 1 else (entity,)
@@ -156,7 +157,9 @@ class _Walk:
                 rings.append(_tied(ring))
                 used += len(ring)
         if len(pieces) > used:
-            self.source.dropped["open line: it forbids nothing; close it, or give it width"] += len(pieces) - used
+            self.source.note(
+                "lost", "open line: it forbids nothing; close it, or give it width", "less", count=len(pieces) - used
+            )
         return rings
 
     def once(self, pieces: Ring) -> Ring:
@@ -165,9 +168,9 @@ class _Walk:
         for piece in pieces:
             joints, between = frozenset(map(_joint, ends(piece))), _joint(middle(piece))
             if joints == {between}:
-                self.source.dropped["line so short that it is a point"] += 1
+                self.source.note("lost", "line so short that it is a point", "less")
             elif distinct.setdefault((joints, between), piece) is not piece:
-                self.source.dropped["line that is drawn twice: once"] += 1
+                self.source.note("lost", "line that is drawn twice: once", "less")
         return [*distinct.values()]
 
     def goes_on(self, layer: str, pieces: Ring) -> None:
@@ -207,14 +210,14 @@ class _Walk:
         """Read an LWPOLYLINE, or a POLYLINE in the plane."""
         if entity.dxftype() == "POLYLINE":
             if not entity.is_2d_polyline:
-                self.source.dropped["POLYLINE in space: no outline"] += 1
+                self.source.note("lost", "POLYLINE in space: no outline", "less")
                 return
             corners = [(v.dxf.location.x, v.dxf.location.y, v.dxf.get("bulge", 0.0)) for v in entity.vertices]
             closed = entity.is_closed
         else:
             corners, closed = list(entity.get_points("xyb")), entity.closed
             if entity.dxf.get("const_width", 0.0):
-                self.source.dropped["width of polylines"] += 1
+                self.source.note("lost", "width of polylines", "less")
         self.source.spend(len(corners))
         ring = _in_plane(entity, _bulged_ring(corners, closed))
         if not (closed or (len(corners) > 2 and corners[0][:2] == corners[-1][:2])):
@@ -226,7 +229,7 @@ class _Walk:
         curve = entity.construction_tool()
         self.source.spend(curve.count)
         if curve.degree > 3 or curve.is_rational:
-            self.source.changed["SPLINE with weights or of a degree above 3: Bezier curves through its points"] += 1
+            self.source.note("info", "SPLINE with weights or of a degree above 3: Bezier curves through its points")
             pieces: Iterable[Any] = (piece.control_points for piece in curve.cubic_bezier_approximation(level=8))
         else:
             pieces = curve.bezier_decomposition()

@@ -43,7 +43,7 @@ def read_nesting(source: Source, data: Any) -> Shapes:
     free = [(name, part, wanted.get(name, PART)) for name, _, parts in items.values() for part in parts]
     shapes += [Shape(role, name, part) for name, part, role in free if role != IGNORE and (role != PART or not placed)]
     if not placed and any(role == PART for _, _, role in free):
-        source.dropped["items without a place: in no scene, unless a role says what they are"] += 1
+        source.note("lost", "items without a place: in no scene, unless a role says what they are", "less")
     shapes += reader.strip(data)
     name = _member(data, "name")[0]
     settings = {"name": name} if isinstance(name, str) else {}
@@ -87,7 +87,7 @@ class _Reader:
             by_id[number] = f"item {number}", allowed, self.polygons(shape, (key, k, shape_key))
             demand, _ = _member(item, "demand")
             if type(demand) is int and demand > 1:
-                self.source.changed["items that are wanted several times: once each"] += 1
+                self.source.note("info", "items that are wanted several times: once each")
         return by_id
 
     def polygons(self, shape: Any, path: Path) -> list[Polygon]:
@@ -157,7 +157,7 @@ class _Reader:
             several, inner = _member(value, "layouts")
             if isinstance(several, list) and several:
                 if len(several) > 1:
-                    self.source.dropped["layouts after the first"] += len(several) - 1
+                    self.source.note("lost", "layouts after the first", "less", count=len(several) - 1)
                 yield several[0], (*path, inner, 0)
 
     def placed(self, layout: Any, path: Path, items: dict[int, Item]) -> Iterator[Shape]:

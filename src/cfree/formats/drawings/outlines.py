@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from cfree.curves.drawn import Line, Ring, Vector, carried, decimal, straight, translation, turn
@@ -11,6 +10,7 @@ from cfree.curves.hulls import Outline, area, box_of, in_range, polygon_of, roug
 from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
+from cfree.formats.drawings.content import Drawn
 from cfree.formats.drawings.source import Source, role_of, shapes_of, tolerance_of
 from cfree.formats.shapes import IGNORE, Shape, Shapes
 from cfree.formats.text.findings import InvalidFileError, Problem
@@ -18,16 +18,6 @@ from cfree.scene.scene import explained
 from cfree.words import counted
 
 PIVOT = "pivot"
-
-
-@dataclass(frozen=True, slots=True)
-class Drawn:
-    """Rings that are filled together, and the names of their groups, the innermost first."""
-
-    rings: list[Ring]
-    names: tuple[str, ...]
-    line: int = 1
-    even_odd: bool = True
 
 
 def shapes_of_drawing(
@@ -48,7 +38,7 @@ def shapes_of_drawing(
     curves = 0
     for item, role, name in items:
         if role == IGNORE:
-            source.dropped[f"{name}: ignored"] += 1
+            source.note("lost", f"{name}: ignored", "less")
             continue
         rings = item.rings
         if role == "robot" and pivot:
@@ -64,15 +54,16 @@ def shapes_of_drawing(
             else:
                 shapes.append(Shape(role, name, polygon))
     if curves:
-        source.changed[
-            f"{counted(curves, 'outline')} with curves: polygons around (a workspace: inside) within {tolerance:g}"
-        ] += 1
+        source.note(
+            "info",
+            f"{counted(curves, 'outline')} with curves: polygons around (a workspace: inside) within {tolerance:g}",
+        )
     if problems:
         raise InvalidFileError(source.findings.file, problems)
     completed = dict(settings)
     if pivot and "start" not in completed and any(shape.role == "robot" for shape in shapes):
         completed["start"] = Pose(*pivot, 0)
-        source.changed["the pivot is the robot's reference point, and its place the start"] += 1
+        source.note("info", "the pivot is the robot's reference point, and its place the start")
     return shapes_of(source, form, shapes, completed, remedy)
 
 
@@ -96,7 +87,7 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
     points: list[list[Vector]] = [rough(ring) for ring in rings]
     solid = [k for k in range(len(rings)) if not _is_flat(rings[k], points[k])]
     if len(solid) < len(rings):
-        source.dropped["ring on a line: it forbids nothing; give it width"] += len(rings) - len(solid)
+        source.note("lost", "ring on a line: it forbids nothing; give it width", "less", count=len(rings) - len(solid))
     if len(solid) == 1:
         return [Outline(rings[solid[0]])]
     areas = [area(part) for part in points]
@@ -123,7 +114,7 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
             if owner is not None:
                 holes[owner].append(k)
         else:
-            source.changed["a ring inside of a filled one: filled already"] += 1
+            source.note("info", "a ring inside of a filled one: filled already")
     return [Outline(rings[k], tuple(rings[j] for j in sorted(inner))) for k, inner in sorted(holes.items())]
 
 

@@ -55,7 +55,7 @@ def _parameters(source: Source, root: Any) -> Shapes:
             elif key == "robot_radius":
                 radii.append((_above_zero(text), node))
             elif key == "footprint_padding" and to_fraction(text):
-                source.dropped[f"{key} {text}: the robot is not grown by it"] += 1
+                source.note("lost", f"{key} {text}: the robot is not grown by it", "less")
         except (FormatError, ValueError) as error:
             _fault(source, node, key, str(error).removeprefix("footprint: "))
     if not polygons:
@@ -63,7 +63,7 @@ def _parameters(source: Source, root: Any) -> Shapes:
             polygon = _disc(source, radius)
             polygons.setdefault(polygon, node)
     elif radii:
-        source.dropped["robot_radius: there is also a footprint"] += len(radii)
+        source.note("lost", "robot_radius: there is also a footprint", "less", count=len(radii))
     if len(polygons) > 1:
         for node in list(polygons.values())[1:]:
             _fault(
@@ -78,7 +78,7 @@ def _parameters(source: Source, root: Any) -> Shapes:
 def _disc(source: Source, radius: Fraction) -> Polygon:
     ring: Ring = [arc_of_circle((0.0, 0.0), float(radius))]
     tolerance = tolerance_of(source, [ring])
-    source.changed[f"robot_radius {float(radius):g}: a polygon around the disc, within {tolerance:g}"] += 1
+    source.note("info", f"robot_radius {float(radius):g}: a polygon around the disc, within {tolerance:g}")
     return polygon_of(Outline(ring), tolerance, spend=source.spend)
 
 
@@ -109,10 +109,10 @@ def _map(source: Source, keys: dict[str, Any]) -> Shapes:
     rows, columns = marked.shape
     if origin.theta_error:
         off = origin.theta_error * float(resolution) * (rows + columns)
-        source.changed[f"yaw of the origin: within {origin.theta_error:.1g} radians, cells within {off:.1g}"] += 1
+        source.note("info", f"yaw of the origin: within {origin.theta_error:.1g} radians, cells within {off:.1g}")
     if unknown:
         what = "obstacles" if source.reading.unknown == "obstacle" else "free"
-        source.changed[f"{counted(unknown, 'unknown cell')}: {what}"] += 1
+        source.note("info", f"{counted(unknown, 'unknown cell')}: {what}")
 
     def placed(ring: list[tuple[int, int]]) -> list[Any]:
         return list(origin.apply_exact([(x * resolution, y * resolution) for x, y in ring]))
@@ -124,7 +124,7 @@ def _map(source: Source, keys: dict[str, Any]) -> Shapes:
     if source.reading.unknown == "obstacle":
         edge = placed([(0, 0), (columns, 0), (columns, rows), (0, rows)])
         shapes.append(Shape("workspace", None, Polygon(edge)))
-        source.changed["the outside of the map is also unknown: the map's edge is the workspace"] += 1
+        source.note("info", "the outside of the map is also unknown: the map's edge is the workspace")
     return shapes_of(source, "ROS map", shapes, {"units": "m"}, _ROBOT)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import time
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,6 +13,7 @@ from cfree.curves.drawn import Ring
 from cfree.curves.hulls import box_of
 from cfree.formats.shapes import Shape, Shapes
 from cfree.formats.text.findings import Findings, InvalidFileError, Problem, whole
+from cfree.scene.reading import Effect, Item, Kind, Note, Notes
 
 MOST_BYTES = 1 << 26
 """Maximum size of a drawing or a map."""
@@ -31,9 +31,27 @@ _MARK = re.compile(r"(robot|obstacle|workspace)(?![a-z])", re.IGNORECASE)
 class Reading:
     """Options of reading, see `cfree.load_shapes`."""
 
-    tolerance: float | None = None
-    unknown: Literal["obstacle", "free"] = "obstacle"
+    tolerance: float | None = None  # greatest error of polygons for curves
+    unknown: Literal["obstacle", "free"] = "obstacle"  # unknown cells of a map
     roles: Mapping[str, str] = field(default_factory=dict)
+    join: float | None = None  # greatest gap that is closed; None: 1e-6 of the drawing's size; 0: none
+    join_holes: bool = False  # rings that a guess closes may be holes
+    strokes: float | Literal["ignore", "drawn"] = (
+        "ignore"  # unfilled lines are walls: of the drawn width, or of this one
+    )
+    repair: bool | None = None  # self-crossing rings by the fill rule; None: in drawings, not in JSON
+    holes: Literal["outlines", "nested"] = "outlines"  # nested unfilled elements of an SVG group are holes
+    fills: Literal["outlines", "hatches"] = "outlines"  # hatches alone say where a DXF layer is solid
+    space: str = ""  # layout of a DXF file
+    language: str = "en"  # of branches of SVG's switch
+    units: str = ""  # unit of a file that names none
+    map_rules: Literal["strict", "nav2", "nav2-old", "ros1"] = "strict"
+    occupied: int | None = None  # cells of a map from this value up, of 100, are occupied
+    free_thresh: float | None = None  # in place of the map's
+    unknown_grey: int | None = None  # grey value of unknown cells
+    despeckle: int = 0  # occupied parts of a map of fewer cells are free
+    min_area: float = 0.0  # smaller shapes of a drawing are left out
+    padding: float = 0.0  # of the robot, as nav2 pads a footprint
 
 
 class Source:
@@ -42,8 +60,7 @@ class Source:
     def __init__(self, file: str, text: str = "", reading: Reading | None = None) -> None:
         self.findings = Findings(file, text)
         self.reading = reading or Reading()
-        self.changed: Counter[str] = Counter()
-        self.dropped: Counter[str] = Counter()
+        self.notes = Notes()
         self._steps = 0
         self._end = time.monotonic() + MOST_SECONDS
 
@@ -58,6 +75,24 @@ class Source:
             self.refuse(f"more than {MOST_STEPS:,} elements and points, references expanded; give a smaller file")
         if self._steps % 64 < steps and time.monotonic() > self._end:
             self.refuse(f"not read after {MOST_SECONDS:g} seconds; give a smaller file")
+
+    def note(
+        self,
+        kind: Kind,
+        what: str,
+        effect: Effect = "none",
+        *,
+        count: int = 1,
+        where: str = "",
+        at: tuple[float, float] | None = None,
+        size: float | None = None,
+        handle: str = "",
+        remedy: str = "",
+    ) -> None:
+        """Record a difference between the file and the scene, see `Note`; with a handle or a place, also as an item."""
+        if count:
+            items = (Item(handle, at, size),) if handle or at else ()
+            self.notes.add(Note(kind, what, effect, count, where, at, size, items, remedy))
 
     def refuse(self, message: str, line: int = 1, column: int = 1, place: str = "") -> NoReturn:
         """Refuse the file: its rest cannot be read."""
@@ -100,15 +135,10 @@ def shapes_of(source: Source, form: str, shapes: list[Shape], settings: Mapping[
         form,
         tuple(shapes),
         dict(settings),
-        _lines(source.changed),
-        _lines(source.dropped),
+        tuple(source.notes),
         source.findings.file,
         remedy,
     )
-
-
-def _lines(counted: Counter[str]) -> tuple[str, ...]:
-    return tuple(message if count == 1 else f"{message} ({count:,} times)" for message, count in counted.items())
 
 
 def role_of(source: Source, *names: str | None) -> tuple[str, str | None]:

@@ -31,7 +31,8 @@ from cfree.curves.drawn import (
     translation,
 )
 from cfree.exact.number import to_fraction
-from cfree.formats.drawings.outlines import Drawn, shapes_of_drawing
+from cfree.formats.drawings.content import Drawn
+from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.source import DEEPEST, Source
 from cfree.formats.drawings.xml_tree import Node, read_tree
 from cfree.formats.scenes.scene_settings import read_settings
@@ -88,7 +89,7 @@ def _scale(source: Source, root: Node) -> tuple[Affine, str]:
     if x != y and root.attributes.get("preserveAspectRatio", "").strip() != "none":
         x = y = min(x, y)
     if x != 1:
-        source.changed[f"a user unit is {float(x):g} {width[2]}"] += 1
+        source.note("info", f"a user unit is {float(x):g} {width[2]}")
     return (x, Fraction(0), Fraction(0), y, Fraction(0), Fraction(0)), width[2]
 
 
@@ -115,11 +116,11 @@ class _Walk:
         if depth > DEEPEST:
             self.source.refuse(f"groups and references nested more than {DEEPEST} deep; flatten them", node.line)
         if _invisible(node):
-            self.source.dropped[f"hidden {node.tag}"] += 1
+            self.source.note("lost", f"hidden {node.tag}", "less")
             return
         if node.tag in _HIDDEN and not (used and node.tag == "symbol"):
             if node.tag == "style":
-                self.source.dropped["style sheet: not applied, so it hides and moves nothing"] += 1
+                self.source.note("lost", "style sheet: not applied, so it hides and moves nothing", "less")
             return
         frame = compose(outer, self._transform(node)) if "transform" in node.attributes else outer
         names = [
@@ -149,13 +150,13 @@ class _Walk:
                 self.source.refuse("a coordinate beyond 1e308; scale the drawing", node.line, place=node.tag)
             yield Drawn(placed, tuple(names), node.line, even)
         else:
-            self.source.dropped[f"{node.tag[:40]}: no outline"] += 1
+            self.source.note("lost", f"{node.tag[:40]}: no outline", "less")
 
     def _used(self, node: Node, frame: Affine, names: list[str], depth: int) -> Iterator[Drawn]:
         link = node.attributes.get("href", "")
         target = self.known.get(link[1:]) if link.startswith("#") else None
         if target is None:
-            self.source.dropped[f"use: {link[:60]!r} is not in this file"] += 1
+            self.source.note("lost", f"use: {link[:60]!r} is not in this file", "less")
             return
         x, y = (self._number(node, key) for key in ("x", "y"))
         moved = compose(frame, translation(x, y))
@@ -213,7 +214,7 @@ class _Walk:
 
         self.source.spend(1 + sum(map(len, node.attributes.values())) // 16)
         if node.tag == "line":
-            self.source.dropped["line: it forbids nothing"] += 1
+            self.source.note("lost", "line: it forbids nothing", "less")
             return []
         if node.tag in ("circle", "ellipse"):
             rx, ry = (number("r"),) * 2 if node.tag == "circle" else (size("rx"), size("ry"))
@@ -226,7 +227,7 @@ class _Walk:
             values = [to_fraction(text) for text in _words(node.attributes.get("points", ""))]
             points = list(zip(values[::2], values[1::2], strict=False))
             if node.tag == "polyline" and points[:1] != points[-1:]:
-                self.source.dropped["open polyline: it forbids nothing"] += 1
+                self.source.note("lost", "open polyline: it forbids nothing", "less")
                 return []
             return [polyline(points)] if len(points) > 2 else []
         text = node.attributes.get("d", "")
@@ -258,7 +259,7 @@ class _Walk:
 
     def _drop(self, ring: Ring) -> None:
         if ring:
-            self.source.dropped["open path: it forbids nothing; close it, or make its stroke a path"] += 1
+            self.source.note("lost", "open path: it forbids nothing; close it, or make its stroke a path", "less")
 
 
 _UNITS = {

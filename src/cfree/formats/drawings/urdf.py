@@ -44,7 +44,7 @@ def read_urdf(source: Source) -> Shapes:
     for solid in solids:
         name = solid[0]
         if source.reading.roles.get(name) == IGNORE:
-            source.dropped[f"{name}: ignored"] += 1
+            source.note("lost", f"{name}: ignored", "less")
             continue
         radius = max((math.hypot(*u) for u in solid[2]), default=0.0) * 2 if len(solid) == 3 else 0.0
         step = 2 * math.acos(1 / (1 + tolerance / radius)) if radius else 1.0
@@ -53,12 +53,13 @@ def read_urdf(source: Source) -> Shapes:
         try:
             shapes.append(Shape("robot", None, _hull(points)))
         except (InvalidPolygonError, ValueError) as error:
-            source.dropped[f"{name}: {error}"] += 1
+            source.note("lost", f"{name}: {error}", "less")
     if round_ones:
-        source.changed[
+        source.note(
+            "info",
             f"{counted(len(round_ones), 'cylinder or sphere', 'cylinders and spheres')}: "
-            f"polygons around, within {tolerance:g}"
-        ] += 1
+            f"polygons around, within {tolerance:g}",
+        )
     remedy = "its links have no box, cylinder or sphere as collision geometry; add one"
     if not shapes:
         source.findings.at(0, "", f"there is no robot; {remedy}")
@@ -84,7 +85,7 @@ def _links(source: Source, root: Node) -> Iterator[tuple[Node, Matrix]]:
         carried.add(child)
         below.setdefault(parent, []).append((child, _origin(source, joint)))
         if joint.attributes.get("type") not in ("fixed", None):
-            source.changed["joints that move: at 0"] += 1
+            source.note("info", "joints that move: at 0")
     tops = [name for name in links if name not in carried]
     if len(tops) != 1:
         source.refuse(f"{len(tops)} root links; join the links to one tree", root.line)
@@ -155,7 +156,7 @@ def _solids(source: Source, link: Node, collision: Node, outer: Matrix) -> Itera
                 (radius,) = _numbers(source, form, "radius", 1)
                 yield name, [tuple(matrix[:2, 3])], [(radius, 0.0), (0.0, radius)]
             else:
-                source.dropped[f"{form.tag[:40]}: only boxes, cylinders and spheres are read"] += 1
+                source.note("lost", f"{form.tag[:40]}: only boxes, cylinders and spheres are read", "less")
 
 
 def _corners(solid: Solid, count: int) -> list[tuple[float, float]]:
