@@ -12,6 +12,8 @@ from click.core import ParameterSource
 from cfree.cli.faults import one_line_faults
 
 FILE = click.Path(path_type=Path)
+COMPUTED = "only for a computation, and this boundary is already computed"
+"""The reason to refuse limits of a computation for the file of a boundary."""
 
 
 class Word(click.Choice[str]):

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from cfree.cli.terminal import columns, printable, terminal_width
+from cfree.cli.terminal import columns, print_json, printable, terminal_width
 from cfree.exact.pose import Pose
 from cfree.scene.goals import Goal, Moved, text_of
 from cfree.scene.naming import all_placed, placed
@@ -195,6 +195,16 @@ def motion_counts(path: Path) -> dict[str, int]:
     """Count the motions of each kind."""
     kinds = [motion.kind for motion in path.motions]
     return {f"{kind}s": kinds.count(kind) for kind in ("translation", "rotation", "slide")}
+
+
+def print_result(
+    title: str, source: os.PathLike[str], rows: dict[str, Any], files: dict[str, str], as_json: bool
+) -> None:
+    """Print the result and the files written: as a table, or as JSON."""
+    if as_json:
+        print_json({"file": str(source), **rows, "files": files})
+    else:
+        print_rows(title, rows, files)
 
 
 def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:

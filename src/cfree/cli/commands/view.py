@@ -1,0 +1,43 @@
+"""The command ``cfree view``: a scene in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from cfree.cli import options
+from cfree.cli.faults import one_line_faults
+from cfree.cli.files import answer_for, bar, check_outputs
+from cfree.cli.options import FILE, examples, file_option
+from cfree.cli.terminal import printable
+
+
+@click.command(
+    epilog=examples("cfree view scene.json", "cfree view scene.json answer.json --html page.html --no-browser")
+)
+@options.scene
+@click.argument("answer", type=FILE, required=False)
+@file_option("--html", metavar="HTML", help="Write the page: .html; it needs no other file and no server.")
+@click.option("--browser/--no-browser", help="Open the page in the browser, or not.", default=True, show_default=True)
+def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> None:
+    """Show a scene in the browser, to be dragged and turned.
+
+    Shows its configuration space beside it, exact like all answers. ANSWER is a path or a proof written by cfree plan
+    -o for this scene; an answer for another scene is refused. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format
+    that cfree convert reads.
+    """
+    with one_line_faults():
+        from cfree.formats.scene_file import load_scene
+        from cfree.planning.goals import AllSeparated
+        from cfree.viewer.browser import view as show
+
+        for source in (scene, answer):
+            if html and source:
+                check_outputs(source, {"page": html})
+        with bar("reading"):
+            loaded = load_scene(scene)
+            shown = answer_for(loaded, answer) if answer else None
+        if isinstance(shown, AllSeparated):
+            raise ValueError(f"{answer}: proofs for several goals, and the page shows one; plan with one goal")
+        print(printable(str(show(loaded, shown, html=html, browser=browser))))
