@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import math
+import subprocess
 import sys
 from fractions import Fraction
 from itertools import pairwise
@@ -159,6 +160,52 @@ def test_half_turns_are_free_both_ways(exact: Any) -> None:
     assert ways == [False, True]
     valid = exact.MotionValidator(si, checker)
     assert not valid.checkMotion(left, right) and not valid.checkMotion(right, left)
+
+
+PLANS_TWICE = """
+import cfree.ompl
+from cfree import MotionChecker, Polygon, Pose, Scene
+from ompl import util
+
+util.setLogLevel(util.LogLevel.LOG_ERROR)
+box = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+scene = Scene(box, [], bounds=(0, 0, 9, 9), start=Pose(2, 2), goal=Pose(5, 5, "90deg"))
+for function in (False, True):
+    setup = cfree.ompl.simple_setup(scene)
+    si = setup.getSpaceInformation()
+    if function:
+        setup.setStateValidityChecker(lambda state: True)
+    si.setMotionValidator(cfree.ompl.MotionValidator(si, MotionChecker(scene)))
+    setup.solve(9.0)
+    cfree.ompl.to_path(setup.getSolutionPath(), scene)
+"""
+
+
+@pytest.mark.usefixtures("exact")
+def test_python_ends_without_leaked_instances() -> None:
+    run = subprocess.run([sys.executable, "-c", PLANS_TWICE], capture_output=True, text=True)
+    assert (run.returncode, run.stdout + run.stderr) == (0, "")
+
+
+def test_motions_need_a_checker_of_states_first(exact: Any) -> None:
+    from ompl import base
+
+    si = base.SpaceInformation(exact.state_space(ROOM))
+    with pytest.raises(ValueError, match=r"call si\.setStateValidityChecker first"):
+        exact.MotionValidator(si, MotionChecker(ROOM))
+
+
+def test_goals_of_motions_are_valid_for_the_checker_of_states(exact: Any) -> None:
+    from ompl import base
+
+    space = exact.state_space(ROOM)
+    si = base.SpaceInformation(space)
+    si.setStateValidityChecker(lambda state: state.getX() < 10)
+    validator = exact.MotionValidator(si, MotionChecker(ROOM))
+    start, near, far = (space.allocState() for _ in range(3))
+    for state, x in ((start, 9), (near, 9.5), (far, 10.5)):
+        exact.set_pose(state, x, 6, math.pi / 2)
+    assert validator.checkMotion(start, near) and not validator.checkMotion(start, far)
 
 
 def test_validity_is_exact(exact: Any) -> None:

@@ -77,14 +77,29 @@ class StateValidityChecker(ob.StateValidityChecker):
 
 
 class MotionValidator(ob.MotionValidator):
-    """Exact test that the rotation or translation from one state to another is free, in closed form."""
+    """Exact test that the rotation or translation from one state to another is free, in closed form.
+
+    A goal must also be valid for the state validity checker that `si` has when the validator is made.
+
+    Raises
+    ------
+    ValueError
+        If `si` has no state validity checker.
+
+    Notes
+    -----
+    The validator holds that checker and not `si`, because `si` holds the validator. Python cannot collect a cycle of
+    references through OMPL: the two would stay in memory, and nanobind would list them as leaked when Python ends.
+    """
 
     def __init__(self, si: Any, checker: MotionChecker) -> None:
         super().__init__(si)
-        self._si, self._checker = si, checker
+        self._valid, self._checker = si.getStateValidityChecker(), checker
+        if self._valid is None:
+            raise ValueError("si: it has no state validity checker; call si.setStateValidityChecker first")
 
     def checkMotion(self, start: Any, goal: Any) -> bool:
-        if not self._si.isValid(goal):
+        if not self._valid.isValid(goal):
             return False
         first, last = pose_of(start), pose_of(goal)
         motion, back = motion_between(first, last), motion_between(last, first)
