@@ -1,4 +1,4 @@
-// Whether poses and motions are free. Motions are integers; see motion_checker.hpp.
+// Decisions whether poses and motions are free. Motions are integers; see motion_checker.hpp.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -23,9 +23,9 @@ static void check(const PoseChecker& c, const In<double, 2>& poses, int threads,
     watched([&] { c.check(poses.data(), poses.shape(0), threads, reinterpret_cast<cfree::Verdict*>(out.data())); });
 }
 
-// Of a `Pose` or x, y and theta in doubles True or False, of a table of one such row a list of that; None of other tuples and
-// lists, and of a `Pose` that is not known to be within the limits where doubles do not tell. Angles of rows are brought to
-// [0, 2 pi) in doubles, as those of `Poses` are.
+// True or False for a `Pose`, or for x, y and theta in doubles; a list of that for a table of one such row. None for other
+// tuples and lists, and for a `Pose` that doubles leave open and that is not known to be within the limits. Angles of rows
+// are brought to [0, 2 pi) in doubles, as those of `Poses` are.
 static nb::object is_free(const PoseChecker& c, nb::handle poses, bool is_within) {
     if (length(poses) < 0) return nb::cast(c.is_free(pose_of(poses), is_within));
     const bool is_table = length(poses) == 1;
@@ -118,7 +118,7 @@ static cfree::MeasuredPose measured(const cfree::GivenPose& pose) {
     return {rounded(x), rounded(y), theta, cfree::ratio(q * q - p * p, w), cfree::ratio(2 * p * q, w)};
 }
 
-// From -pi to pi: a `Rotation` by half a turn goes either way.
+// An angle from -pi to pi: a `Rotation` by half a turn goes either way.
 static double signed_angle(const Int& q, const Int& p) {
     const double half = abs(p) <= q ? cfree::arc_tangent(cfree::ratio(p, q))
                                     : std::copysign(0.5 * std::numbers::pi, p.sign()) - cfree::arc_tangent(cfree::ratio(q, p));

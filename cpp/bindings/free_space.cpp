@@ -41,8 +41,8 @@ static Made<int> locate(const FreeSpace& space, const In<double, 2>& xy, const C
     return array_of(std::move(found));
 }
 
-// Of one pose, in doubles or as a `Pose`: its cell, or -1 if it is forbidden, -2 if it is in the closure of none. None where
-// Python has to say whether the limits hold it, and for other poses.
+// The cell of one pose, in doubles or as a `Pose`; -1 if it is forbidden, -2 if it is in the closure of none. None where
+// Python has to decide whether it is within the limits, and for other poses.
 static std::optional<int> locate_one(const FreeSpace& space, const cfree::PoseChecker& checker, nb::handle pose) {
     const auto numbers = doubles_of(pose);
     if (!numbers && length(pose) >= 0) return {};

@@ -58,14 +58,14 @@ private:
     PyObject* name;
 };
 
-// Of a Fraction.
+// The ratio of a Fraction.
 inline cfree::Ratio ratio_of(nanobind::handle fraction) {
     static const Attribute numerator("numerator"), denominator("denominator");
     const auto whole = [](const nanobind::object& n) { return integer(nanobind::borrow<nanobind::int_>(n)); };
     return {whole(numerator.of(fraction)), whole(denominator.of(fraction))};
 }
 
-// Of three doubles, as `Pose` takes them; nothing for very large angles.
+// The pose of three doubles, as `Pose` takes them; nothing for very large angles.
 inline std::optional<cfree::GivenPose> given_pose(const std::array<double, 3>& numbers) {
     const auto [x, y, theta] = numbers;
     const auto read = cfree::read_radians(theta);
@@ -73,7 +73,7 @@ inline std::optional<cfree::GivenPose> given_pose(const std::array<double, 3>& n
     return cfree::GivenPose{cfree::ratio_of(x), cfree::ratio_of(y), read->q, read->p, read->theta};
 }
 
-// Of a `Pose`.
+// The pose of a `Pose`.
 inline cfree::GivenPose pose_of(nanobind::handle pose) {
     static const Attribute x("x"), y("y"), tau("tau"), theta("theta");
     const nanobind::object half = tau.of(pose);
@@ -81,7 +81,7 @@ inline cfree::GivenPose pose_of(nanobind::handle pose) {
     return {ratio_of(x.of(pose)), ratio_of(y.of(pose)), tangent.d, tangent.n, PyFloat_AsDouble(theta.of(pose).ptr())};
 }
 
-// Of either.
+// The pose of either.
 inline std::optional<cfree::GivenPose> given_pose(nanobind::handle pose) {
     if (length(pose) < 0) return pose_of(pose);
     const auto numbers = doubles_of(pose);

@@ -1,4 +1,4 @@
-// What is asked of a scene and its poses: paths, surfaces between poses, all of the free space.
+// Planning for a scene and its poses: paths, surfaces between poses, all of the free space.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>

@@ -6,10 +6,10 @@
 
 #include "cfree/support/lookout.hpp"
 
-// What Python raised while the core was at work, to be thrown when that has ended.
+// An error that Python raised while the core was at work, to be thrown when that has ended.
 class Raised {
 public:
-    // With the lock: whether there is a signal to end the call for.
+    // Needs the lock. True if there is a signal to end the call for.
     bool is_signalled() {
         if (!error && PyErr_CheckSignals() != 0) error.emplace();
         return error.has_value();

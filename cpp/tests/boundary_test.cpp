@@ -63,7 +63,7 @@ static void ties_of_small_integers_are_certain_in_balls() {
     CHECK((c.exact > 0) == (c.exact_seconds > 0));
 }
 
-// With one thread nobody else could ask.
+// One thread: nobody else could ask.
 static void the_one_who_waits_is_asked() {
     const auto crowded = scene_of({robot}, triangles(1000));
     for (const int threads : {1, 2}) {

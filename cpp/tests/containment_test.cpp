@@ -66,7 +66,7 @@ int main() {
     CHECK(is_around(ring, 0, {{{a, point("1/3", "0"), m, b}, {}}, line(b, c), line(c, d), line(d, a)}));
     CHECK(!is_around(ring, 0, {{{a, point("1/3", "-1e-30"), m, b}, {}}, line(b, c), line(c, d), line(d, a)}));
     CHECK(is_around(ring, 0, {{{a, point("1/3", "1e-30"), m, b}, {}}, line(b, c), line(c, d), line(d, a)}));
-    // what is not closed is nothing
+    // a curve that is not closed contains nothing
     CHECK(!is_around(box("3", "3"), 0, {circle[0], circle[1]}) && !is_around(box("3", "3"), 0, {}));
     return failures != 0;
 }

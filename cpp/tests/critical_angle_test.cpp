@@ -8,7 +8,7 @@
 
 using namespace cfree;
 
-// Of the angles of a boundary, those of each short name against exact comparison: how many names agree on an angle of one chord.
+// Compare a boundary's angles of each short name with exact comparison. Returns the number of names that agree on an angle of one chord.
 static int names_of_one_chord(const std::vector<Ring>& robot, const std::vector<Ring>& obstacles) {
     const auto boundary = compute_boundary(scene_of(robot, obstacles));
     const Scene& scene = *boundary->scene;

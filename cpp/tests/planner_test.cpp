@@ -52,7 +52,7 @@ static void where_it_is_too_narrow_there_is_a_proof() {
         CHECK(std::holds_alternative<Separation>(answer));
         const auto& proof = std::get<Separation>(answer);
         CHECK(proof.is_closed && !proof.surface.faces.empty());
-        CHECK(proof.of != planner.scene);  // of a smaller robot
+        CHECK(proof.of != planner.scene);  // a smaller robot's
     }
 }
 

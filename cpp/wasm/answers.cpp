@@ -37,7 +37,7 @@ std::vector<Rational> ring(const Polygon& polygon, std::size_t r) {
     return points;
 }
 
-// What decides whether poses are free.
+// Checkers that decide whether poses are free.
 std::string scene_text(const SceneShapes& shapes) {
     std::string text = "cfree scene 1\n";
     const auto add = [&](const char* word, const Polygon& polygon) {
@@ -84,14 +84,14 @@ std::string contact_text(const SceneFeatures& features, const Feature& f) {
            pair_text(features.obstacles.polygon[j], features.obstacles.vertex[j]) + "}";
 }
 
-// From one pose to the next; theta is counted on.
+// Motion from one pose to the next; theta is counted on.
 std::string motion(const RationalPose& a, const RationalPose& b, double& theta) {
     const Ratio dx = b.x - a.x, dy = b.y - a.y;
     const auto to = [&] { return "\"to\": " + decimals({nearest(b.x.n, b.x.d), nearest(b.y.n, b.y.d), theta}); };
     if (a.half == b.half)
         return "{\"type\": \"translation\", \"vector\": " + decimals(nearest(dx.n, dx.d), nearest(dy.n, dy.d)) + ", " + to() +
                ", \"exact\": {\"vector\": " + exact(dx, dy) + "}}";
-    // with t the tangent of half the turn the pole is (a + b + (-dy, dx) / t) / 2
+    // the pole is (a + b + (-dy, dx) / t) / 2, t the tangent of half the turn
     const HalfAngle turn = HalfAngle::along(a.half.q * b.half.q + a.half.p * b.half.p, a.half.q * b.half.p - a.half.p * b.half.q);
     const Ratio cot = reduced(turn.q, turn.p), half{1, 2};
     const Ratio x = half * (a.x + b.x - cot * dy), y = half * (a.y + b.y + cot * dx);
@@ -166,7 +166,7 @@ std::string piece(const SceneFeatures& features, const Boundary& boundary, Index
 
 // Points and lines that names use and no polygon has: diagonals of convex pieces, corners beyond the bounds.
 std::vector<std::string> auxiliary(const SceneFeatures& features, const Boundary& boundary, const std::vector<Index>& faces) {
-    std::set<std::tuple<bool, bool, Index>> used;  // of obstacles, an edge, number
+    std::set<std::tuple<bool, bool, Index>> used;  // obstacle or not, edge or not, number
     const Trapezoids& t = boundary.trapezoids;
     const auto is_owned = [](const Owners& of, Index k) { return static_cast<std::size_t>(k) < of.vertex.size() && of.vertex[static_cast<std::size_t>(k)] >= 0; };
     for (const Index face : faces) {

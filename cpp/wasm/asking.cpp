@@ -25,7 +25,7 @@ Index owner_of(const Shape& shape, const Owners& owners, Index piece) {
     return shape.piece_layer[static_cast<std::size_t>(piece)] == reference_layer ? bounds_owner : workspace_owner;
 }
 
-// What a pose overlaps: a part of the robot and an obstacle, bounds or workspace.
+// Overlap of a pose: a part of the robot and an obstacle, bounds or workspace.
 std::optional<std::array<Index, 2>> overlap(const World& world, const RationalPose& pose) {
     if (!world.known->is_within_limits(pose)) return std::array<Index, 2>{-1, world.shapes.bounds ? bounds_owner : workspace_owner};
     const auto found = world.checker->first_collision(still(world, pose));
@@ -45,7 +45,7 @@ Poses shortened(const World& world, const Poses& way) {
     return searcher.poses(shortcut.path());
 }
 
-// Where a slide is when it has turned by 2 atan(t).
+// Pose of a slide that has turned by 2 atan(t).
 Place along(const ContactSlide& slide, double t, double theta) {
     const auto at = [&](const std::array<Int, 5>& p) {
         double value = 0;

@@ -1,4 +1,4 @@
-// What a page asks: is a pose free, is there a way, where does a straight way end.
+// Questions of a page: is a pose free, is there a path, where does a straight motion end.
 #pragma once
 #include "reading.hpp"
 #include "reply.hpp"
@@ -8,11 +8,11 @@ namespace cfree {
 
 // Free or not; if free its cells and the contacts that touch, else what overlaps.
 void ask_pose(const World& world, const RationalPose& pose, Reply& reply);
-// A path, or the closed surface that parts the two.
+// A path, or the closed surface that separates the two.
 void ask_way(World& world, const RationalPose& start, const RationalPose& goal, Reply& reply);
 // A path given by its poses, a line each; every motion is checked.
 void ask_walk(World& world, std::string_view lines, Reply& reply);
-// How far a translation is free.
+// Length of the free part of a translation.
 void ask_stop(const World& world, const RationalPose& from, const RationalPose& to, Reply& reply);
 
 }  // namespace cfree

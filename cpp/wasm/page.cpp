@@ -18,7 +18,7 @@ cfree::Reply reply;
 std::string error;
 std::unique_ptr<cfree::World> world;
 
-// What a call does; whether it went well.
+// Answer a call; 1 if it went well.
 int answer(const std::function<void()>& call) {
     reply.columns.clear(), error.clear();
     try {

@@ -104,7 +104,7 @@ HalfAngle half_angle_of(double theta, bool fine) {
         tau = simplest_between(ratio_of(value - margin), ratio_of(value + margin));
     }
     Int q = tau.d, p = tau.n;
-    for (int k = static_cast<int>(std::fmod(turns, 4) + 4) % 4; k > 0; --k) {  // by a right angle: (1, 1) times it
+    for (int k = static_cast<int>(std::fmod(turns, 4) + 4) % 4; k > 0; --k) {  // turns by a right angle: (1, 1) times it
         const Int x = q - p, y = q + p;
         q = x, p = y;
     }

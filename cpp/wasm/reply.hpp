@@ -1,4 +1,4 @@
-// What a call answers, taken from outside column by column: a name, a type, bytes.
+// Answer of a call, taken from outside column by column: a name, a type, bytes.
 #pragma once
 #include <cstdint>
 #include <string>

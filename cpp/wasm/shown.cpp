@@ -33,7 +33,7 @@ void show_polygons(const std::string& prefix, const std::vector<std::shared_ptr<
 
 Vec<double> point(const Shape& shape, Index v) { return UserUnits{}.vertex(shape, v); }
 
-// Where along the line of a contact a pose is.
+// Position of a pose along the line of a contact.
 double t_at(const Scene& scene, const Feature& contact, double x, double y, double theta) {
     const auto [c, s] = cosine_sine(theta);
     const ContactLine<double> line(scene, contact, UserUnits{});
@@ -82,7 +82,7 @@ SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cell
     const auto& owners = features.obstacles.polygon;
     SurfaceColumns out;
     std::unordered_map<std::uint64_t, Index> seen;              // a vertex of a patch
-    std::unordered_map<std::uint64_t, std::pair<Index, Index>> edges;  // of the mesh, their triangle and its corner
+    std::unordered_map<std::uint64_t, std::pair<Index, Index>> edges;  // edges of the mesh, their triangle and its corner
     const auto key = [](Index p, Index q) { return static_cast<std::uint64_t>(p) << 32 | static_cast<std::uint32_t>(q); };
     const auto patch = [&](Index t) { return boundary.trapezoids.patch[static_cast<std::size_t>(mesh.face[static_cast<std::size_t>(t)])]; };
     for (std::size_t t = 0; t < mesh.face.size(); ++t) {
@@ -260,7 +260,7 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
         range.push_back(theta_of(table.chart[k], table.tau_to(which)));
     }
     reply.add("same", same), reply.add("range", range);
-    // what its sides have in common with other patches
+    // parts of its sides in common with other patches
     const CellComplex& c = *world.cells;
     const Index patch = table.patch[static_cast<std::size_t>(trapezoid)];
     std::set<Index> others;

@@ -1,4 +1,4 @@
-// What a page draws: the scene, the boundary's mesh, slices, contacts.
+// Values that a page draws: the scene, the boundary's mesh, slices, contacts.
 #pragma once
 #include "reply.hpp"
 #include "world.hpp"
@@ -9,21 +9,21 @@ void show_scene(const World& world, Reply& reply);
 void show_counts(const World& world, Reply& reply);
 // All columns of boundary and cells, as they are.
 void show_columns(const World& world, Reply& reply);
-// Of one error, or a larger one with about `most` triangles. Vertices are those of single patches, with normals of these.
+// Mesh of one error, or a larger one with about `most` triangles. Vertices are those of single patches, with normals of these.
 void show_mesh(const World& world, double error, double most, Reply& reply);
 // A closed surface of a scene, angles as heights times a length.
 void show_surface(const SceneFeatures& features, const CellComplex& cells, double length, Reply& reply);
 void show_slice(const World& world, double theta, Reply& reply);
 // The contact of a trapezoid at a place on it.
 void show_contact(const World& world, Index trapezoid, const Place& at, Reply& reply);
-// How large a cell is, whether it is bounded, by obstacles alone, and whether the robot can turn round in it.
+// Size of a cell; is it bounded, by obstacles alone; can the robot turn round in it.
 void show_cell(World& world, Index cell, Reply& reply);
 
 // Names of features in the user's polygons: robot part and vertex, obstacle and vertex. -1: bounds, -2: workspace.
 struct Named {
     std::vector<std::uint8_t> kind;
     std::vector<Index> robot_part, robot_vertex, obstacle, obstacle_vertex;
-    std::vector<double> robot_xy, obstacle_xy;  // of each feature its first point and its last, the robot at rest
+    std::vector<double> robot_xy, obstacle_xy;  // each feature's first point and its last, the robot at rest
     void add(const World& world, const Feature& contact);
     void put(const std::string& prefix, Reply& reply) const;
 };

@@ -24,7 +24,7 @@ public:
     const SceneFeatures& features;
     const std::shared_ptr<const Scene> scene;
     const std::shared_ptr<const MotionChecker> checker;
-    const double radius;  // of the robot about its reference point
+    const double radius;  // the robot's, about its reference point
 
     SharedBoundary boundary;
     std::shared_ptr<const CellComplex> cells;
@@ -37,10 +37,10 @@ public:
         std::vector<ContactSlide> slides;
     };
     std::optional<Answer> answer;  // the last one
-    std::vector<double> volumes;  // of cells, once somebody has asked
+    std::vector<double> volumes;  // volumes of cells, once they are needed
 
     void need_space() const;
-    // How far the robot is from obstacles, about: 0 where it touches them; infinite without any.
+    // Distance of the robot from obstacles, about: 0 where it touches them; infinite without any.
     double clearance(const Place& at) const;
 };
 

@@ -69,14 +69,14 @@ private:
     const std::size_t n;
     Loops loops;
     Arrangement result;
-    std::vector<Index> first_of;                // by edge of the loops: one half-edge
+    std::vector<Index> first_of;                // one half-edge of each edge of the loops
     UnionFind sides{0}, fans{0}, corners{0};    // classes of sides of trapezoids, of corners on each side, of corners
-    std::vector<Index> corner_class, vertex;    // by corner: its class; by class: its vertex, -1 if none
-    std::vector<Index> edge_of;                 // by edge of the loops; -1 within a face
+    std::vector<Index> corner_class, vertex;    // each corner's class; each class's vertex, -1 if none
+    std::vector<Index> edge_of;                 // each loop edge's number; -1 within a face
     Index corner_classes = 0;
-    std::vector<Index> link;                     // by corner: its class before touching points are merged
+    std::vector<Index> link;                     // each corner's class before touching points are merged
     std::vector<std::vector<Index>> touching;    // classes of links that touch
-    std::vector<char> is_touching;               // by class of corners
+    std::vector<char> is_touching;               // one per class of corners
 };
 
 Loops Assembly::glued() {

@@ -124,7 +124,7 @@ private:
     const std::int64_t most;
     std::atomic<Index> next{0};
     std::atomic<std::int64_t> total{0};
-    std::vector<Found> found;  // by obstacle ring vertex
+    std::vector<Found> found;  // one per obstacle ring vertex
 };
 
 void Overlaying::take_own(Overlay& of, Index pair, const std::vector<Shadows::Pillar>& pillars, Shadows& near) const {
@@ -230,7 +230,7 @@ Sheets Overlaying::sheets(const SceneFeatures& features) {
     for (Found& list : found) {
         std::vector<const Holders*> all(list.numbers.size());
         for (const auto& [holders, number] : list.numbers) all[number] = &holders;
-        std::map<std::pair<Index, Index>, Sets> known;  // by holders and own pair
+        std::map<std::pair<Index, Index>, Sets> known;  // keys: holders and own pair
         for (std::size_t k = 0; k < list.trapezoids.size(); ++k) {
             const Trapezoid& x = list.trapezoids[k];
             const Index own = pairs.of(one.patches.contact(x.patch));

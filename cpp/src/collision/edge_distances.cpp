@@ -1,4 +1,4 @@
-// What translations sweep, and other motions halved until no part can hold less than what was found.
+// Distances along motions: translations by the area they sweep, others halved until no part can be nearer than the least one.
 #include "cfree/collision/edge_distances.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 
 using Segment = EdgeDistances::Segment;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr std::size_t most_parts = 1 << 12;  // of motions, looked at together: where more would be needed, what is known is the bound
-constexpr double rounding = 0x1p-40;         // of the coordinates: a thousand times what placing and measuring round away
+constexpr std::size_t most_parts = 1 << 12;  // most parts of motions at once; if more are needed, the distance bounded so far is the answer
+constexpr double rounding = 0x1p-40;         // share of the coordinates: a thousand times what placing and measuring round away
 
 double from_point(double x, double y, const Segment& s) {
     const double ux = s.x1 - s.x0, uy = s.y1 - s.y0, vx = x - s.x0, vy = y - s.y0, square = ux * ux + uy * uy;
@@ -43,7 +43,7 @@ Box box_of(const Segment& s) {
     return box;
 }
 
-// Where on the first segment the second is nearest, as a share of it.
+// Share of the first segment at which the second is nearest.
 double nearest_share(const Segment& s, const Segment& other) {
     const double ux = s.x1 - s.x0, uy = s.y1 - s.y0, square = ux * ux + uy * uy;
     if (square == 0) return 0;
@@ -80,7 +80,7 @@ EdgeDistances::EdgeDistances(std::vector<Segment> robot_edges, std::vector<Segme
 }
 EdgeDistances::~EdgeDistances() = default;
 
-// Of several that are as near the first line and the first of the others. None within the distance: infinite.
+// The first line, and the first of the others, of several that are as near. None within the distance: infinite.
 EdgeDistances::Nearest EdgeDistances::nearest(const std::vector<Segment>& lines, double within) const {
     double far = size;
     for (const auto& [x0, y0, x1, y1] : lines) far = std::max({far, std::abs(x0), std::abs(y0), std::abs(x1), std::abs(y1)});

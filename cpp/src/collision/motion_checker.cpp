@@ -164,7 +164,7 @@ std::optional<RealRoot> crossing(const Poly& f, RealRoot& after) {
     for (const auto& [from, to] : isolate(sturm, {0, 0}, {1, 0}, 0)) {
         RealRoot x{sturm.polynomial(), from, to};
         if (sign_at(x.p, x.hi) == 0) x.lo = x.hi;
-        while (!x.is_dyadic() && sign_at(x.p, x.lo) == 0) {  // of another root
+        while (!x.is_dyadic() && sign_at(x.p, x.lo) == 0) {  // x.lo is another root
             const Dyadic mid = Dyadic::middle(x.lo, x.hi);
             (sturm.roots_in(mid, x.hi) > 0 ? x.lo : x.hi) = mid;
             if (sign_at(x.p, x.hi) == 0) x.lo = x.hi;

@@ -29,7 +29,7 @@ constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_squar
 constexpr double cells_in_reach = 8;
 constexpr Index few = 4;  // vertices of a piece: testing all is faster than choosing
 constexpr std::size_t chunk = 1024, sectors = 64, outside = std::numeric_limits<std::size_t>::max();
-constexpr double farthest = 0x1p+997;  // what is farther away is as far as this
+constexpr double farthest = 0x1p+997;  // larger distances count as this
 constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
 
 Vec<double> unit_normal(const Vec<Int>& e) {
@@ -383,7 +383,7 @@ void PoseChecker::check(const double* poses, std::size_t count, int threads, Ver
                 slots[k - begin] = slot;
                 if (slot != outside) __builtin_prefetch(&g.known[slot]);
             }
-            std::size_t count_open = 0;  // without unpredictable branches
+            std::size_t count_open = 0;  // counts without unpredictable branches
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t slot = slots[k - begin];
                 const State state = slot == outside ? State::free : g.known[slot].load(std::memory_order_relaxed);
@@ -439,7 +439,7 @@ bool PoseChecker::sweep_is_free(const std::array<double, 3>& from, const std::ar
     return true;
 }
 
-// By what is known of the poses around, else by this one in doubles, else exactly: `exact` makes the pose only then.
+// Decide by known poses around, else by this one in doubles, else exactly: `exact` makes the pose only then.
 template <class Exact>
 bool PoseChecker::decide(double x, double y, double theta, Exact&& exact) const {
     Grid& g = near(1);

@@ -213,7 +213,7 @@ private:
     const CoreUnits<Int> whole{};
     Index piece = 0, other = 0;
     std::vector<Vec<Approx>> points, corners;  // vertices of the robot's piece at the beginning, and of the obstacles'
-    std::vector<Edge> edges;                   // of the robot's piece
+    std::vector<Edge> edges;                   // edges of the robot's piece
     std::vector<Line> lines;
 };
 

@@ -11,7 +11,7 @@ namespace cfree {
 
 namespace {
 
-constexpr unsigned bits = 215, bits_of_theta = 150;       // of the two right angles: the former has an error below 2^-192
+constexpr unsigned bits = 215, bits_of_theta = 150;       // those of the two right angles: the former has an error below 2^-192
 constexpr double most = 0x1p63, least = 0x1p-60;          // below the least, 2 pi less an angle rounds to 2 pi
 constexpr double two_pi = 2 * std::numbers::pi;
 

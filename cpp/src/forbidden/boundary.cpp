@@ -70,7 +70,7 @@ private:
 public:
     Patches& patches = one.patches;
     std::vector<std::uint8_t> trimmed;
-    std::vector<std::vector<Trapezoid>> found, found_thin;  // by obstacle ring vertex
+    std::vector<std::vector<Trapezoid>> found, found_thin;  // one per obstacle ring vertex
     Tally tally;
 };
 

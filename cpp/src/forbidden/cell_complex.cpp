@@ -50,7 +50,7 @@ private:
     const std::vector<Index> faces;
     const int threads;
     CellComplex result;
-    std::vector<double> start;  // by half-edge: see Parts
+    std::vector<double> start;  // one per half-edge: see Parts
 };
 
 void Assembly::make_loops(std::vector<Parts>&& lists) {
@@ -64,7 +64,7 @@ void Assembly::make_loops(std::vector<Parts>&& lists) {
 // Find vertices: go around the start of each half-edge, over twins.
 void Assembly::find_vertices() {
     result.vertex.assign(result.face.size(), -1);
-    std::vector<Index> best;  // by vertex: a half-edge whose start is known: at a level, if there is one
+    std::vector<Index> best;  // a half-edge of each vertex whose start is known: at a level, if there is one
     for (Index h = 0; h < static_cast<Index>(result.face.size()); ++h) {
         if (result.vertex[h] >= 0) continue;
         heed_stop();

@@ -220,7 +220,7 @@ private:
     // --- each once ---
 
     void unite_ridges(const std::vector<std::vector<Ridge>>& found) {
-        // by curve: the first thin trapezoid on it; one hash may be of several
+        // the first thin trapezoid on each curve; one hash may be of several
         std::map<CurveHash, std::vector<std::size_t>> curves;
         std::vector<std::pair<std::size_t, Ridge>> named;
         const auto name = [&](std::size_t k) { return NamedCurve{contact(thin.patch[k]), unpacked(thin.lower[k])}; };
@@ -342,7 +342,7 @@ private:
     const Trapezoids &live, &thin;
     CurveHashes hashes;
     BoxTree tree;
-    double reach;  // of the robot
+    double reach;  // the robot's
     std::vector<Index> first_patch, first_live;
     std::vector<Flat> flats;
     std::vector<Ridge> ridges;

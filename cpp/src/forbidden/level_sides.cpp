@@ -271,7 +271,7 @@ void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
 
 // Order places along a line, one for equal places, and number all of them.
 void LevelGluer::number_places(const Feature& line, std::vector<Index>& on_it, Junction& at) {
-    std::vector<Index> first;  // of each place
+    std::vector<Index> first;  // one per place
     const auto is_before = [&](Index p, Index q) {
         if (p == q) return false;
         const Place &x = places[p], &y = places[q];

@@ -19,7 +19,7 @@ Loops loops_of(std::size_t faces, std::vector<Parts>&& lists) {
         for (const Index f : list.trapezoid) ++result.first[f + 1];
     std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
     const auto count = static_cast<std::size_t>(result.first.back());
-    std::vector<Index> number(count);  // by part: its half-edge
+    std::vector<Index> number(count);  // each part's half-edge
     {
         std::vector<Index> order(count), next(result.first.begin(), result.first.end() - 1);
         std::vector<std::uint8_t> kind;  // twice its side, 1 more if its side's come in reverse

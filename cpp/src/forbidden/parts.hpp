@@ -43,7 +43,7 @@ void free_memory(std::vector<T>& of) { std::vector<T>().swap(of); }
 // theta grows, or along its line: `twin` is then the next.
 enum class Around { free_sectors, all };
 
-// By trapezoid: 1 if all trapezoids that its sides meet are there, 0 if not, 2 if its sides are matched as far as possible.
+// One per trapezoid: 1 if all trapezoids that its sides meet are there, 0 if not, 2 if its sides are matched as far as possible.
 using Whole = std::vector<char>;
 
 // Fail at a whole trapezoid; elsewhere something is just missing.

@@ -247,7 +247,7 @@ bool Shadows::covers_helix(const Pillar& pillar, Index a, const Vec<double>& at)
     const std::span ring(obstacles.seen.data() + obstacles.start[place], obstacles.seen.data() + obstacles.start[place + 1]);
     seen_robot.clear();
     look(scene.robot, a, pillar.p, seen_robot);
-    // With relative coordinates of the robot at most m, of obstacles at most M, as above: control points, at most 2.2 m from
+    // Let relative coordinates of the robot be at most m, of obstacles at most M, as above: control points, at most 2.2 m from
     // `at`, are within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The other
     // case is alike.
     const double m = seen_robot.size, M = obstacles.size, margin = 0x1p-43 * (m + M) * (m + M) + 0x1p-900;

@@ -26,7 +26,7 @@ public:
         Index turning, still;  // places of its two pieces
         bool may_pinch;        // may touch the surface along the line, which counts anywhere on the line
         std::uint32_t slices;  // slices in which its shadow meets the patch, by bit
-        std::size_t ranges;    // by slice: range on the line
+        std::size_t ranges;    // each slice's range on the line
         double cover;          // approximate share of the patch
     };
     // Pillars that may cover some of a patch between two angles of a chart, in the best order for subtraction.
@@ -71,7 +71,7 @@ private:
     // Pieces that are fixed together with an edge.
     struct Standing {
         Side side;
-        std::vector<Octagon> octagon;                          // by piece
+        std::vector<Octagon> octagon;                          // one per piece
         std::vector<double> along0, along1, across0, across1;  // the first half of that
         std::vector<char> has_edge;                            // true if it has the edge
         std::vector<std::array<double, 2>> parallel;           // place across of its edges along the line; NaN: none
@@ -97,7 +97,7 @@ private:
     const Side* turning = nullptr;         // turning side of the patch
     const Standing* still = nullptr;
     std::vector<double> along, across, radius;  // turning vertices
-    std::vector<Octagon> turned;                // by slice and piece, rounded outwards
+    std::vector<Octagon> turned;                // one per slice and piece, rounded outwards
     std::vector<Octagon> corners[2];            // scratch: octagons at the angles between two slices
     Side seen_robot;                            // scratch: one piece
     Vec<double> E;                              // vector of the patch's edge

@@ -390,7 +390,7 @@ void Trimmer::keep_pieces(CurveOverlap& x) {
     const Area& curve = x.curve;
     const bool is_open = x.band.state != nullptr;
     const auto add = [&](Index from, Index to) { add_thin(from, to, curve.lower, curve.lower); };
-    Index start = curve.from;  // of the piece that is kept
+    Index start = curve.from;  // start of the piece that is kept
     bool keeps = x.from != curve.from, was_covered = false;
     for (Index at = x.from;; at = pass_cuts(x)) {
         const bool is_covered = x.is_covered();
@@ -414,7 +414,7 @@ bool Trimmer::leaves_point(const CurveOverlap& x, Index event) {
 
 // --- what is left ----------------------------------------------------------------------------------------------------
 
-// Where free space is pinched between two surfaces, neither goes on.
+// Neither surface goes on where free space is pinched between two.
 void Trimmer::cut_at(Index event) {
     const std::size_t count = live.size();
     for (std::size_t k = 0; k < count; ++k) {
@@ -441,7 +441,7 @@ void Trimmer::finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trape
         }
     }
     for (const Index pinch : pinches) cut_at(pinch);
-    // by angle, then upwards
+    // order by angle, then upwards
     std::sort(live.begin(), live.end(), [&](const Area& x, const Area& y) {
         if (!equal(x.from, y.from)) return before(x.from, y.from);
         return x.t_min < y.t_min;

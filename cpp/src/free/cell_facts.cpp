@@ -15,7 +15,7 @@ using std::numbers::pi;
 constexpr double rounded = 0x1p-53;
 constexpr double enough = 1e-18;  // times a closed surface's extent, cubed: greatest error of quadrature on an interval
 constexpr int halvings = 40;
-constexpr int most_intervals = 1000;  // of one trapezoid; then the bound may be larger
+constexpr int most_intervals = 1000;  // limit for one trapezoid; then the bound may be larger
 
 // Half the cross product of the two ends of a trapezoid's line, from a point, integrated over theta; and its error.
 class Flux {
@@ -110,7 +110,7 @@ private:
 Volumes enclosed(const Boundary& boundary, const std::vector<Facing>& facing, Index cells) {
     const Trapezoids& table = boundary.trapezoids;
     const Limits limits(boundary);
-    // by closed surface: a point near by, for little cancellation
+    // a point near each closed surface, for little cancellation
     std::vector<Vec<double>> origin;
     std::vector<double> count;
     for (const Facing& x : facing) {

@@ -60,7 +60,7 @@ struct PointLocation::View {
 
 struct PointLocation::Probe {
     ExactPose pose;
-    int rise;  // of the segment that contains it: the sign of U_y, of U_x if that is 0
+    int rise;  // sign of U_y of the segment that contains it, of U_x if that is 0
     bool is_level;
 };
 

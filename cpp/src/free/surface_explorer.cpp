@@ -84,16 +84,16 @@ struct SurfaceExplorer::State {
     TouchingPatches touching;
     const Representatives names;
     Trapezoids rows;                               // trapezoids of patches in the order of trimming
-    std::vector<std::array<Index, 2>> faces_of;    // by patch: its rows
+    std::vector<std::array<Index, 2>> faces_of;    // each patch's rows
     std::vector<std::uint8_t> trimmed;
-    std::vector<Sheet> sheets;                     // by row
-    std::vector<char> whole;                       // by row: true if all patches that its sides meet are trimmed
+    std::vector<Sheet> sheets;                     // one per row
+    std::vector<char> whole;                       // true for each row with all patches trimmed that its sides meet
     struct Neighbours {
         std::vector<Index> all;     // trapezoids that its sides may meet
         std::vector<Index> beside;  // trapezoids that seem to be across them
     };
     std::vector<Neighbours> around;                // then
-    std::map<Index, Growth> growing;               // by seed
+    std::map<Index, Growth> growing;               // one per seed
     double nearness = 0;                           // distance of points that may be equal; it decides only the order
     Index pillars_of = -1;
     Shadows pillars = one.shadows();

@@ -38,8 +38,8 @@ private:
     Index near_to = -1;
     std::vector<Index> recent;                      // features near the last one
     std::vector<Vec<Approx>> vertices, edges;       // vertices and edges of the turned robot
-    std::vector<Vec<Approx>> places;                // of its vertices, for a pose on a curve
-    std::vector<Approx> offsets;                    // of its edges
+    std::vector<Vec<Approx>> places;                // the vertices', for a pose on a curve
+    std::vector<Approx> offsets;                    // the edges'
 };
 
 }  // namespace cfree

@@ -94,7 +94,7 @@ private:
     std::vector<MeshFace> mesh_faces;
     std::vector<Index> order, start;  // half-edges by edge
     std::vector<Index> early, late;   // mesh vertices of the complex's vertices; late ones at 3 pi / 2
-    std::vector<Run> runs;            // by half-edge
+    std::vector<Run> runs;            // one per half-edge
     Mesh out;
     Index rim_vertices = 0;
     std::vector<Layout> layouts;

@@ -1,4 +1,4 @@
-// Where two lines of contact meet, as the robot turns: common factors are divided out, where they coincide at first.
+// Slides along the point where two lines of contact meet, as the robot turns: common factors are divided out, where they coincide at first.
 #include "cfree/planning/contact_slide.hpp"
 
 #include <algorithm>
@@ -77,7 +77,7 @@ Slide ContactSlide::motion(const Scene& scene) const {
     Slide s{r.c, r.s, r.w, tau.d, tau.n, {}, {}, {}};
     const Int unit = lcm(from.x.d, from.y.d);
     const Int X = from.x.n * (unit / from.x.d), Y = from.y.n * (unit / from.y.d), sign = d[0].sign();
-    Int power = sign;  // of tau
+    Int power = sign;  // power of tau
     for (int k = 0; k <= degree; ++k, power *= tau.n) {
         Int by = power;
         for (int i = k; i < degree; ++i) by *= tau.d;

@@ -133,7 +133,7 @@ std::vector<Landing> Landings::straight(const RationalPose& pose, int x, int y, 
 std::vector<Link> Landings::links(Index cell) const {
     const auto& component = space.surfaces.component;
     const Trapezoids& table = space.boundary->trapezoids;
-    std::map<Index, Index> widest;  // by island
+    std::map<Index, Index> widest;  // one per island
     const auto width = [&](Index k) { return table.tau_to(k) - table.tau_from(k); };
     for (Index k = 0; k < static_cast<Index>(component.size()); ++k) {
         const Index of = component[k];

@@ -123,7 +123,7 @@ public:
         });
     }
 
-    std::optional<Poses> way;  // of the search
+    std::optional<Poses> way;  // the search's
 
 private:
     std::optional<Poses> guess(int guesses) {

@@ -54,10 +54,10 @@ private:
     };
     const Points& points;
     std::vector<Index> start, end;
-    std::vector<char> rightward;  // by edge: true if the interior is above it
+    std::vector<char> rightward;  // true for each edge with the interior above it
     SweepLine line;
     std::vector<Node> nodes;
-    std::vector<Chain> chains;  // by the edge below
+    std::vector<Chain> chains;  // ordered by the edge below
     Triangles triangles;
 
     Index add(Index vertex, Index below, Index above) {
@@ -180,7 +180,7 @@ Triangles swept_triangles(const Points& points, const std::vector<std::vector<In
 std::vector<Index> twins(const Points& points, const std::vector<std::vector<Index>>& rings, const Triangles& triangles) {
     struct Side {
         std::uint64_t ends;  // the lesser, the greater
-        Index number;        // of the triangle's edge, -1 for an edge of the rings
+        Index number;        // the triangle edge's, -1 for an edge of the rings
         bool upwards;        // from the lesser to the greater
     };
     std::vector<Side> sides;

@@ -134,7 +134,7 @@ Polygon::Polygon(std::vector<RatioRing> rings) {
         check(points([&](const Ratio& c) { return Int(c.n << (most - static_cast<unsigned>(msb(c.d)))); }), is_least);
         return;
     }
-    std::map<Int, Int> factors;  // by denominator
+    std::map<Int, Int> factors;  // keys: denominators
     const Int* last = nullptr;
     for_each([&](const Ratio& c) {
         if (!last || *last != c.d) last = &factors.try_emplace(c.d).first->first;

@@ -82,7 +82,7 @@ private:
     static constexpr Index unknown = -2;
     const Points& points;
     const RingLinks links;
-    std::vector<Index> start, end;  // by edge, in the order of the sweep
+    std::vector<Index> start, end;  // one per edge, in the order of the sweep
     SweepLine line;
     std::vector<Index> here;  // the coincident points of this event
     EdgesMeet found{};

@@ -221,7 +221,7 @@ Spot Junction::spot(const Feature& surface, const Feature& curve) const {
         n = at(p, q.size() - 1), d = q.back();
     } else {
         const Int c0 = minor(0, 2), c1 = minor(1, 2);  // (p q2 - q p2) is linear
-        // without it p and q are linear, with the one root of either
+        // p and q without it are linear, with the one root of either
         const Poly& linear = q.size() == 2 ? q : p;
         const Int r0 = c1.is_zero() ? at(linear, 0) : c0, r1 = c1.is_zero() ? at(linear, 1) : c1;
         n = at(p, 1) * r1 - 2 * at(p, 2) * r0, d = at(q, 1) * r1 - 2 * at(q, 2) * r0;
@@ -251,7 +251,7 @@ double Junction::value(const Feature& line, const Spot& p) const {
         const double tau = 0.5 * (lo + hi), d = filtered(D).polar(tau, tau), t = filtered(N).polar(tau, tau) / d;
         if (filtered(N).err + std::abs(t) * filtered(D).err < 0x1p-32 * std::abs(d)) return t;
     }
-    // as a ratio of integers at an end of an interval, once it is nearly that on all of it: equal ends are not enough
+    // a ratio of integers at an end of an interval, once it is nearly that on all of it: equal ends are not enough
     const auto [N, D] = position<Int>(line, p);
     const Poly n = polynomial(N), d = polynomial(D);
     const auto at = [](const Poly& f, const Dyadic& tau) {

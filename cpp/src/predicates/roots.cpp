@@ -414,7 +414,7 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
 
 bool Predicates::are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to) {
     const Sample middle = between(from, to);
-    const auto limit = [&](const Feature& f) -> std::optional<Curve> {  // with D > 0
+    const auto limit = [&](const Feature& f) -> std::optional<Curve> {  // needs D > 0
         Curve result = curve(f);
         const Feature& on = surface.contact;
         if (f.kind != Kind::vertex_vertex && f.kind != on.kind) {

@@ -11,7 +11,7 @@ namespace cfree {
 
 namespace {
 
-constexpr int deepest = 16, most_parts = 4096;  // of a motion: one that needs more does not keep its distance
+constexpr int deepest = 16, most_parts = 4096;  // limits for a motion: one that needs more does not keep its distance
 constexpr double nearly = 0.95;
 constexpr double looks_apart = 0.125;  // distance of sampled poses, in the robot's radii
 constexpr int most_counted = 32;

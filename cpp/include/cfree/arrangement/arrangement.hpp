@@ -13,8 +13,8 @@ enum class ArrangementVertex : std::uint8_t { triple, helix_crossing, end };  //
 
 struct Arrangement {
     Sheets sheets;
-    std::vector<Index> face_of;    // by trapezoid
-    std::vector<Index> component;  // by trapezoid: its component connected by edges
+    std::vector<Index> face_of;    // each trapezoid's face
+    std::vector<Index> component;  // each trapezoid's component connected by edges
     std::vector<Index> surface;    // closed surface of its outer and its inner side
     // faces
     std::vector<Index> face_first;              // one of its trapezoids

@@ -1,4 +1,4 @@
-// How far the robot's edges are from those of obstacles and workspace, at poses and along motions, in doubles; theory, "Paths".
+// Distances of the robot's edges from those of obstacles and workspace, at poses and along motions, in doubles; theory, "Paths".
 #pragma once
 #include <array>
 #include <memory>
@@ -17,7 +17,7 @@ struct MeasuredPose {
     double x, y, theta, c, s;
 };
 
-// How the robot moves from one pose to another: straight; about a pole, the ends (x, y) apart, by an angle; or along a slide,
+// Motion of the robot from one pose to another: straight; about a pole, the ends (x, y) apart, by an angle; or along a slide,
 // (x, y) / d in the tangent of half the angle turned, where no vertex travels farther than `reach`.
 struct Straight {};
 struct Turning {
@@ -52,7 +52,7 @@ public:
     EdgeDistances& operator=(const EdgeDistances&) = delete;
 
     bool is_alone() const { return others.empty(); }
-    double radius() const { return reach * unit; }  // of the robot about its reference point
+    double radius() const { return reach * unit; }  // the robot's, about its reference point
     // Along free motions. The bound is at most the tolerance below the truth, if that does not take too many parts.
     LeastDistance least(const std::vector<MeasuredMotion>& motions, double tolerance) const;
 
@@ -75,7 +75,7 @@ private:
 
     double unit;  // a power of two near the size of all: lengths here are in it, so that squares are doubles
     std::vector<Segment> robot, others;
-    double reach = 0, size = 0;  // of the robot; the largest coordinate of the others
+    double reach = 0, size = 0;  // the robot's reach; the largest coordinate of the others
     std::unique_ptr<BoxTree> tree;
 };
 

@@ -51,7 +51,7 @@ public:
     MotionChecker& operator=(const MotionChecker&) = delete;
     bool is_free(const Motion& motion) const;
     bool is_free(const Slide& slide) const;
-    // Does it begin beyond the frames around the bounds and the workspace, where nothing is in the way?
+    // True if it begins beyond the frames around the bounds and the workspace, where nothing is in the way.
     bool begins_outside(const Motion& motion) const;
     std::optional<Collision> first_collision(const Motion& motion) const;
     // Parameter of the first collision of a translation.
@@ -64,9 +64,9 @@ private:
     class Run;
     struct Rim {
         Int x0, y0, x1, y1;
-        std::array<double, 4> inner;  // where the reference point may be in doubles so that all of the robot is within
+        std::array<double, 4> inner;  // positions of the reference point, in doubles, with all of the robot within
     };
-    std::array<std::optional<Rim>, 2> rims;  // by layer, of the frames
+    std::array<std::optional<Rim>, 2> rims;  // one per layer, of the frames
     const std::vector<Box> boxes;
     const std::unique_ptr<BoxTree> tree;  // tree of the obstacles' pieces
 };

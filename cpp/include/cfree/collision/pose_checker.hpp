@@ -61,7 +61,7 @@ private:
     struct Pieces {
         std::vector<Index> number, first;  // number in the shape; first of its vertices, and the end
         std::vector<double> x, y, nx, ny, h;
-        std::vector<std::array<Index, 16>> far;  // by piece: vertices that reach far in sixteen directions
+        std::vector<std::array<Index, 16>> far;  // each piece's vertices that reach far in sixteen directions
         Index count() const { return static_cast<Index>(number.size()); }
     };
     struct Ranges {  // ranges of a piece's coordinates
@@ -90,7 +90,7 @@ private:
         Index nx = 0, ny = 0;
         State enough{};
         std::vector<Index> start, member;
-        std::vector<Ranges> around;  // by sector and robot piece: boxes around it, the reference point at the origin
+        std::vector<Ranges> around;  // boxes around each robot piece in each sector, the reference point at the origin
         std::vector<std::atomic<State>> known;
         std::size_t slot(double x, double y, double theta) const;
     };
@@ -104,7 +104,7 @@ private:
     std::shared_ptr<const Scene> scene;
     std::array<double, 4> limits;
     Pieces robot, obstacles;
-    std::vector<Ranges> box;       // of the obstacles' pieces
+    std::vector<Ranges> box;       // boxes of the obstacles' pieces
     double reach = 0, margin = 0;  // reach of the robot around its reference point, rounded up; margin: see above
     struct Level {
         std::once_flag once;

@@ -35,7 +35,7 @@ struct ContactLine {
     bool on_edge;  // v-e
     Vec<T> a, b, E;
 
-    // of.vertex(shape, v), of.edge(shape, e): as below.
+    // `of` has vertex(shape, v) and edge(shape, e), as below.
     template <class Coordinates>
     ContactLine(const Scene& scene, const Feature& contact, const Coordinates& of) {
         const Shape &A = scene.robot, &O = scene.obstacles;

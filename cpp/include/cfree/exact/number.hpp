@@ -53,7 +53,7 @@ inline Int root_below(const Int& n) {
     return root;
 }
 
-// Where it is known to be wide enough.
+// Only for numbers known to be wide enough.
 __extension__ typedef __int128 Wide;
 
 // A double v and the magnitude m of its summands. An expression of d roundings in a row, inputs included, satisfies

@@ -18,7 +18,7 @@ public:
     Word inverse(Word x) const;  // zero for zero
 
 private:
-    Word p, inverse_of_p, one, square;  // of 2^64
+    Word p, inverse_of_p, one, square;  // one: 2^64 modulo p; square: its square
 };
 
 // One of these integers, with a pointer to the others.

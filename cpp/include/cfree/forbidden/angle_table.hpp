@@ -10,7 +10,7 @@ public:
     AngleTable(const Scene& scene, const Patches& patches, const Trapezoids& trapezoids, int threads);
 
     // Ranks go from 0 (theta = -pi/2) over `middle` (pi/2, where the charts meet) to `last` (3 pi/2, which is -pi/2 again).
-    std::vector<Index> from, to;  // by trapezoid
+    std::vector<Index> from, to;  // one per trapezoid
     Index middle = 0, last = 0;
 
     // An angle in a chart that holds it: an interval of tau, and the exact number.

@@ -26,7 +26,7 @@ public:
 
     const std::shared_ptr<const Scene> scene;
     const Patches patches;
-    const std::vector<std::uint8_t> trimmed;  // by patch: true if it has been trimmed
+    const std::vector<std::uint8_t> trimmed;  // true for each patch that has been trimmed
     const Trapezoids trapezoids;
     const IsolatedParts isolated;
     const Tally tally;
@@ -42,7 +42,7 @@ private:
 
 // Critical angles of trapezoids and of isolated parts in one order; see AngleTable.
 struct AngleRanks {
-    std::vector<Index> from, to;  // by trapezoid, then by isolated part
+    std::vector<Index> from, to;  // one per trapezoid, then one per isolated part
     Index middle = 0, last = 0;
 };
 AngleRanks angle_ranks(const Boundary& boundary);
@@ -61,9 +61,9 @@ enum class Wish { go_on, finish, cancel };
 
 struct Task {
     int threads = 1;
-    bool regularized = false;           // without slits, surfaces that coincide with opposite sides
+    bool regularized = false;           // true: no slits, surfaces that coincide with opposite sides
     std::function<Wish(double)> watch;  // called ten times a second, with the share done
-    // For a part of a scene: the obstacle features, vertices of rings and the edges that start there, whose patches are
+    // A part of the scene: the obstacle features, vertices of rings and the edges that start there, whose patches are
     // trimmed. Then isolated parts are not computed, and curves keep their first names, which depend on the features near by.
     std::optional<std::vector<Index>> features = {};
 };

@@ -16,8 +16,8 @@ struct CellComplex {
     std::vector<Index> face, twin, edge, vertex;  // vertex: at its start
     std::vector<std::uint8_t> side;
     std::vector<Index> first;      // half-edges of face k: first[k] .. first[k + 1]
-    std::vector<Index> component;  // by face
-    std::vector<double> xy, theta;  // by vertex, rounded; in the user's units, from `Scene::frame`
+    std::vector<Index> component;  // each face's component
+    std::vector<double> xy, theta;  // the vertices, rounded; in the user's units, from `Scene::frame`
     Index edges = 0, vertices = 0, components = 0;
 };
 

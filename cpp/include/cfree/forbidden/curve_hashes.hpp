@@ -22,7 +22,7 @@ struct NamedCurve {
     Feature on, other;
 };
 
-// Of `count` curves, modulo the first prime of a fixed sequence for which all have a point. Both numbers are below 2^62.
+// Hashes of `count` curves, modulo the first prime of a fixed sequence for which all have a point. Both numbers are below 2^62.
 class CurveHashes {
 public:
     CurveHashes(const Scene& scene, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve, int threads);

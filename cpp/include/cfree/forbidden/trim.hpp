@@ -178,7 +178,7 @@ protected:
             Index event;
             bool is_low;
         };
-        std::vector<Cut> cuts;  // where one of the two orders changes, by angle
+        std::vector<Cut> cuts;  // the angles where one of the two orders changes
         std::size_t next = 0;   // the first cut that is still ahead
         int low_position = 0, high_position = 0;  // among the signs of each order
         bool is_covered() const { return low.sign[low_position] < 0 && high.sign[high_position] > 0; }

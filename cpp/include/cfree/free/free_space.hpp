@@ -6,11 +6,11 @@ namespace cfree {
 
 // Data of the closed surfaces, one row each; and of trapezoids: `component` and `lift`.
 struct Surfaces {
-    std::vector<Index> component;           // by trapezoid: its closed surface
+    std::vector<Index> component;           // each trapezoid's closed surface
     std::vector<Index> parent;              // the next surface around, or -1
     std::vector<std::uint8_t> free_inside;  // outer rim of a cell, or an island
     std::vector<Index> turns;               // greatest common divisor of the turns of its loops in theta
-    std::vector<Index> lift;                // by trapezoid: full turns against the first one of its surface, along some path
+    std::vector<Index> lift;                // each trapezoid's full turns against the first one of its surface, along some path
 };
 
 // Turns in theta of loops on each component, and turns by which its faces are lifted; over sides that two of its faces share.
@@ -29,8 +29,8 @@ public:
     const SharedBoundary boundary;
     const Surfaces surfaces;
     const Index outside;              // the cell inside no surface: 0, the unbounded one, or -1
-    const std::vector<Index> cell_of; // by surface: its cell; cells with surfaces around are in their order
-    const std::vector<Index> depth;   // by surface: the number of surfaces around it
+    const std::vector<Index> cell_of; // each surface's cell; cells with surfaces around are in their order
+    const std::vector<Index> depth;   // number of surfaces around each surface
     Index cells() const;
     const PointLocation& points() const { return location; }
     Index locate(const ExactPose& q) const { return location.locate(q, table()); }

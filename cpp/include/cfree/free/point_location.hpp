@@ -47,7 +47,7 @@ public:
 
     // Cell of a pose, -1 if it is forbidden, from the cells that surfaces bound. On the boundary, the first cell bounded there.
     struct Cells {
-        std::span<const Index> depth, cell;  // by component: the number of those around it, the cell it bounds
+        std::span<const Index> depth, cell;  // number of components around each component, the cell it bounds
         std::span<const std::uint8_t> free_inside;
         Index outside;                       // the cell inside no component
     };

@@ -58,6 +58,6 @@ std::array<double, 2> angles_of(const Boundary& boundary, Index trapezoid);
 // Integrals over theta of a function of such lines, for each trapezoid; `one` is the mean of all.
 std::vector<Integral> trapezoid_integrals(const Boundary& boundary, const std::function<double(const TrapezoidLine&)>& along_t);
 std::vector<Integral> trapezoid_areas(const Boundary& boundary, double angle_scale);
-std::vector<Integral> trapezoid_curvatures(const Boundary& boundary, double angle_scale);  // of K
+std::vector<Integral> trapezoid_curvatures(const Boundary& boundary, double angle_scale);  // integrals of K
 
 }  // namespace cfree

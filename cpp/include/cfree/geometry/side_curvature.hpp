@@ -6,7 +6,7 @@
 namespace cfree {
 
 struct SideCurvatures {
-    std::vector<double> total, error;  // by half-edge: the geodesic curvature, integrated in the direction of its loop
+    std::vector<double> total, error;  // each half-edge's geodesic curvature, integrated in the direction of its loop
     std::vector<double> turn;          // the angle by which the loop turns at its start
     std::vector<double> start;         // x, y from `Scene::frame`, angle_scale * theta, by the face's equations; NaN in walls
 };

@@ -20,7 +20,7 @@ struct Layout {
     bool is_empty() const { return triangles == 0; }
 };
 
-// Nothing is laid out for at most this many triangles.
+// Largest number of triangles that are not laid out.
 inline constexpr double few_triangles = 4;
 // Stretch without a layout, and for large h, where the shear varies less.
 inline constexpr double usual_stretch = 1.6;

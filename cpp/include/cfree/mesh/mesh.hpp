@@ -11,7 +11,7 @@ namespace cfree {
 struct Mesh {
     std::vector<double> xyz;      // x, y and theta times the angle scale of each vertex
     std::vector<Index> corners;   // three vertices of each triangle, counter-clockwise as seen from the free side
-    std::vector<Index> face;      // by triangle
+    std::vector<Index> face;      // each triangle's face
     std::vector<Index> seam;      // pairs of vertices: at theta = -pi/2 and the same at 3 pi/2
     double least = 0;             // number of triangles of the best known density on e-v surfaces
 };

@@ -26,7 +26,7 @@ public:
     MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double from, double to,
           double error, double angle_scale);
 
-    MeshPoint point(double s, double phi) const;         // on the face, up to rounding
+    MeshPoint point(double s, double phi) const;         // a point of the face, up to rounding
     MeshPoint point_inside(double s, double phi) const;  // nearest to s between the curves
     double position(Complex x, double phi) const;
     Complex at(double s, double phi, double off = 0) const;

@@ -34,7 +34,7 @@ public:
     // Insert point p if it is well inside a triangle, and make the edges around it Delaunay.
     bool insert(Index p);
     void make_delaunay();
-    int longest_inner_edge(Index t) const;  // by the opposite corner, -1 if all are on the rim
+    int longest_inner_edge(Index t) const;  // its opposite corner, -1 if all are on the rim
 
     // Around an inner point, counter-clockwise: triangle k has the corners p, link[k] and the next of the link.
     struct Star {

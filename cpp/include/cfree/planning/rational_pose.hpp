@@ -32,7 +32,7 @@ struct RationalPose {
     static RationalPose of(const ExactPose& pose, const Scene& scene);
     Place place() const { return {nearest(x.n, x.d), nearest(y.n, y.d), half.theta()}; }
     ExactPose exact(const Scene& scene) const;
-    Configuration configuration(const Scene& scene) const;  // without doubles
+    Configuration configuration(const Scene& scene) const;  // computed without doubles
     friend bool operator==(const RationalPose&, const RationalPose&) = default;
     // Key for order and look-up.
     using Key = std::array<Int, 6>;

@@ -24,7 +24,7 @@ public:
     Index size() const { return static_cast<Index>(X.size()); }
     Points chosen(const std::vector<Index>& which) const;
 
-    int compare(Index p, Index q) const;  // by x, then by y: -1, 0 or 1
+    int compare(Index p, Index q) const;  // order by x, then by y: -1, 0 or 1
     bool before(Index p, Index q) const { return compare(p, q) < 0; }
     bool same(Index p, Index q) const { return compare(p, q) == 0; }
 

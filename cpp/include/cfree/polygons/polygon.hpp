@@ -46,7 +46,7 @@ public:
     Points vertices;  // times the denominator, the least that makes them whole
     Int denominator = 1;
     std::vector<Index> offsets;  // ring r holds the vertices offsets[r] to offsets[r + 1] - 1
-    std::vector<char> convex;    // by vertex: true if the interior angle is below pi
+    std::vector<char> convex;    // true for each vertex with an interior angle below pi
     std::vector<Removed> removed;
     bool is_convex() const { return is_convex_ring; }
 

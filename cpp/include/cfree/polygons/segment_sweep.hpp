@@ -28,8 +28,8 @@ struct EdgesMeet {
 // Nesting of rings that do not cross.
 struct Nesting {
     std::vector<Index> order;     // rings, from left to right
-    std::vector<Index> below;     // by ring: the edge right below its first point, -1 if there is none
-    std::vector<char> rightward;  // by edge: true if the sweep runs along it from its start to its end
+    std::vector<Index> below;     // the edge right below each ring's first point, -1 if there is none
+    std::vector<char> rightward;  // true for each edge along which the sweep runs from its start to its end
     std::vector<std::pair<Index, Index>> touching;  // edge, and a point of another ring inside it
 };
 

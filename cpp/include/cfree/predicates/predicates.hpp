@@ -65,7 +65,7 @@ struct Event {
 struct Curve {
     Feature feature;
     Code code;
-    bool constant, constant_D;  // by kind: t, or only D, does not depend on theta
+    bool constant, constant_D;  // true for a kind whose t, or only D, does not depend on theta
     bool flipped;               // N and D have been negated
     Filtered N, D;
 };

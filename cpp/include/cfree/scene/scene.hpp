@@ -52,7 +52,7 @@ struct Scene {
     std::array<double, 4> frame{};      // the two origins in the user's units: x and y of the obstacles', of the robot's
     std::shared_ptr<const Scene> moved; // null if it is the same
     const Scene& near() const { return moved ? *moved : *this; }
-    double unit() const { return ratio(Int(1) << static_cast<unsigned>(shift), scale); }  // of the doubles, in the user's units
+    double unit() const { return ratio(Int(1) << static_cast<unsigned>(shift), scale); }  // the doubles' unit, in the user's units
 };
 
 // Representatives of all features at one point, or on one line: those of lowest layer and rank in a ring.

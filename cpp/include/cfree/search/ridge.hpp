@@ -13,7 +13,7 @@ double climb(const Way& way, Place& q, const std::array<double, 3>& direction, d
 
 struct Ridge {
     Marked path;                   // marks are lengths
-    std::vector<double> distance;  // by pose, motions beside it included
+    std::vector<double> distance;  // each pose's, motions beside it included
 };
 Ridge ridge(const Way& way, const Route& route, double enough);
 

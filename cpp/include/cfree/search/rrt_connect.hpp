@@ -45,7 +45,7 @@ private:
         Place at(Index k) const { return {x[k], y[k], theta[k]}; }
     };
     void add(Tree& tree, const Place& q, Index from) const;
-    void cut(Tree& tree, Index k) const;  // with its subtree
+    void cut(Tree& tree, Index k) const;  // the pose and its subtree
     std::array<int, 2> square_of(const Place& q) const;
     Index nearest(const Tree& tree, const Place& q) const;
     double distance(const Place& a, const Place& b) const;

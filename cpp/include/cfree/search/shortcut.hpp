@@ -23,7 +23,7 @@ private:
 
     const Way way;
     Route route;
-    std::vector<double> mark, at;  // by pose; costs up to each pose
+    std::vector<double> mark, at;  // one per pose; costs up to each pose
     Random random;
     int left = 0;
 };

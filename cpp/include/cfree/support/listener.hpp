@@ -12,7 +12,7 @@ struct Listener {
     std::function<bool(double share)> go_on = {};      // called ten times a second while the share done is known
     std::function<void(std::int64_t patches)> spend = {};  // receives the number of trimmed contact patches; may end the work
     int threads = 1;
-    double max_seconds = std::numeric_limits<double>::infinity();  // for the free space, and for surfaces around poses
+    double max_seconds = std::numeric_limits<double>::infinity();  // limits the free space, and surfaces around poses
 };
 
 }  // namespace cfree
