@@ -174,14 +174,14 @@ def test_colours_tell_contacts_curvatures_and_clearance(fig9: Tried) -> None:
     assert len(pictures) == 6
 
 
-def test_apart_is_shown_with_what_parts(browser: Any, tmp_path: Path) -> None:
+def test_a_proof_names_the_blocking_obstacles(browser: Any, tmp_path: Path) -> None:
     ring = {"outer": [[0, 0], [9, 0], [9, 9], [0, 9]], "holes": [[[1, 1], [1, 8], [8, 8], [8, 1]]], "name": "ring"}
     text = {"name": "caught", "robot": {"outer": [[0, 0], [2, 0], [0, 2]]}, "obstacles": [ring]}
     (tmp_path / "scene.json").write_text(json.dumps(text | {"start": [3, 3, 0], "goal": [20, 3, 0]}))
     scene = cfree.load_scene(tmp_path / "scene.json")
     tried = Tried(browser, view(scene, cfree.plan(scene), html=tmp_path / "page.html", browser=False))
     tried.ready("caught")
-    tried.say("#way", "No motion, not even touching: parted by obstacle 0 (ring).")
+    tried.say("#way", "No motion, not even touching: separated by obstacle 0 (ring).")
     tried.close()
 
 

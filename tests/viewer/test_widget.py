@@ -201,7 +201,7 @@ def test_page_follows_python(cell: Cell) -> None:
     cell.frame.locator(".body.goal[aria-label*='x 7.000, y 5.000, turned by 90.0']").wait_for()
     closed = scene_of([(4, 0), (5, 0), (5, 9), (4, 9)])
     cell.page.evaluate(show, ["source", cfree.widget(closed).source])
-    cell.frame.locator("#way").filter(has_text="No motion, not even touching: parted by").wait_for()
+    cell.frame.locator("#way").filter(has_text="No motion, not even touching: separated by").wait_for()
     assert cell.frame.locator("#share").is_hidden()
     cell.page.evaluate("end()")
     assert cell.page.locator("iframe").count() == 0 and cell.page.evaluate("model.count()") == 0

@@ -44,7 +44,7 @@ export function pose_verdict(columns: Columns, names: string[]): Verdict {
   return { tone: "touch", text: `Touching: ${said.join("; ")}${rest}. Allowed.` };
 }
 
-function parting(owners: number[], names: string[]): string {
+function blocking(owners: number[], names: string[]): string {
   const are_plain = owners.every((k) => k >= 0 && (names[k] ?? `obstacle ${k}`) === `obstacle ${k}`);
   const some = owners.slice(0, 4).map((k) => (are_plain ? String(k) : obstacle_name(names, k)));
   if (owners.length > 4) some.push(`${owners.length - 4} more`);
@@ -73,8 +73,8 @@ export function way_verdict(columns: Columns, names: string[], units: string): V
       tone: "proof",
       text:
         value(columns, "closed") === 1
-          ? `No motion, not even touching: parted by ${parting(owners, names)}.`
-          : `No motion with clearance: parted by ${parting(owners, names)}; no way by touch was found.`,
+          ? `No motion, not even touching: separated by ${blocking(owners, names)}.`
+          : `No motion with clearance: separated by ${blocking(owners, names)}; no path that touches was found.`,
     };
   }
   return { tone: "plain", text: "Undecided here: `cfree plan` decides it." };

@@ -64,11 +64,11 @@ test("a way is a motion, a proof, or undecided", () => {
   );
   const apart = (closed, owners, names) =>
     way_verdict({ verdict: "apart", obstacles: Int32Array.from(owners), ...numbers({ closed }) }, names, "").text;
-  assert.equal(apart(1, [0, 1, 2], []), "No motion, not even touching: parted by obstacles 0, 1 and 2.");
-  assert.equal(apart(1, [3], []), "No motion, not even touching: parted by obstacle 3.");
+  assert.equal(apart(1, [0, 1, 2], []), "No motion, not even touching: separated by obstacles 0, 1 and 2.");
+  assert.equal(apart(1, [3], []), "No motion, not even touching: separated by obstacle 3.");
   assert.equal(
     apart(0, [0, -1], NAMES),
-    "No motion with clearance: parted by obstacle 0 (kite) and the bounds; no way by touch was found.",
+    "No motion with clearance: separated by obstacle 0 (kite) and the bounds; no path that touches was found.",
   );
   assert.match(apart(1, [0, 1, 2, 3, 4, 5], []), /obstacles 0, 1, 2, 3 and 2 more\.$/);
   assert.equal(way_verdict({ verdict: "open" }, NAMES, "").tone, "plain");

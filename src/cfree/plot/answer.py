@@ -274,9 +274,9 @@ def _frame(ax: Any, box: Window, labels: Labels) -> None:
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     if not (left < x0 and x1 < right and bottom < y0 and y1 < top):
         return
-    style: Any = {"edgecolor": INK, "linewidth": 0.8, "zorder": 6, "label": "seen beside"}
+    style: Any = {"edgecolor": INK, "linewidth": 0.8, "zorder": 6, "label": "shown at right"}
     ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, **style))
-    labels.put("seen beside", [(x0, y1), (x1, y1), (x0, y0), (x1, y0)], needed=False, color=INK, fontsize=9)
+    labels.put("shown at right", [(x0, y1), (x1, y1), (x0, y0), (x1, y0)], needed=False, color=INK, fontsize=9)
 
 
 # space
