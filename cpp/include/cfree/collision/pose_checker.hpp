@@ -2,7 +2,7 @@
 //
 // A pose is forbidden if the interiors of two pieces meet. Interiors of convex polygons meet unless an edge of one has all
 // of the other on its outer side, or on its line. Doubles give the distance d of an edge's line from the other piece, with
-// |error| < margin for every d computed here (pose_checker.cpp): d >= margin separates, d <= -margin for all edges is an
+// |error| < margin for every d computed here (separating_axes.cpp): d >= margin separates, d <= -margin for all edges is an
 // overlap. Exact integers decide all other cases.
 #pragma once
 #include <array>
