@@ -36,6 +36,7 @@ from cfree.formats.scenes.json_types import Angle, Coordinate, Point, Strict
 from cfree.formats.scenes.scene_values import (
     MAX_NAME,
     MAX_TEXT,
+    READERS,
     VERSION,
     Fault,
     is_ring,
@@ -236,7 +237,7 @@ def scene_from_models(findings: Findings, data: object) -> Scene:
         obstacles=obstacles,
         obstacle_names=[part.name for part in model.obstacles],
         workspace=workspace,
-        **{key: getattr(model, key) for key in _PLAIN_FIELDS},
+        **{key: getattr(model, key) for key in READERS},
     )
 
 
@@ -269,6 +270,3 @@ def report(findings: Findings, path: Path, item: ErrorDetails, keys_at: Callable
         if kind == "model_type" and not path:
             expected = 'a scene {"robot": ..., "obstacles": [...]}'
         findings.under(path, f"expected {expected}, got {{got}}")
-
-
-_PLAIN_FIELDS = ("bounds", "start", "goal", "goals", "units", "version", "name", "note", "source", "check")

@@ -127,7 +127,7 @@ def plain(value: Any, depth: int = MAX_NESTING) -> Any:
 
 def scene_from_plain(data: object) -> Scene | None:
     """Return the scene of a decoded JSON value, if it has no fault."""
-    if not isinstance(data, dict) or not data.keys() <= _READERS.keys() | _SHAPES:
+    if not isinstance(data, dict) or not data.keys() <= READERS.keys() | _SHAPES:
         return None
     robot, obstacles, workspace = data.get("robot"), data.get("obstacles", []), data.get("workspace")
     robot = [robot] if isinstance(robot, dict) or is_ring(robot) else robot
@@ -142,7 +142,7 @@ def scene_from_plain(data: object) -> Scene | None:
         return None
     names = [obstacle.get("name") if isinstance(obstacle, dict) else None for obstacle in obstacles]
     try:
-        others = {key: read(data[key]) for key, read in _READERS.items() if key in data}
+        others = {key: read(data[key]) for key, read in READERS.items() if key in data}
         return Scene(parts, bodies, obstacle_names=names, workspace=room, **others)
     except (CfreeError, Fault):
         return None
@@ -215,7 +215,7 @@ def _goal(value: Any) -> Goal:
 
 
 _SHAPES = {"robot", "obstacles", "workspace"}
-_READERS: dict[str, Callable[[Any], Any]] = {
+READERS: dict[str, Callable[[Any], Any]] = {
     "version": lambda value: known_version(number_of(value) if isinstance(value, Literal) else value),
     **dict.fromkeys(("name", "note", "units"), _text),
     "source": lambda value: {key: _text(text) for key, text in _object(value).items()},
