@@ -13,9 +13,9 @@ from cfree.contact.surface import contact_surface
 from cfree.errors import IncompleteError
 from cfree.forbidden.boundary import boundary
 from cfree.formats.scene_file import load_scene
-from cfree.geometry.area import patch_areas, trapezoid_areas
 from cfree.geometry.development import develop
 from cfree.geometry.elliptic import second_kind
+from cfree.geometry.integrals import patch_areas, trapezoid_areas
 from cfree.geometry.local import local_geometry
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene

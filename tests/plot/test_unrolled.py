@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from cfree.contact.contact import EdgeVertex, VertexEdge, angle_range
 from cfree.contact.surface import contact_surface
-from cfree.geometry.area import patch_areas
+from cfree.geometry.integrals import patch_areas
 from cfree.plot.development import plot_development
 from cfree.polygons.polygon import Polygon
 

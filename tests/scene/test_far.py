@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from cfree import FreeSpace, Path, Polygon, Pose, Scene, UnsupportedError, boundary, free_space, plan
-from cfree.geometry.area import trapezoid_areas
+from cfree.geometry.integrals import trapezoid_areas
 
 OFFSETS = [(10**9, 3 * 10**9 + 1), (Fraction(10**9, 3), Fraction(-1, 7)), (2**40, -(2**41)), (2**70 + 1, 5)]
 AWAY = [

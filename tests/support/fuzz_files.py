@@ -31,7 +31,7 @@ from cfree import FreeSpace, Pose, Scene, boundary, free_space, load_scene, plan
 from cfree.errors import CfreeError
 from cfree.formats.boundaries.boundary_file import load_boundary, load_space, signed
 from cfree.formats.scene_file import scene_text
-from cfree.geometry.area import trapezoid_areas
+from cfree.geometry.integrals import trapezoid_areas
 from compared import scene_of
 from shapes import PlainScene, box
 from workers import Lost, Worker

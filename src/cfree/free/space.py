@@ -240,7 +240,7 @@ class FreeSpace(Value, Shown):
         -----
         Sums of `cfree.geometry.trapezoid_areas` of `surfaces`; the measured error is about 1e-12 of the total.
         """
-        from cfree.geometry.area import trapezoid_areas
+        from cfree.geometry.integrals import trapezoid_areas
 
         areas = trapezoid_areas(self.surfaces, angle_scale=angle_scale)
         return np.bincount(self.cell_of[self.component], areas, len(self)).astype(np.float64)

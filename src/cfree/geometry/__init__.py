@@ -1,10 +1,10 @@
 """Geometry of contact surfaces: the paper's section 4, for both kinds of surface.
 
 `local` has forms, curvatures and directions at a point; `rulings` has the properties that follow from the rulings.
-`area` has areas and `total_curvature` integrals of K. `curvature_sum` adds up curvature on closed surfaces, and
-`normals` counts how often their normals cover the sphere. `development` unrolls v-e surfaces, with `elliptic`
-integrals. `geodesics` has straight curves on a surface; `congruence` finds equal helices, surfaces and patches.
-`kinematic` measures the forbidden poses of convex polygons; `ruled` reads the eight numbers of a surface.
+`integrals` has areas and integrals of K. `curvature_sum` adds up curvature on closed surfaces, and `normals` counts how
+often their normals cover the sphere. `development` unrolls v-e surfaces, with `elliptic` integrals. `geodesics` has
+straight curves on a surface; `congruence` finds equal helices, surfaces and patches. `kinematic` measures the forbidden
+poses of convex polygons; `ruled` reads the eight numbers of a surface.
 """
 
 from typing import TYPE_CHECKING
@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from cfree.geometry.area import patch_areas as patch_areas
-    from cfree.geometry.area import trapezoid_areas as trapezoid_areas
     from cfree.geometry.congruence import arc_classes as arc_classes
     from cfree.geometry.congruence import helix_classes as helix_classes
     from cfree.geometry.congruence import patch_classes as patch_classes
@@ -23,6 +21,10 @@ if TYPE_CHECKING:
     from cfree.geometry.development import develop as develop
     from cfree.geometry.geodesics import Geodesic as Geodesic
     from cfree.geometry.geodesics import geodesic as geodesic
+    from cfree.geometry.integrals import patch_areas as patch_areas
+    from cfree.geometry.integrals import patch_curvatures as patch_curvatures
+    from cfree.geometry.integrals import trapezoid_areas as trapezoid_areas
+    from cfree.geometry.integrals import trapezoid_curvatures as trapezoid_curvatures
     from cfree.geometry.kinematic import meeting_volume as meeting_volume
     from cfree.geometry.local import LocalGeometry as LocalGeometry
     from cfree.geometry.local import local_geometry as local_geometry
@@ -36,22 +38,19 @@ if TYPE_CHECKING:
     from cfree.geometry.rulings import striction_is_on_patch as striction_is_on_patch
     from cfree.geometry.rulings import striction_parameter as striction_parameter
     from cfree.geometry.rulings import striction_parameters as striction_parameters
-    from cfree.geometry.total_curvature import patch_curvatures as patch_curvatures
-    from cfree.geometry.total_curvature import trapezoid_curvatures as trapezoid_curvatures
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
-        "area": "patch_areas trapezoid_areas",
         "congruence": "arc_classes helix_classes patch_classes surface_classes",
         "development": "develop",
         "curvature_sum": "GaussBonnet gauss_bonnet",
         "geodesics": "Geodesic geodesic",
+        "integrals": "patch_areas patch_curvatures trapezoid_areas trapezoid_curvatures",
         "kinematic": "meeting_volume",
         "local": "LocalGeometry local_geometry",
         "normals": "GaussMap gauss_map",
         "rulings": "distribution_parameters is_developable is_helicoid is_minimal "
         "striction_curve striction_is_on_patch striction_parameter striction_parameters",
-        "total_curvature": "patch_curvatures trapezoid_curvatures",
     },
 )
