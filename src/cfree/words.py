@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 MOST_NAMES = 8
@@ -24,6 +25,28 @@ def counted(count: int, noun: str, plural: str | None = None) -> str:
         last = noun.rsplit(" ", 1)[-1]
         plural = noun.removesuffix(last) + ENDINGS.get(last, last + "s")
     return f"{count:,} {noun if count == 1 else plural}"
+
+
+_AFTER_THE_NOUN = re.compile(
+    r"(?<=.)(?=[,:(]|\s+(?:in|of|on|at|by|with|without|within|from|to|for|that|which|whose|so|as|after|before|beyond|outside|"
+    r"inside|between|under|over|through|not|and|or|drawn|closed|read|made|left|joined|painted|used|than|is|are|forbids?)\b)"
+)
+
+
+def plural(phrase: str) -> str:
+    """Return the plural of a noun with its attributes.
+
+    Examples
+    --------
+    >>> plural("open line"), plural("entity in paper space"), plural("ring drawn twice"), plural("vertex")
+    ('open lines', 'entities in paper space', 'rings drawn twice', 'vertices')
+    """
+    noun, rest = (_AFTER_THE_NOUN.split(phrase, maxsplit=1) + [""])[:2]
+    if word := re.search(r"\b(vertex|patch)$", noun):
+        return f"{noun[: word.start()]}{ENDINGS[word[1]]}{rest}"
+    if re.search(r"[^aeiou]y$", noun):
+        return f"{noun[:-1]}ies{rest}"
+    return f"{noun}{'es' if re.search(r'(s|x|ch|sh)$', noun) else 's'}{rest}"
 
 
 def listed(names: Sequence[str], by: str = "; ") -> str:

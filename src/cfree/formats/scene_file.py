@@ -21,6 +21,7 @@ from cfree.exact.half_angle import Angle
 from cfree.exact.pose import Pose
 from cfree.formats.drawings.source import Reading
 from cfree.formats.readers import read_file, read_json_file
+from cfree.formats.scenes.reading_text import records
 from cfree.formats.shapes import IGNORE, ROLES, Shape, Shapes
 from cfree.formats.text.atomic import checked_suffix, replacing
 from cfree.formats.text.findings import Findings
@@ -141,7 +142,7 @@ def shapes_in(scene: Scene, file: str) -> Shapes:
     settings = {key: value for key in _SETTINGS if (value := getattr(scene, key))}
     if "goal" in settings:
         settings.pop("goals", None)
-    return Shapes("scene", tuple(shapes), settings, file=file)
+    return Shapes("scene", tuple(shapes), settings, scene.reading, file)
 
 
 def save_scene(scene: Scene, path: str | PathLike[str]) -> tuple[str, ...]:
@@ -219,6 +220,8 @@ def scene_text(scene: Scene) -> str:
         lines["goals"] = _list([_goal_text(goal) for goal in scene.goals])
     if scene.check:
         lines["check"] = _json(scene.check)
+    if scene.reading:
+        lines["reading"] = _list([_json(record) for record in records(scene.reading, with_points=True)])
     return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in lines.items()) + "\n}\n"
 
 

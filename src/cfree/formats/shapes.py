@@ -1,4 +1,4 @@
-"""The content of a file before it is a scene: polygons with roles, poses and bounds, and the changes of reading.
+"""The content of a file before it is a scene: polygons with roles, poses and bounds, and the record of reading.
 
 A shape's role is ``robot``, ``obstacle`` (the default) or ``workspace``; a ``part`` has no place yet
 and is in no scene.
@@ -7,15 +7,19 @@ and is in no scene.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from pathlib import PurePath
 from typing import Any, Literal
 
 from cfree.arguments import checked
 from cfree.errors import UnsupportedError
 from cfree.formats.text.findings import InvalidFileError, whole
+from cfree.lazy import registered
 from cfree.polygons.polygon import Polygon
-from cfree.scene.reading import Note
+from cfree.scene.reading import Note, of_file, together
+from cfree.scene.reading_lines import losses
 from cfree.scene.scene import AnyShape, Scene, shapes_in
+from cfree.words import counted
 
 Role = Literal["robot", "obstacle", "workspace", "part"]
 ROLES = ("robot", "obstacle", "workspace")
@@ -34,9 +38,9 @@ class Shape:
     polygon: AnyShape
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Shapes:
-    """The shapes of a file, and the changes of reading; `load_shapes` makes it.
+    """The shapes of a file, and the record of reading; `load_shapes` makes it.
 
     Attributes
     ----------
@@ -48,6 +52,15 @@ class Shapes:
         The file's other members of a scene: bounds, start, goal, units and so on, as arguments of `Scene`.
     reading : tuple of Note
         Losses, guesses and changes of reading, the most serious first.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> shapes = cfree.load_shapes("examples/scenes/flat.json")
+    >>> shapes
+    <Shapes of flat.json (scene): 1 robot, 39 obstacles; 0 losses>
+    >>> shapes.layers["bed"]
+    <Shapes of flat.json (scene): 1 obstacle; 0 losses>
     """
 
     form: str
@@ -56,6 +69,32 @@ class Shapes:
     reading: tuple[Note, ...] = ()
     file: str = ""
     remedy: str = ""
+
+    def __repr__(self) -> str:
+        roles = [shape.role for shape in self.shapes]
+        numbers = ", ".join(counted(roles.count(role), role) for role in dict.fromkeys(_ORDER) if role in roles)
+        lost = losses(self.reading)
+        worst = f": {lost[0].text}" if lost else ""
+        name = PurePath(self.file).name
+        return f"<Shapes of {name} ({self.form}): {numbers or 'none'}; {counted(len(lost), 'loss', 'losses')}{worst}>"
+
+    @property
+    def layers(self) -> dict[str, Shapes]:
+        """Shapes and notes by layer, group or name, in the order of the file; shapes without a name by their role."""
+        names = [shape.name or shape.role for shape in self.shapes]
+        names += [note.where for note in self.reading if note.where]
+        return {
+            name: replace(
+                self,
+                shapes=tuple(shape for shape in self.shapes if (shape.name or shape.role) == name),
+                reading=tuple(note for note in self.reading if note.where == name),
+            )
+            for name in dict.fromkeys(names)
+        }
+
+    def plot(self) -> Any:
+        """Draw shapes and record of reading with `cfree.plot.picture`; return the matplotlib figure."""
+        return registered("figure")(self)
 
     @property
     def changed(self) -> tuple[str, ...]:
@@ -82,32 +121,48 @@ class Shapes:
 
     @checked
     def scene(self, robot: Any = None) -> Scene:
-        """Return the scene of these shapes.
+        """Return the scene of these shapes, with the record of reading.
 
         Parameters
         ----------
-        robot : shape or sequence of shapes, optional
-            A robot to replace the file's; needed if the file has none.
+        robot : shape, sequence of shapes, or Shapes, optional
+            A robot to replace the file's; needed if the file has none. Of the shapes of another file these are its
+            robot, or all of them if there is none; the scene has the records of both files.
 
         Raises
         ------
         FormatError
             If there is no robot, or more than one workspace.
         """
-        parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
+        if isinstance(robot, Shapes):
+            parts, its = [shape.polygon for shape in robot.of("robot") or robot.shapes], robot.record
+        else:
+            parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
+            its = ()
         rooms = self.of("workspace")
         if not parts:
             raise InvalidFileError(self.file, [whole(f"there is no robot; {self.remedy}")])
         if len(rooms) > 1:
             raise InvalidFileError(self.file, [whole(f"{len(rooms)} workspaces; give one polygon")])
         obstacles = self.of("obstacle")
+        nothing = () if obstacles or rooms or self.form == "scene" else of_file([_NOTHING_FORBIDS], self.file)
         return Scene(
             robot=parts,
             obstacles=[shape.polygon for shape in obstacles],
             obstacle_names=[shape.name for shape in obstacles],
             workspace=rooms[0].polygon if rooms else None,
+            reading=together(self.record, its, nothing),
             **self.settings,
         )
+
+    @property
+    def record(self) -> tuple[Note, ...]:
+        """The record of reading with the name of the file in each note; a scene's own is unchanged."""
+        return self.reading if self.form == "scene" else of_file(self.reading, self.file)
+
+
+_ORDER = (*ROLES, PART)
+_NOTHING_FORBIDS = Note("info", "nothing forbids a pose: no obstacle and no workspace")
 
 
 def _line(note: Note) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -17,6 +17,7 @@ from cfree.curves.drawn import Line
 from cfree.curves.rings import Cubic, Piece
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
+from cfree.scene.reading import Note
 
 if TYPE_CHECKING:
     from cfree.scene.scene import AnyShape, Bounds, Scene
@@ -32,10 +33,13 @@ class Stamp:
         Hash of the scene's text, which has no names, units, start or goal.
     robot : four numbers
         Least x and y, greatest x and y of the robot's vertices, in its own frame.
+    reading : tuple of Note
+        The scene's record of reading; no part of the identity.
     """
 
     sha256: str
     robot: Bounds
+    reading: tuple[Note, ...] = field(default=(), compare=False)
 
     @property
     def size(self) -> Fraction:
@@ -80,7 +84,7 @@ def stamp_of(scene: Scene) -> Stamp:
     for shape in scene.obstacles:
         digest.add(shape)
     x, y = zip(*chain.from_iterable(map(_corners, scene.robot)), strict=True)
-    return Stamp(digest.sha256, (min(x), min(y), max(x), max(y)))
+    return Stamp(digest.sha256, (min(x), min(y), max(x), max(y)), scene.reading)
 
 
 def _corners(shape: AnyShape) -> Sequence[ExactPoint]:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from pathlib import PurePath
 from typing import Literal, get_args
+
+from cfree.words import counted, plural
 
 Kind = Literal["lost", "guess", "assumption", "warning", "joined", "near", "mended", "hidden", "paint", "info"]
 """Kinds of notes, the most serious first."""
@@ -13,17 +17,24 @@ KINDS: tuple[str, ...] = get_args(Kind)
 EFFECTS: tuple[str, ...] = get_args(Effect)
 LOSSES = ("lost", "guess", "warning")
 """Kinds that are errors for strict readers."""
-MOST_ITEMS = 20
-"""Maximum number of single places that a note lists."""
+MOST_ITEMS = 1000
+"""Maximum number of single places that a note lists; files hold fewer."""
+MOST_POINTS = 100
+"""Maximum number of points of one of these."""
+Place = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """One of the things that a note counts: its handle or line in the file, its place, and its size."""
+    """One of the things that a note counts: its handle or line in the file, its place, and its size.
+
+    Its `points` are for pictures: a line, or the outline of a shape, whose last point is then the first one.
+    """
 
     handle: str = ""
-    at: tuple[float, float] | None = None
+    at: Place | None = None
     size: float | None = None
+    points: tuple[Place, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +46,8 @@ class Note:
     kind : str
         "lost": drawn and not in the scene. "guess": the file does not decide. "assumption": an option's statement.
         "warning": probably not meant. "joined": gaps that were closed. "near": within a tolerance. "mended": faults of
-        the file. "hidden": layers that are off. "paint": text and dimensions. "info": everything else.
+        the file. "hidden": layers that are off. "paint": text and dimensions. "info": everything else. Files may have
+        other kinds, which are kept.
     what : str
         A noun phrase in the singular without a number, such as "open line".
     effect : str
@@ -49,19 +61,24 @@ class Note:
     size : float, optional
         Length, area or gap of the worst, in the scene's unit.
     items : tuple of Item
-        Up to 20 of the things, in the file's order.
+        Up to 1,000 of the things, in the file's order; a scene file holds 20 of them.
     remedy : str
         An option of the command line that changes it, literally.
     file : str
-        The file, if several were read.
+        The file, if it was not a scene's.
+
+    Examples
+    --------
+    >>> print(Note("lost", "open line", "less", 39, "A-WALL", (12.2, -2.3), 140.0, remedy="--join 0.0004"))
+    LOST      39 open lines of A-WALL (the largest 140 at 12.2, -2.3): --join 0.0004
     """
 
-    kind: Kind
+    kind: str
     what: str
     effect: Effect = "none"
     count: int = 1
     where: str = ""
-    at: tuple[float, float] | None = None
+    at: Place | None = None
     size: float | None = None
     items: tuple[Item, ...] = ()
     remedy: str = ""
@@ -71,6 +88,54 @@ class Note:
     def severity(self) -> int:
         """Rank of the kind: 0 is the most serious."""
         return KINDS.index(self.kind) if self.kind in KINDS else len(KINDS)
+
+    @property
+    def label(self) -> str:
+        """The word with which its line begins."""
+        return _LABELS.get(self.kind, self.kind)
+
+    @property
+    def things(self) -> str:
+        """What it counts, with the number; one of mere information has none."""
+        is_single = self.count == 1 and self.kind not in _COUNTED
+        return self.what if is_single else counted(self.count, self.what, plural(self.what))
+
+    @property
+    def owner(self) -> str:
+        """The layer, group or id, as an attribute of the things."""
+        return f" of {_named(self.where)}" if self.where else ""
+
+    @property
+    def worst(self) -> str:
+        """Size and place of the worst of the things, as an attribute of them."""
+        size = None if self.size is None else f"{self.size:.3g}"
+        place = f" at {self.at[0]:.6g}, {self.at[1]:.6g}" if self.at else ""
+        if self.kind == "joined" and size:
+            return f", the widest gap {size}{place}"
+        if self.effect == "near" and size:
+            return f" within {size}{place}"
+        if size:
+            return f" ({'the largest ' if self.count > 1 else ''}{size}{place})"
+        return f" ({'one' if self.count > 1 else 'it is'}{place})" if place else ""
+
+    @property
+    def text(self) -> str:
+        """Its line without the label."""
+        return f"{self.things}{self.owner}{self.worst}" + (f": {self.remedy}" if self.remedy else "")
+
+    def __str__(self) -> str:
+        """Write its line, as the commands print it."""
+        return f"{self.label:<9} {self.text}"
+
+
+_LABELS = {"lost": "LOST", "assumption": "assumed", "hidden": "left out", "paint": "left out"}
+_COUNTED = ("lost", "guess", "assumption", "joined", "hidden", "paint")
+"""Kinds whose notes begin with their count also if it is 1."""
+
+
+def _named(where: str) -> str:
+    """Quote a name that is more than one plain word."""
+    return where if re.fullmatch(r"[\w.:#$/-]+", where) else f'"{where}"'
 
 
 class Notes:
@@ -105,3 +170,29 @@ def _merged(before: Note, note: Note) -> Note:
 def in_order(notes: Iterable[Note]) -> tuple[Note, ...]:
     """Return notes, the most serious first; the order of the file among equals."""
     return tuple(sorted(notes, key=lambda note: note.severity))
+
+
+def together(*records: Iterable[Note]) -> tuple[Note, ...]:
+    """Return the notes of several records in order, each once."""
+    return in_order(dict.fromkeys(note for notes in records for note in notes))
+
+
+def of_file(notes: Iterable[Note], file: str) -> tuple[Note, ...]:
+    """Return notes with the name of their file; those that have one keep it."""
+    name = PurePath(file).name
+    return tuple(note if note.file else replace(note, file=name) for note in notes)
+
+
+def thinned(points: Sequence[Place]) -> tuple[Place, ...]:
+    """Return at most `MOST_POINTS` of the points of a line, with both ends.
+
+    Examples
+    --------
+    >>> line = thinned([(k, 0) for k in range(1000)])
+    >>> len(line), line[0], line[-1]
+    (100, (0, 0), (999, 0))
+    """
+    last = len(points) - 1
+    if last < MOST_POINTS:
+        return tuple(points)
+    return tuple(points[round(k * last / (MOST_POINTS - 1))] for k in range(MOST_POINTS))

@@ -28,6 +28,8 @@ from cfree.lazy import registered
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import range_fault
 from cfree.scene.goals import Goal, to_goals
+from cfree.scene.reading import Note, in_order
+from cfree.scene.reading_lines import losses
 from cfree.value import Keeping, Shown
 from cfree.words import counted
 
@@ -66,6 +68,9 @@ class Scene(Shown, Keeping):
         Facts about the scene that have been checked, as JSON.
     version : int, optional
         Version of the scene format.
+    reading : sequence of Note, optional
+        Losses, guesses and changes of reading, if it was read from a file: the attribute has the most serious first.
+        It is no part of the value. Scenes made from this one keep it.
 
     Raises
     ------
@@ -105,6 +110,7 @@ class Scene(Shown, Keeping):
     source: Mapping[str, str] = field(hash=False)
     check: Mapping[str, object] = field(hash=False)
     version: int
+    reading: tuple[Note, ...] = field(compare=False)
     curved: bool = field(init=False, compare=False)  # True if some of its shapes are round
 
     def __init__(
@@ -124,6 +130,7 @@ class Scene(Shown, Keeping):
         source: Mapping[str, str] | None = None,
         check: Mapping[str, object] | None = None,
         version: int = 1,
+        reading: Sequence[Note] = (),
     ) -> None:
         robot_parts = [
             polygon for k, item in enumerate(_items(robot, "robot")) for polygon in _shapes(item, f"robot[{k}]")
@@ -165,6 +172,7 @@ class Scene(Shown, Keeping):
             "source": dict(source or {}),
             "check": dict(check or {}),
             "version": version,
+            "reading": in_order(reading),
         }
         shown = (*robot_parts, *(shape for _, shape in shapes), values["workspace"])
         values["curved"] = any(isinstance(shape, Curved) for shape in shown)
@@ -182,7 +190,9 @@ class Scene(Shown, Keeping):
         parts, count = len(self.robot), len(self.obstacles)
         robot = f"{parts} {'shapes' if self.curved else 'polygons'}, " if parts > 1 else ""
         obstacles = counted(count, "obstacle") + (f": {_edges(self.obstacles)}" if count else "")
-        return f"Scene({title}robot: {robot}{_edges(self.robot)}; {obstacles})"
+        lost = losses(self.reading)
+        worst = f"; {lost[0].label}: {lost[0].things}{lost[0].owner}" if lost else ""
+        return f"Scene({title}robot: {robot}{_edges(self.robot)}; {obstacles}{worst})"
 
     def plot(self) -> Any:
         """Draw obstacles, bounds, workspace, start and goal with `cfree.plot.picture`; return the matplotlib figure."""
@@ -270,7 +280,7 @@ def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Sc
             f"no polygon inside the {'workspace' if robot else 'robot'} can be proved: it is too thin, or has cusps",
             error=max(errors),
         )
-    settings = {key: getattr(scene, key) for key in ("bounds", "start", "units", "name")}
+    settings = {key: getattr(scene, key) for key in ("bounds", "start", "units", "name", "reading")}
     return Scene(
         robot,
         [polygon for _, polygon in named],
@@ -328,7 +338,14 @@ def robot_radius(scene: Scene) -> float:
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:
     """Return the scene with another robot and other bounds, without start and goal."""
     names = scene.obstacle_names
-    return Scene(robot, scene.obstacles, bounds=bounds, obstacle_names=names, workspace=scene.workspace)
+    return Scene(
+        robot,
+        scene.obstacles,
+        bounds=bounds,
+        obstacle_names=names,
+        workspace=scene.workspace,
+        reading=scene.reading,
+    )
 
 
 def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
@@ -468,7 +485,15 @@ def with_obstacles(scene: Scene, obstacles: Sequence[Polygon], names: Sequence[s
         goals=scene.goals,
         units=scene.units,
         name=scene.name,
+        reading=scene.reading,
     )
+
+
+def with_reading(scene: Scene, notes: Sequence[Note]) -> Scene:
+    """Return the scene with another record of reading."""
+    other = copy(scene)
+    object.__setattr__(other, "reading", in_order(notes))
+    return other
 
 
 def required(scene: Scene, start: PoseLike | None, goal: PoseLike | None) -> tuple[Pose, Pose]:

@@ -13,7 +13,7 @@ from cfree.curves.drawn import Ring
 from cfree.curves.hulls import box_of
 from cfree.formats.shapes import Shape, Shapes
 from cfree.formats.text.findings import Findings, InvalidFileError, Problem, whole
-from cfree.scene.reading import Effect, Item, Kind, Note, Notes
+from cfree.scene.reading import Effect, Item, Kind, Note, Notes, Place, thinned, together
 
 MOST_BYTES = 1 << 26
 """Maximum size of a drawing or a map."""
@@ -24,6 +24,8 @@ DEEPEST = 100
 """Maximum depth of groups, blocks and references."""
 CURVE_SHARE = 1000
 """Default tolerance of curves: the drawing's size divided by this."""
+_DRAWN = ("lost", "guess", "hidden", "paint")
+"""Kinds of notes about things that are drawn and that may be in no shape."""
 _MARK = re.compile(r"(robot|obstacle|workspace)(?![a-z])", re.IGNORECASE)
 
 
@@ -88,10 +90,15 @@ class Source:
         size: float | None = None,
         handle: str = "",
         remedy: str = "",
+        points: Sequence[Place] = (),
     ) -> None:
-        """Record a difference between the file and the scene, see `Note`; with a handle or a place, also as an item."""
+        """Record a difference between the file and the scene, see `Note`.
+
+        With a handle, a place or points it is also an item. Points are for pictures: a line, or the outline of a shape,
+        whose last point is then the first one, in the scene's frame.
+        """
         if count:
-            items = (Item(handle, at, size),) if handle or at else ()
+            items = (Item(handle, at, size, thinned(points)),) if handle or at or points else ()
             self.notes.add(Note(kind, what, effect, count, where, at, size, items, remedy))
 
     def refuse(self, message: str, line: int = 1, column: int = 1, place: str = "") -> NoReturn:
@@ -131,14 +138,11 @@ def read_bytes(path: str, most: int = MOST_BYTES) -> bytes:
 def shapes_of(source: Source, form: str, shapes: list[Shape], settings: Mapping[str, Any], remedy: str) -> Shapes:
     """Return the shapes that a reader found; raise the problems that it noted."""
     source.findings.fail_if_any()
-    return Shapes(
-        form,
-        tuple(shapes),
-        dict(settings),
-        tuple(source.notes),
-        source.findings.file,
-        remedy,
-    )
+    own = {key: value for key, value in settings.items() if key != "reading"}
+    if not shapes and not any(note.kind in _DRAWN for note in source.notes):
+        source.note("info", f"nothing is drawn in {Path(source.findings.file).name}")
+    reading = together(settings.get("reading", ()), source.notes)
+    return Shapes(form, tuple(shapes), own, reading, source.findings.file, remedy)
 
 
 def role_of(source: Source, *names: str | None) -> tuple[str, str | None]:

@@ -33,6 +33,7 @@ from cfree.curves.curved import Curved
 from cfree.errors import InvalidPolygonError
 from cfree.formats.scenes.curve_format import ROUND_KEYS, TAGS, CurvedModel, keys_of
 from cfree.formats.scenes.json_types import Angle, Coordinate, Point, Strict
+from cfree.formats.scenes.reading_format import ItemModel, NoteModel, notes_of_lists
 from cfree.formats.scenes.scene_values import (
     MAX_NAME,
     MAX_TEXT,
@@ -52,6 +53,7 @@ from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_positions import Path, shortened
 from cfree.polygons.polygon import Polygon
 from cfree.scene.coordinate_range import range_fault
+from cfree.scene.reading import Note
 from cfree.scene.scene import Scene, explained
 
 
@@ -202,6 +204,14 @@ class SceneModel(Strict):
     goal: Goal | None = None
     goals: list[Goal] = Field([])
     check: Plain = Field({})
+    reading: list[NoteModel] = Field([])
+    changed: list[Text] = Field([])
+    dropped: list[Text] = Field([])
+
+    @property
+    def record(self) -> tuple[Note, ...]:
+        """The record of reading, with the lists of older files."""
+        return *(note.made for note in self.reading), *notes_of_lists(self.changed, self.dropped)
 
 
 def scene_from_models(findings: Findings, data: object) -> Scene:
@@ -237,6 +247,7 @@ def scene_from_models(findings: Findings, data: object) -> Scene:
         obstacles=obstacles,
         obstacle_names=[part.name for part in model.obstacles],
         workspace=workspace,
+        reading=model.record,
         **{key: getattr(model, key) for key in READERS},
     )
 
@@ -245,7 +256,12 @@ def _keys_at(path: Path) -> list[str]:
     keys = [step for step in path if isinstance(step, str)]
     if keys and (known := keys_of(keys[-1])):
         return known
-    models: dict[tuple[str, ...], type[BaseModel]] = {(): SceneModel, ("obstacles",): ObstacleModel}
+    models: dict[tuple[str, ...], type[BaseModel]] = {
+        (): SceneModel,
+        ("obstacles",): ObstacleModel,
+        ("reading",): NoteModel,
+        ("reading", "items"): ItemModel,
+    }
     return list(models.get(tuple(keys), PolygonModel).model_fields)
 
 

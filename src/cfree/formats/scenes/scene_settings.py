@@ -8,6 +8,8 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from cfree.exact.pose import Pose
+from cfree.formats.scenes.reading_format import NoteModel
+from cfree.formats.scenes.reading_text import records
 from cfree.formats.scenes.scene_format import Bounds, Configuration, Goal, Plain, Text, report
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_positions import Path
@@ -23,6 +25,7 @@ ADAPTERS: dict[str, TypeAdapter[Any]] = {
     "scene": TypeAdapter(Text),
     "source": TypeAdapter(dict[str, Text]),
     "check": TypeAdapter(Plain),
+    "reading": TypeAdapter(list[NoteModel]),
 }
 
 
@@ -39,6 +42,8 @@ def read_settings(findings: Findings, data: object, path: Path) -> dict[str, Any
         except ValidationError as error:
             for item in error.errors(include_url=False, include_input=False):
                 report(findings, (*path, key, *item["loc"]), item)
+    if notes := settings.get("reading"):
+        settings["reading"] = tuple(note.made for note in notes)
     if settings.get("goal") is not None and settings.pop("goals", None):
         findings.under((*path, "goals"), 'there is also a "goal"; give one of them')
     return settings
@@ -56,6 +61,7 @@ def settings_of(scene: Scene) -> dict[str, Any]:
         "scene": scene.name,
         "source": dict(scene.source),
         "check": dict(scene.check),
+        "reading": records(scene.reading),
     }
     return {key: value for key, value in settings.items() if value}
 
