@@ -391,6 +391,7 @@ class Scene:
 def read_scene(data: Any) -> Scene:
     refuse_if(isinstance(data, dict) and "type" in data, "GeoJSON is not read here; save the scene as a JSON scene")
     optional = dict.fromkeys(("workspace", "bounds", "start", "goal", "name", "note", "units", "source", "check"))
+    optional |= dict.fromkeys(("reading", "changed", "dropped"))
     got = members(data, "scene", version=1, robot=REQUIRED, obstacles=[], goals=[], **optional)
     one_of(got["version"], "version", 1)
     robot, obstacles = ([each] if is_ring(each) else each for each in (got["robot"], got["obstacles"]))
@@ -925,7 +926,7 @@ class Answer:
         asked = {} if got["moved"] is None else members(got["moved"], "moved", start=None, goal=None)
         self.asked = {k: read_pose(v, f"moved.{k}", 3 - (k == "goal")) for k, v in asked.items() if v is not None}
         refuse_if(got["moved"] is not None and not self.asked, "moved: expected a start, a goal, or both")
-        stamp = members(got["scene"], "scene", sha256=REQUIRED, robot=REQUIRED)
+        stamp = members(got["scene"], "scene", sha256=REQUIRED, robot=REQUIRED, reading=[])
         self.sha256, self.box = stamp["sha256"], read_bounds(stamp["robot"], "scene.robot")
         self.whole = members(got["whole"], "whole", sha256=self.sha256, obstacles=[])
         self.kept = [whole(k, "whole.obstacles", 0) for k in items(self.whole["obstacles"], "whole.obstacles")]

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from cfree.exact.pose import Poses as Poses
     from cfree.forbidden.boundary import Boundary as Boundary
     from cfree.forbidden.boundary import boundary as boundary
+    from cfree.formats.conversion import convert as convert
     from cfree.formats.drawings.footprints import footprint as footprint
     from cfree.formats.files import load as load
     from cfree.formats.files import save as save
@@ -94,6 +95,7 @@ _HOMES = {
     "analysis.blockers": "blockers",
     "analysis.fits": "fits",
     "analysis.margins": "max_margin max_scale nearest_miss",
+    "formats.conversion": "convert",
     "formats.files": "load save",
     "formats.drawings.footprints": "footprint",
     "formats.scene_file": "load_polygons load_scene load_shapes",

@@ -33,6 +33,18 @@ _AFTER_THE_NOUN = re.compile(
 )
 
 
+def noun_and_rest(phrase: str) -> tuple[str, str]:
+    """Divide a noun with its attributes after the noun.
+
+    Examples
+    --------
+    >>> noun_and_rest("outline closed by a join"), noun_and_rest("open line")
+    (('outline', ' closed by a join'), ('open line', ''))
+    """
+    noun, *rest = _AFTER_THE_NOUN.split(phrase, maxsplit=1)
+    return noun, "".join(rest)
+
+
 def plural(phrase: str) -> str:
     """Return the plural of a noun with its attributes.
 
@@ -41,7 +53,7 @@ def plural(phrase: str) -> str:
     >>> plural("open line"), plural("entity in paper space"), plural("ring drawn twice"), plural("vertex")
     ('open lines', 'entities in paper space', 'rings drawn twice', 'vertices')
     """
-    noun, rest = (_AFTER_THE_NOUN.split(phrase, maxsplit=1) + [""])[:2]
+    noun, rest = noun_and_rest(phrase)
     if word := re.search(r"\b(vertex|patch)$", noun):
         return f"{noun[: word.start()]}{ENDINGS[word[1]]}{rest}"
     if re.search(r"[^aeiou]y$", noun):

@@ -100,6 +100,7 @@ function pose(value: Json, place: string): FilePose | undefined {
   return Number.isFinite(theta) ? { x, y, theta } : fail(`${place}[2]`, "an angle", angle);
 }
 
+const RECORD = ["reading", "changed", "dropped"];
 const KEYS = "version name note units source robot obstacles workspace bounds start goal goals check".split(" ");
 
 function refuse_deep(source: string): void {
@@ -136,7 +137,7 @@ export function read_scene(source: string): SceneText {
   const of = fields(parsed(source), "scene");
   if ("type" in of)
     throw new Error('GeoJSON: save it as a scene first, `cfree.save(cfree.load_scene(...), "scene.json")`');
-  const unknown = Object.keys(of).find((key) => !KEYS.includes(key));
+  const unknown = Object.keys(of).find((key) => !KEYS.includes(key) && !RECORD.includes(key));
   if (unknown !== undefined) throw new Error(`unknown key "${plain(unknown)}"; those of scenes are ${KEYS.join(", ")}`);
   const words: string[] = [];
   const parts = Array.isArray(of.robot) && !is_ring(of.robot) ? of.robot : [of.robot];

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from cfree.cli.faults import BAD_INPUT, INCOMPLETE, REFUTED, fail
 from cfree.cli.files import bar
+from cfree.cli.reading import AS_READ
 from cfree.cli.terminal import printable
 from cfree.scene.naming import all_placed
 
@@ -226,6 +227,7 @@ class Answering:
             described = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
         moved = moved_facts(self.answer) if for_machines else moved_rows(self.answer)
         rows: dict[str, Any] = {"answer": described["answer"], **moved, **described}
+        rows[AS_READ] = self._as_read()
         if self.path is not None and self.first is not None:
             facts = answer_facts(self.first, self.planner.scene)
             now = answer_facts(self.answer, self.planner.scene)
@@ -252,6 +254,14 @@ class Answering:
         if what_if and self.path is None:
             rows["what if"] = self._what_if(for_machines) if self.goal else "not of several goals; give one, with theta"
         return rows
+
+    def _as_read(self) -> str:
+        """Return the answer with the worst note of the scene's record, if one harms it."""
+        from cfree.cli.report import answer_text
+        from cfree.scene.reading_lines import qualified
+
+        scene = self.planner.scene
+        return qualified(answer_text(self.answer, scene), scene.reading, "no path" if self.path is None else "path")
 
     def _what_if(self, for_machines: bool) -> str | list[int]:
         obstacles = [blocker.obstacle for blocker in self.blockers]

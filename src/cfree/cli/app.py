@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from cfree.cli import reading
 from cfree.cli.commands.boundary import boundary
 from cfree.cli.commands.figures import figures
 from cfree.cli.commands.film import film
@@ -23,6 +24,7 @@ def main() -> None:
 
 
 @click.group(
+    cls=reading.Commands,
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
     epilog=examples(

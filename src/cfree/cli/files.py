@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cfree.cli.options import refuse
+from cfree.cli.reading import made, report
 from cfree.cli.terminal import status
 from cfree.formats.text.archive import is_archive
 
@@ -24,16 +25,29 @@ if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
 
-def read_source(source: Path) -> Scene | Boundary:
-    """Read the boundary in a file, or the scene."""
-    from cfree.formats.scene_file import load_scene
+def read_scene(source: Path) -> Scene:
+    """Read the scene in a file, and report its record of reading."""
+    from cfree.collector import collection_paused
+    from cfree.formats.readers import read_file
+    from cfree.scene.scene import Scene
 
+    with bar("reading"), collection_paused():
+        content = read_file(source)
+    if not isinstance(content, Scene):
+        return made(content, source)
+    report(content.reading, source)
+    return content
+
+
+def read_source(source: Path) -> Scene | Boundary:
+    """Read the boundary in a file, or the scene, and report the record of reading."""
     if is_archive(source):
         from cfree.formats.boundaries.boundary_file import load_boundary
 
-        return load_boundary(source)
-    with bar("reading"):
-        return load_scene(source)
+        boundary = load_boundary(source)
+        report(boundary.scene.reading, source)
+        return boundary
+    return read_scene(source)
 
 
 def computed(
@@ -74,7 +88,6 @@ def planner_of(
     source: Path, max_seconds: float | None, preferences: Preferences, tolerance: float | None
 ) -> Planner | CurvedPlanner | FolderPlanner:
     """Make a planner for the scene in a file, with its free space if the file is a boundary; or for a folder."""
-    from cfree.formats.scene_file import load_scene
     from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner
 
@@ -84,6 +97,7 @@ def planner_of(
         from cfree.cli.folders import FolderPlanner
 
         planner: Planner | FolderPlanner = FolderPlanner(source, preferences)
+        report(planner.scene.reading, source)
     elif is_archive(source):
         from cfree.formats.boundaries.boundary_file import load_boundary
         from cfree.free.space import free_space
@@ -91,9 +105,9 @@ def planner_of(
         with bar("cells"):
             space = free_space(load_boundary(source))
         planner = Planner(space.boundary.scene, space, preferences=preferences, phase=bar)
+        report(planner.scene.reading, source)
     else:
-        with bar("reading"):
-            scene = load_scene(source)
+        scene = read_scene(source)
         planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
         if scene.curved:
             return CurvedPlanner(planner, tolerance)

@@ -10,6 +10,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cfree.cli.reading import is_strict, report
 from cfree.cli.terminal import status
 from cfree.words import counted
 
@@ -31,9 +32,15 @@ def make(
 ) -> Sharded:
     """Compute the boundary of a scene in a folder, in this number of tiles."""
     from cfree.distributed.building import boundary
+    from cfree.distributed.reading import notes_of
 
+    if is_strict():
+        for file in (source, *obstacles):
+            report(notes_of(file), file)
     with cluster(workers, scheduler) as client, stages() as progress:
-        return boundary([source, *obstacles], folder=folder, client=client, tiles=tiles, progress=progress)
+        result = boundary([source, *obstacles], folder=folder, client=client, tiles=tiles, progress=progress)
+    report(result.head.reading, source)
+    return result
 
 
 def verified(folder: Path, answer: Path | None, sample: int | None, seed: int, client: Any) -> Verification:
@@ -46,6 +53,7 @@ def verified(folder: Path, answer: Path | None, sample: int | None, seed: int, c
     from cfree.verify.result import REFUTED, Check, Finding, Verification
 
     sharded = Sharded(folder)
+    report(sharded.head.reading, folder)
     if answer is None:
         with stages() as progress:
             return sharded.verify(sample=sample, seed=seed, client=client, progress=progress)

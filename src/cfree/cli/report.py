@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from cfree.cli.reading import AS_READ, facts, last_line
 from cfree.cli.terminal import columns, print_json, printable, terminal_width
 from cfree.exact.pose import Pose
 from cfree.scene.goals import Goal, Moved, text_of
@@ -57,14 +58,13 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
         yield f"removed    {point['shape']}: {place}, point {point['index']}: {point['reason']}"
     if facts["format"] != "scene":
         yield f"read as    {facts['format']}"
-    for name in ("changed", "dropped"):
-        for line in facts[name]:
-            yield f"{name:<10} {line}"
     for name in ("units", "note"):
         if facts[name]:
             yield f"{name:<10} {facts[name]}"
     for name, value in facts["source"].items():
         yield f"source     {name}: {value}"
+    if line := last_line():
+        yield line
 
 
 def boundary_rows(boundary: Boundary, *, verbose: bool) -> dict[str, int | float | str]:
@@ -108,24 +108,20 @@ def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[s
 
     unit = f" {scene.units}" if scene.units else ""
     if not isinstance(answer, Path):
-        verdict = {"closed": "no path at all, proved", "interior": "no path of positive clearance, proved"}[answer.of]
-        if answer.clearance:
-            verdict = f"no path that keeps {float(answer.clearance):g}{unit}, proved"
         if not isinstance(answer, Separated):
             return {
-                "answer": f"to none of the goals: {verdict}",
+                "answer": answer_text(answer, scene),
                 "goals": f"{len(answer.goals):,}",
                 "proofs": f"{len(answer.proofs):,}",
                 "blocking obstacles": all_placed(scene, answer.obstacles),
             }
         return {
-            "answer": verdict,
+            "answer": answer_text(answer, scene),
             "separating surface": f"{counted(len(answer.pieces), 'piece')} of contact surfaces",
             "blocking obstacles": all_placed(scene, answer.obstacles),
         }
-    clear = f" and to keep {float(answer.clearance):g}{unit}" if answer.clearance else ""
     rows: dict[str, int | float | str] = {
-        "answer": f"a path, each motion proved free{clear}",
+        "answer": answer_text(answer, scene),
         **{name: count for name, count in motion_counts(answer).items() if count or name != "slides"},
         "path length": f"{answer.length:.6g}{unit}",
         "total rotation": f"{math.degrees(answer.turning):.6g} degrees",
@@ -135,6 +131,20 @@ def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[s
         rows["least clearance"] = f"{least.found:.6g}{unit}, in motion {least.motion}, to {name}"
         rows["proved lower bound"] = f"{rounded_down(max(least.least, float(answer.clearance)), 6)}{unit}"
     return rows
+
+
+def answer_text(answer: Path | Separated | AllSeparated, scene: Scene) -> str:
+    """Return the statement of an answer."""
+    from cfree.paths.path import Path
+    from cfree.planning.separation import Separated
+
+    keeping = f"{float(answer.clearance):g}{f' {scene.units}' if scene.units else ''}" if answer.clearance else ""
+    if isinstance(answer, Path):
+        return f"a path, each motion proved free{f' and to keep {keeping}' if keeping else ''}"
+    verdict = {"closed": "no path at all, proved", "interior": "no path of positive clearance, proved"}[answer.of]
+    if keeping:
+        verdict = f"no path that keeps {keeping}, proved"
+    return verdict if isinstance(answer, Separated) else f"to none of the goals: {verdict}"
 
 
 def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[str, Any]:
@@ -202,15 +212,17 @@ def print_result(
 ) -> None:
     """Print the result and the files written: as a table, or as JSON."""
     if as_json:
-        print_json({"file": str(source), **rows, "files": files})
+        print_json({"file": str(source), **rows, "files": files, **facts()})
     else:
         print_rows(title, rows, files)
 
 
 def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:
-    """Print a title, names with values, and the files written."""
+    """Print a title, names with values, the files written, and the worst note of reading."""
     table = []
     for name, value in rows.items():
+        if name == AS_READ:
+            continue
         text = f"{value:,}" if isinstance(value, int) else f"{value:,.6g}" if isinstance(value, float) else value
         table.append([name, printable(text)])
     sizes = ((name, path, os.stat(path).st_size / 1000) for name, path in files.items())
@@ -218,6 +230,7 @@ def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping
         title,
         *columns(table, "<<", terminal_width()),
         *(f" {name:<8} {path} ({size:,.1f} kB)" for name, path, size in sizes),
+        *filter(None, [str(rows[AS_READ]) if AS_READ in rows else last_line()]),
     )
 
 
@@ -227,7 +240,8 @@ def print_verification(title: str, result: Verification) -> None:
 
     checks = [[check.name, check.how, printable(check.extent)] for check in result.checks]
     table = columns([["check", "", "of what"], *checks], "<<<", terminal_width())
-    _print(title, *table, *map(str, result.findings[: verify.SHOWN]), result.verdict)
+    last = filter(None, [result.as_read])
+    _print(title, *table, *map(str, result.findings[: verify.SHOWN]), result.verdict, *last)
 
 
 def _print(*lines: str) -> None:

@@ -24,6 +24,7 @@ from cfree.distributed.store import NO_ROUNDING, SceneStore, is_small, store_sce
 from cfree.distributed.trim import MODULUS
 from cfree.errors import FormatError
 from cfree.polygons.polygon import Polygon
+from cfree.scene.reading import Note
 from cfree.scene.scene import Scene
 
 TILE = 20_000
@@ -148,8 +149,9 @@ class _Build:
             if store.facts["key"] == self.key:
                 store.check()
                 return store
-        head, obstacles = read_source(self.source)
-        return store_scene(head, self._counted(obstacles), place, self.key)
+        notes: list[Note] = []
+        head, obstacles = read_source(self.source, notes)
+        return store_scene(head, self._counted(obstacles), place, self.key, notes)
 
     def _is_finished(self, counts: Mapping[str, Any]) -> bool:
         """True if there are cells, and the manifest is of the same shards."""

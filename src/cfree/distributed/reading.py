@@ -11,11 +11,12 @@ from cfree.collector import collection_paused
 from cfree.distributed.shard import key_of
 from cfree.errors import FormatError, InvalidPolygonError
 from cfree.formats.drawings.geojson import geojson_shapes
-from cfree.formats.scene_file import load_polygons, load_scene
+from cfree.formats.scene_file import load_scene, load_shapes
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_text import read_json
 from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import stamp_of
+from cfree.scene.reading import Note
 from cfree.scene.scene import Scene
 
 PathLike = str | os.PathLike[str]
@@ -55,7 +56,7 @@ def source_key(source: Source) -> str:
     return key_of("files", *digests)
 
 
-def read_source(source: Source) -> tuple[Scene, Iterator[Polygon]]:
+def read_source(source: Source, notes: list[Note]) -> tuple[Scene, Iterator[Polygon]]:
     """Scene of a source, and the obstacles beside its own.
 
     Parameters
@@ -63,21 +64,31 @@ def read_source(source: Source) -> tuple[Scene, Iterator[Polygon]]:
     source : Scene, path, or sequence of paths
         The first file is a scene; each other is GeoJSON, WKT, GeoJSON in lines (``.geojsonl``, ``.ndjson``), or
         GeoParquet, all of whose polygons are obstacles. A folder stands for its files in the order of their names.
+    notes : list of Note
+        Gets the records of reading of the files of obstacles, each after its obstacles.
     """
     if isinstance(source, Scene):
         return source, iter(())
     first, *others = files_of(source)
-    return load_scene(first), (polygon for path in others for polygon in _polygons(path))
+    return load_scene(first), (polygon for path in others for polygon in _polygons(path, notes))
 
 
-def _polygons(path: Path) -> Iterator[Polygon]:
+def notes_of(path: Path) -> tuple[Note, ...]:
+    """Record of reading of one file; tables and GeoJSON in lines have none."""
+    streamed = path.is_dir() or path.suffix.lower() in (*LINES, *PARQUET)
+    return () if streamed else load_shapes(path).record
+
+
+def _polygons(path: Path, notes: list[Note]) -> Iterator[Polygon]:
     suffix = path.suffix.lower()
     if suffix in LINES:
         yield from _in_lines(path)
     elif suffix in PARQUET:
         yield from _in_table(path)
     else:
-        yield from load_polygons(path)
+        shapes = load_shapes(path)
+        notes += shapes.record
+        yield from shapes.polygons
 
 
 def _in_lines(path: Path) -> Iterator[Polygon]:

@@ -25,7 +25,8 @@ from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.core_shapes import core_shapes
 from cfree.scene.digest import SceneDigest
 from cfree.scene.features import SceneFeatures
-from cfree.scene.scene import Scene, with_obstacles
+from cfree.scene.reading import Note, together
+from cfree.scene.scene import Scene, with_obstacles, with_reading
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -134,7 +135,9 @@ class SceneStore:
         return float(np.hypot(*self.rest.robot.xy.T).max()) * (1 + 1e-9)
 
 
-def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path, key: str = "") -> SceneStore:
+def store_scene(
+    head: Scene, obstacles: Iterable[Polygon], folder: Path, key: str = "", notes: Sequence[Note] = ()
+) -> SceneStore:
     """Write a scene to a folder, one obstacle after the other.
 
     Parameters
@@ -146,6 +149,8 @@ def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path, key: st
         Made if it is not there.
     key : str
         Key of the source of the scene.
+    notes : sequence of Note
+        Notes about reading the obstacles, complete after the last of them.
     """
     folder.mkdir(parents=True, exist_ok=True)
     digest = SceneDigest(head)
@@ -169,7 +174,8 @@ def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path, key: st
     finally:
         for file in files.values():
             file.close()
-    save_scene(with_obstacles(head, []), folder / "scene.json")
+    record = together(head.reading, notes)
+    save_scene(with_reading(with_obstacles(head, []), record), folder / "scene.json")
     facts = {"key": key, **counts, "scale": whole.scale, "box": whole.box, "scene": digest.sha256}
     write_json(folder / "facts.json", facts | {"files": file_sums(folder / name for name in STORED)})
     return SceneStore(folder)

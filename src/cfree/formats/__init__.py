@@ -8,9 +8,10 @@ Each part imports only from those before it:
 4. `drawings/`: drawings, maps and other files of shapes, one file a format.
 5. `readers.py`: the reader for each file.
 6. `scene_file.py`: `load_scene`, `load_shapes` and `save_scene`.
-7. `boundaries/`: boundaries, their tables, meshes and slices.
-8. `answers/`: paths and separations.
-9. `files.py`: `save` and `load`.
+7. `conversion.py`: `convert`.
+8. `boundaries/`: boundaries, their tables, meshes and slices.
+9. `answers/`: paths and separations.
+10. `files.py`: `save` and `load`.
 """
 
 from typing import TYPE_CHECKING

@@ -29,6 +29,7 @@ from cfree.formats.text.json_text import read_literals
 from cfree.formats.text.number_text import number_text
 from cfree.polygons.polygon import Polygon
 from cfree.scene.goals import Goal
+from cfree.scene.reading import Note
 from cfree.scene.scene import AnyShape, Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
@@ -145,13 +146,13 @@ def shapes_in(scene: Scene, file: str) -> Shapes:
     return Shapes("scene", tuple(shapes), settings, scene.reading, file)
 
 
-def save_scene(scene: Scene, path: str | PathLike[str]) -> tuple[str, ...]:
+def save_scene(scene: Scene, path: str | PathLike[str]) -> tuple[Note, ...]:
     """Write a scene as JSON, which gives an equal scene when read, or by the suffix as GeoJSON, SVG or DXF.
 
     Returns
     -------
-    tuple of str
-        The differences of the file from the scene, in words.
+    tuple of Note
+        The differences of the file from the scene.
 
     Raises
     ------

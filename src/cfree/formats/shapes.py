@@ -16,7 +16,7 @@ from cfree.errors import UnsupportedError
 from cfree.formats.text.findings import InvalidFileError, whole
 from cfree.lazy import registered
 from cfree.polygons.polygon import Polygon
-from cfree.scene.reading import Note, of_file, together
+from cfree.scene.reading import Note, of_file, together, without_places
 from cfree.scene.reading_lines import losses
 from cfree.scene.scene import AnyShape, Scene, shapes_in
 from cfree.words import counted
@@ -59,7 +59,7 @@ class Shapes:
     >>> shapes = cfree.load_shapes("examples/scenes/flat.json")
     >>> shapes
     <Shapes of flat.json (scene): 1 robot, 39 obstacles; 0 losses>
-    >>> shapes.layers["bed"]
+    >>> shapes.layers["outer walls"]
     <Shapes of flat.json (scene): 1 obstacle; 0 losses>
     """
 
@@ -135,7 +135,8 @@ class Shapes:
             If there is no robot, or more than one workspace.
         """
         if isinstance(robot, Shapes):
-            parts, its = [shape.polygon for shape in robot.of("robot") or robot.shapes], robot.record
+            parts = [shape.polygon for shape in robot.of("robot") or robot.shapes]
+            its = without_places(robot.record)  # those are in another frame
         else:
             parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
             its = ()

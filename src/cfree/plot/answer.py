@@ -16,6 +16,7 @@ from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.forbidden.kinds import COLOURS, PatchKind
+from cfree.formats.shapes import Shapes
 from cfree.palette import BARRIER, EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, VERTEX_EDGE, VIEW, paler
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
@@ -37,6 +38,7 @@ from cfree.plot.labels import BODY, Labels, name_in_space
 from cfree.plot.looks import looks, of_polygons, smooth
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
+from cfree.plot.reading import plot_shapes, with_record
 from cfree.plot.strips import strips
 from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
@@ -101,18 +103,20 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
 
 @checked
 def picture(
-    answer: Path | Separated | AllSeparated | Scene,
+    answer: Path | Separated | AllSeparated | Scene | Shapes,
     scene: Scene | None = None,
     boundary: Boundary | None = None,
     *,
     preferences: Preferences | None = None,
 ) -> Figure:
-    """Draw an answer in the workspace and, beside it, in the configuration space; or a scene.
+    """Draw an answer in the workspace and, beside it, in the configuration space; or a scene, or the shapes of a file.
 
     Parameters
     ----------
-    answer : Path, Separated, AllSeparated or Scene
+    answer : Path, Separated, AllSeparated, Scene or Shapes
         The first of several proofs is drawn. A scene is drawn as by `plot_workspace`, round shapes with many edges.
+        Over a scene or shapes the record of reading is drawn: lost lines red, guessed outlines hatched in orange,
+        joined gaps as dots.
     scene : Scene, optional
         The scene that the answer is for; its own unless given. An answer that was read from a file has none.
     boundary : Boundary, optional
@@ -144,10 +148,14 @@ def picture(
     >>> [text.get_text() for text in figure.texts]
     ['no path from start to goal', 'separated by the workspace; obstacle 0, 1 x 5 at (4.5, 1.5)']
     """
-    if isinstance(answer, Scene):
+    if isinstance(answer, Scene | Shapes):
         if scene is not None or boundary is not None:
             raise ValueError("scene, boundary: a scene is drawn alone; leave them out")
-        drawn = plot_workspace(smooth(answer)).figure
+        if isinstance(answer, Shapes):
+            ax = plot_shapes(answer)
+        else:
+            ax = with_record(plot_workspace(smooth(answer)), answer.reading, answer.units)
+        drawn = ax.figure
         assert isinstance(drawn, Figure)
         return drawn
     if isinstance(answer, AllSeparated):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import Literal, get_args
 
-from cfree.words import counted, plural
+from cfree.words import counted, noun_and_rest, plural
 
 Kind = Literal["lost", "guess", "assumption", "warning", "joined", "near", "mended", "hidden", "paint", "info"]
 """Kinds of notes, the most serious first."""
@@ -75,7 +75,7 @@ class Note:
 
     kind: str
     what: str
-    effect: Effect = "none"
+    effect: str = "none"
     count: int = 1
     where: str = ""
     at: Place | None = None
@@ -96,14 +96,21 @@ class Note:
 
     @property
     def things(self) -> str:
-        """What it counts, with the number; one of mere information has none."""
-        is_single = self.count == 1 and self.kind not in _COUNTED
-        return self.what if is_single else counted(self.count, self.what, plural(self.what))
+        """What it counts, with the number and the layer, group or id; one of mere information has no number."""
+        return self._things(self.where)
 
     @property
-    def owner(self) -> str:
-        """The layer, group or id, as an attribute of the things."""
-        return f" of {_named(self.where)}" if self.where else ""
+    def bare_things(self) -> str:
+        """What it counts, with the number alone."""
+        return self._things("")
+
+    def _things(self, where: str) -> str:
+        is_single = self.count == 1 and self.kind not in _COUNTED
+        text = self.what if is_single else counted(self.count, self.what, plural(self.what))
+        if not where:
+            return text
+        noun, rest = noun_and_rest(text)
+        return f"{text} of {_named(where)}" if rest.startswith(" of") else f"{noun} of {_named(where)}{rest}"
 
     @property
     def worst(self) -> str:
@@ -119,9 +126,14 @@ class Note:
         return f" ({'one' if self.count > 1 else 'it is'}{place})" if place else ""
 
     @property
+    def subject(self) -> str:
+        """Its line without label and remedy."""
+        return f"{self.things}{self.worst}"
+
+    @property
     def text(self) -> str:
         """Its line without the label."""
-        return f"{self.things}{self.owner}{self.worst}" + (f": {self.remedy}" if self.remedy else "")
+        return f"{self.subject}: {self.remedy}" if self.remedy else self.subject
 
     def __str__(self) -> str:
         """Write its line, as the commands print it."""
@@ -173,14 +185,23 @@ def in_order(notes: Iterable[Note]) -> tuple[Note, ...]:
 
 
 def together(*records: Iterable[Note]) -> tuple[Note, ...]:
-    """Return the notes of several records in order, each once."""
-    return in_order(dict.fromkeys(note for notes in records for note in notes))
+    """Return the notes of several records in order, each once; notes that differ in their items alone are one."""
+    notes: dict[Note, Note] = {}
+    for record in records:
+        for note in record:
+            notes.setdefault(replace(note, items=()), note)
+    return in_order(notes.values())
 
 
 def of_file(notes: Iterable[Note], file: str) -> tuple[Note, ...]:
     """Return notes with the name of their file; those that have one keep it."""
     name = PurePath(file).name
     return tuple(note if note.file else replace(note, file=name) for note in notes)
+
+
+def without_places(notes: Iterable[Note]) -> tuple[Note, ...]:
+    """Return notes whose items have no places, so that no picture shows them in another frame."""
+    return tuple(replace(note, items=tuple(replace(item, at=None, points=()) for item in note.items)) for note in notes)
 
 
 def thinned(points: Sequence[Place]) -> tuple[Place, ...]:

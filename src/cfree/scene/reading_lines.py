@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby
 from typing import Literal
 
-from cfree.scene.reading import LOSSES, Note, in_order
+from cfree.scene.reading import EFFECTS, LOSSES, Note, in_order
 
 Claim = Literal["path", "no path", "scene"]
 """The claim of an answer: "path" also stands for lower bounds of clearances, "no path" for upper ones."""
@@ -20,7 +20,6 @@ HARMFUL: dict[Claim, tuple[str, ...]] = {
     "scene": ("less", "more", "unknown"),
 }
 """Effects that harm a claim."""
-_KNOWN = ("less", "more", "near", "none")
 _LEFT_OUT = ("hidden", "paint")
 
 
@@ -33,7 +32,7 @@ def lines(notes: Iterable[Note]) -> list[str]:
     --------
     >>> notes = [Note("info", "unit is 1 mm"), Note("lost", "open line", "less", 2, "walls"), Note("paint", "text")]
     >>> lines([*notes, Note("lost", "point", "less", 1, "walls")])
-    ['LOST      2 open lines; 1 point of walls', 'left out  1 text', 'info      unit is 1 mm']
+    ['LOST      2 open lines of walls; 1 point', 'left out  1 text', 'info      unit is 1 mm']
     """
     ordered = in_order(notes)
     files = {note.file for note in ordered}
@@ -48,10 +47,9 @@ def _line(group: Sequence[Note], file: str) -> str:
     if len(group) == 1:
         return f"{first.label:<9} {before}{first.text}"
     own = first.kind in _LEFT_OUT
-    texts = [f"{note.things}{note.owner if own else ''}{note.worst}" for note in group]
+    texts = [f"{note.things if own or note is first else note.bare_things}{note.worst}" for note in group]
     remedies = dict.fromkeys(note.remedy for note in group if note.remedy)
-    text = "; ".join(texts) + ("" if own else first.owner) + (f": {'; '.join(remedies)}" if remedies else "")
-    return f"{first.label:<9} {before}{text}"
+    return f"{first.label:<9} {before}{'; '.join(texts)}" + (f": {'; '.join(remedies)}" if remedies else "")
 
 
 def losses(notes: Iterable[Note]) -> tuple[Note, ...]:
@@ -76,10 +74,15 @@ def as_read(notes: Iterable[Note], claim: Claim = "scene") -> str:
     >>> as_read(notes, "no path")
     ''
     """
+    harmful = harms(notes, claim)
+    return f"in the scene as read: {_harm(harmful[0])}" if harmful else ""
+
+
+def harms(notes: Iterable[Note], claim: Claim) -> tuple[Note, ...]:
+    """Return the notes that harm a claim, the worst first; if there are none, those about tolerances."""
     ordered = in_order(notes)
-    harms = [note for note in ordered if note.effect in HARMFUL[claim] or note.effect not in (*_KNOWN, "unknown")]
-    worst = next(iter(harms), None) or next((note for note in ordered if note.effect == "near"), None)
-    return f"in the scene as read: {_harm(worst)}" if worst else ""
+    harmful = tuple(note for note in ordered if note.effect in HARMFUL[claim] or note.effect not in EFFECTS)
+    return harmful or tuple(note for note in ordered if note.effect == "near")
 
 
 def qualified(statement: str, notes: Sequence[Note], claim: Claim) -> str:
@@ -98,7 +101,7 @@ def qualified(statement: str, notes: Sequence[Note], claim: Claim) -> str:
 
 
 def _harm(note: Note) -> str:
-    things, are = f"{note.things}{note.owner}", "is" if note.count == 1 else "are"
+    things, are = note.things, "is" if note.count == 1 else "are"
     if note.effect == "near":
         return f"{things} {are} " + ("near the drawn" if note.size is None else f"within {note.size:.3g} of the drawn")
     if note.kind in ("lost", *_LEFT_OUT):

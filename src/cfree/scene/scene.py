@@ -191,7 +191,7 @@ class Scene(Shown, Keeping):
         robot = f"{parts} {'shapes' if self.curved else 'polygons'}, " if parts > 1 else ""
         obstacles = counted(count, "obstacle") + (f": {_edges(self.obstacles)}" if count else "")
         lost = losses(self.reading)
-        worst = f"; {lost[0].label}: {lost[0].things}{lost[0].owner}" if lost else ""
+        worst = f"; {lost[0].label}: {lost[0].things}" if lost else ""
         return f"Scene({title}robot: {robot}{_edges(self.robot)}; {obstacles}{worst})"
 
     def plot(self) -> Any:

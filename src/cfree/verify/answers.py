@@ -17,6 +17,8 @@ from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp, Whole, stamp_of
 from cfree.scene.goals import Moved, text_of, text_of_move
+from cfree.scene.reading import Note, together
+from cfree.scene.reading_lines import Claim
 from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.verify.curves import mismatches
 from cfree.verify.leeway import is_around_disc, roomier, turning, with_disc
@@ -154,7 +156,16 @@ def answer(
     how |= dict.fromkeys(refuted, REFUTED)
     checks = tuple(Check(name, how[name], text) for name, text in extents.items())
     proved = "" if findings else _sentence(outcome, read)
-    return Verification(checks, tuple(findings), (), _since(begin), proved)
+    return Verification(checks, tuple(findings), (), _since(begin), proved, _record(scene, outcome), _claim(outcome))
+
+
+def _record(scene: Scene, outcome: Path | Separated | AllSeparated) -> tuple[Note, ...]:
+    """Return the records of reading of the scene and of the answer's file."""
+    return together(scene.reading, outcome.stamp.reading if outcome.stamp else ())
+
+
+def _claim(outcome: Path | Separated | AllSeparated) -> Claim:
+    return "path" if isinstance(outcome, Path) else "no path"
 
 
 def _all_of(scene: Scene, outcome: AllSeparated, report: Callable[[float], object], begin: float) -> Verification:
@@ -204,7 +215,8 @@ def _all_of(scene: Scene, outcome: AllSeparated, report: Callable[[float], objec
     start = text_of_move(begun.start if begun else None, outcome.start)
     proved = "" if findings else _none_leads(outcome, f"leads from {start} to any of {goals}")
     report(1.0)
-    return Verification(tuple(checks), tuple(findings), (), _since(begin), proved)
+    record, claim = _record(scene, outcome), _claim(outcome)
+    return Verification(tuple(checks), tuple(findings), (), _since(begin), proved, record, claim)
 
 
 def _is_one_robot(proofs: Sequence[Separated]) -> bool:

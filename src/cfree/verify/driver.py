@@ -22,6 +22,7 @@ from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import CURVE
 from cfree.formats.boundaries.boundary_file import read_boundary
 from cfree.geometry.normals import gauss_map
+from cfree.scene.reading import together
 from cfree.scene.scene import Scene
 from cfree.verify.angles import orientation
 from cfree.verify.euler import euler_from_slices
@@ -150,7 +151,9 @@ def _verified(
         + deeper
     )
     euler = tuple(matching.euler) if matching is not None else ()
-    return Verification(refuted(checks, findings), tuple(findings), euler, time.perf_counter() - begin)
+    reading = together(stored.scene.reading, scene.reading if scene else ())
+    seconds = time.perf_counter() - begin
+    return Verification(refuted(checks, findings), tuple(findings), euler, seconds, reading=reading)
 
 
 def _counted_again(

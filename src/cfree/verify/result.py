@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from cfree.words import counted
+from cfree.scene.reading import Note
+from cfree.scene.reading_lines import Claim, harms
+from cfree.words import counted, listed
 
 PROVED, SAMPLED, SKIPPED, REFUTED = "PROVED", "SAMPLED", "SKIPPED", "REFUTED"
 MEASURED = "MEASURED"  # in doubles, by quadrature
@@ -56,6 +58,10 @@ class Verification:
     seconds : float
     proved : str
         Statement proved, in one sentence, if an answer is verified.
+    reading : tuple of Note
+        The records of reading of the scene and of the answer's file.
+    claim : "path", "no path" or "scene"
+        The claim that these notes may harm.
     """
 
     checks: tuple[Check, ...]
@@ -63,6 +69,8 @@ class Verification:
     euler: tuple[int, ...]
     seconds: float = field(compare=False)
     proved: str = ""
+    reading: tuple[Note, ...] = ()
+    claim: Claim = "scene"
 
     @property
     def verified(self) -> bool:
@@ -72,7 +80,7 @@ class Verification:
     def __str__(self) -> str:
         rows = [f"{check.how:<8} {check.name}: {check.extent}" for check in self.checks]
         rows += [str(finding) for finding in self.findings[:SHOWN]]
-        return "\n".join([*rows, self.verdict])
+        return "\n".join([*rows, self.verdict, *([self.as_read] if self.as_read else [])])
 
     @property
     def verdict(self) -> str:
@@ -82,3 +90,13 @@ class Verification:
         more = len(self.findings) - SHOWN
         hidden = f", {more:,} not shown" * (more > 0)
         return f"REFUTED: {counted(len(self.findings), 'finding')}{hidden} ({self.seconds:.1f} s)"
+
+    @property
+    def as_read(self) -> str:
+        """Statement about the scene's record of reading, if it harms what is proved; else empty."""
+        harmful = harms(self.reading, self.claim)
+        if not harmful or not self.verified:
+            return ""
+        how = "within a tolerance" if harmful[0].effect == "near" else "with losses"
+        notes = listed([note.subject for note in harmful])
+        return f"{PROVED} for the scene in this file, which was read {how}: {notes}"

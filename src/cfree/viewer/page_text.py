@@ -13,13 +13,13 @@ from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, with_reading
 
 GIVEN = '<script type="application/json" id="given">null</script>'
 
 
 def text_of_polygons(scene: Scene) -> str:
-    """Return the JSON text of a scene, for the page.
+    """Return the JSON text of a scene, for the page, which takes no record of reading.
 
     Raises
     ------
@@ -28,7 +28,7 @@ def text_of_polygons(scene: Scene) -> str:
     """
     if scene.curved:
         raise UnsupportedError(REFUSED)
-    return scene_text(scene)
+    return scene_text(with_reading(scene, ()))
 
 
 @checked

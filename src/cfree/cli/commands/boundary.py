@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cfree.cli import options
+from cfree.cli import options, reading
 from cfree.cli.faults import INCOMPLETE, fail, one_line_faults
 from cfree.cli.files import bar, check_outputs, computed, read_source
 from cfree.cli.options import FILE, examples, file_option
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     )
 )
 @options.scene
+@reading.strict
 @file_option("--output", "-o", metavar="FILE", help="Write the boundary to a file.")
 @options.picture
 @file_option("--mesh", metavar="GLB", help="Write a mesh: .glb, .ply, .obj or .stl.")

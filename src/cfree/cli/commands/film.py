@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cfree.cli import options
+from cfree.cli import options, reading
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import check_outputs
 from cfree.cli.options import FILE, Word, examples, file_option
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     )
 )
 @click.argument("scenes", type=FILE, metavar="SCENE... [ANSWER]", nargs=-1, required=True)
+@reading.strict
 @file_option("--output", "-o", metavar="FILE", help="Write the film: .mp4 or .gif.", required=True)
 @click.option(
     "--storyboard",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from cfree.cli import options
+from cfree.cli import options, reading
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import check_outputs, planner_of
 from cfree.cli.options import Word, examples, file_option
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     )
 )
 @options.scene
+@reading.strict
 @click.option(
     "--start",
     metavar="X,Y,THETA",

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from cfree.cli import options
+from cfree.cli import options, reading
 from cfree.cli.faults import one_line_faults
-from cfree.cli.files import bar
-from cfree.cli.options import FILE, Decorator, Word, examples
-from cfree.cli.terminal import print_json, printable
+from cfree.cli.files import bar, check_outputs
+from cfree.cli.options import FILE, Decorator, Word, examples, file_option
+from cfree.cli.terminal import print_json
 from cfree.words import counted
 
 if TYPE_CHECKING:
@@ -48,24 +47,35 @@ def _reading(command: Any) -> Any:
 ))  # fmt: skip
 @options.scene
 @_reading
+@reading.strict
+@file_option("--picture", metavar="PNG", help="Draw the scene, and what was lost: .png, .svg, .pdf ...")
 @options.as_json
 def check(
-    scene: Path, tolerance: float | None, unknown: str, roles: tuple[str, ...], robot: str | None, as_json: bool
-) -> None:
+    scene: Path, tolerance: float | None, unknown: str, roles: tuple[str, ...], robot: str | None, picture: Path | None,
+    as_json: bool,
+) -> None:  # fmt: skip
     """Validate a scene and describe it.
 
     Counts vertices, pieces and expected patches, and tests whether start and goal are free. SCENE is of any format that
-    cfree convert reads; changed and dropped parts of the file are listed.
+    cfree convert reads. All losses, guesses and changes of reading are listed; --picture draws them: lost lines red,
+    guessed outlines hatched, joined gaps as dots.
     """
     with one_line_faults():
         from cfree.cli.describe import describe
 
-        shapes, loaded = _read(scene, tolerance, unknown, roles, robot)
+        written = check_outputs(scene, {"picture": picture})
+        shapes, loaded = _read(scene, tolerance, unknown, roles, robot, most=None)
         _refuse_unused(shapes, robot)
         with bar("counting"):
-            facts = {"file": str(scene)} | describe(loaded) | _facts(shapes)
+            facts = {"file": str(scene)} | describe(loaded) | _facts(shapes) | reading.facts(loaded.reading)
+        if picture:
+            from cfree.plot.answer import picture as drawn
+            from cfree.plot.boundary import save_figure
+
+            with bar("picture"):
+                save_figure(drawn(loaded), picture)
         if as_json:
-            print_json(facts)
+            print_json(facts | ({"files": written} if written else {}))
         else:
             from cfree.cli.report import print_scene
 
@@ -83,6 +93,7 @@ def check(
 @click.argument("source", type=FILE, metavar="IN")
 @click.argument("target", type=FILE, metavar="OUT")
 @_reading
+@reading.strict
 @click.option(
     "--outer", type=float, metavar="E", help="Replace round shapes by polygons around them, within E scene units."
 )
@@ -97,39 +108,40 @@ def convert(
     """Convert a scene from one format to another.
 
     IN is JSON, GeoJSON, WKT, SVG, DXF, a ROS map's YAML, nav2 parameters, URDF, or nesting JSON; OUT is .json,
-    .geojson, .svg or .dxf. Changed and dropped parts of the file are listed.
+    .geojson, .svg or .dxf. Losses, guesses and changes of reading are listed, and kept in the file.
     """
     with one_line_faults():
-        from cfree.cli.files import check_outputs
         from cfree.cli.report import print_rows
-        from cfree.formats.scene_file import check_scene_path, save_scene
+        from cfree.formats.conversion import is_without_curves, written
+        from cfree.formats.scene_file import check_scene_path
+        from cfree.scene.reading_lines import as_read
 
         check_scene_path(target)
-        written = check_outputs(source, {"scene": target})
+        files = check_outputs(source, {"scene": target})
         shapes, scene = _read(source, tolerance, unknown, roles, robot)
         if not scene.curved:
             options.refuse("only for round shapes, and this scene has none", "outer", "inner")
-        by_name = outer is None and inner is None and _is_without_curves(target)
+        by_name = outer is None and inner is None and is_without_curves(target)
         _refuse_unused(shapes, robot, becoming_polygons=scene.curved and by_name)
-        facts = _facts(shapes)
-        scene, changed = _straight(scene, outer, inner, tolerance, target)
-        facts["changed"] += changed
-        rounded = save_scene(scene, target)
-        facts["changed"] += list(rounded)
-        facts |= {"robot": len(scene.robot), "obstacles": len(scene.obstacles)}
+        scene, notes = written(scene, target, outer, inner, tolerance)
+        reading.report(notes, target)
+        facts = _facts(shapes) | {"robot": len(scene.robot), "obstacles": len(scene.obstacles)}
         if as_json:
-            print_json({"file": str(source), **facts, "files": written})
+            print_json({"file": str(source), **facts, "files": files, **reading.facts()})
             return
         rows: dict[str, Any] = {"read as": facts["format"], "robot": counted(len(scene.robot), "polygon")}
         rows["obstacles"] = counted(len(scene.obstacles), "polygon")
-        print_rows(scene.name or str(source), rows, written)
-        for key in ("changed", "dropped"):
-            for line in facts[key]:
-                print(printable(f"  {key}  {line}"))
+        rows[reading.AS_READ] = as_read(scene.reading)
+        print_rows(scene.name or str(source), rows, files)
 
 
 def _read(
-    file: Path, tolerance: float | None, unknown: str, roles: tuple[str, ...], robot: str | None
+    file: Path,
+    tolerance: float | None,
+    unknown: str,
+    roles: tuple[str, ...],
+    robot: str | None,
+    most: int | None = reading.MOST_LINES,
 ) -> tuple[Shapes, Scene]:
     from cfree.formats.scene_file import load_shapes
 
@@ -140,7 +152,8 @@ def _read(
         named = {name: role for name, _, role in pairs}
         how: dict[str, Any] = {"tolerance": tolerance, "unknown": unknown, "roles": named}
         shapes = load_shapes(file, **how)
-        return shapes, shapes.scene(None if robot is None else _robot(robot, tolerance))
+        other = None if robot is None else _robot(robot, tolerance)
+    return shapes, reading.made(shapes, file, other, most)
 
 
 def _refuse_unused(shapes: Shapes, robot: str | None, *, becoming_polygons: bool = False) -> None:
@@ -154,43 +167,14 @@ def _refuse_unused(shapes: Shapes, robot: str | None, *, becoming_polygons: bool
         options.refuse(f"only for {', '.join(WITH_CURVES)}, and this file is read as {shapes.form}", "tolerance")
 
 
-def _straight(
-    scene: Scene, outer: float | None, inner: float | None, tolerance: float | None, target: Path
-) -> tuple[Scene, list[str]]:
-    """Replace round shapes by polygons if wanted, or if the file format has no round shapes."""
-    from cfree.formats.drawings.source import CURVE_SHARE
-    from cfree.scene.scene import largest_of, round_count, shapes_of
-
-    if outer is not None and inner is not None:
-        raise ValueError("--outer and --inner: give one of them")
-    error = outer if inner is None else inner
-    if error is not None and not 0 < error < math.inf:
-        raise ValueError(f"--{'outer' if inner is None else 'inner'}: {error}; give a length above 0")
-    if not scene.curved or (error is None and not _is_without_curves(target)):
-        return scene, []
-    if error is None:
-        error = tolerance or largest_of(scene) / CURVE_SHARE
-    count = round_count(shapes_of(scene))
-    side = "around" if inner is None else "inside"
-    straight = scene.outer(error) if inner is None else scene.inner(error)
-    return straight, [f"{counted(count, 'round shape')}: polygons {side}, within {error:g}"]
-
-
-def _is_without_curves(target: Path) -> bool:
-    from cfree.formats.scene_file import EXPORTS
-
-    return target.suffix.lower() in EXPORTS
-
-
 def _robot(text: str, tolerance: float | None) -> Any:
-    """Read the polygons of a footprint, or of a file: those of the role robot, if there are any."""
+    """Read the polygon of a footprint, or the shapes of a file."""
     from cfree.formats.drawings.footprints import footprint
     from cfree.formats.scene_file import load_shapes
 
     if _is_footprint(text):
         return footprint(text)
-    shapes = load_shapes(text, tolerance=tolerance)
-    return [shape.polygon for shape in shapes.of("robot")] or list(shapes.polygons)
+    return load_shapes(text, tolerance=tolerance)
 
 
 def _is_footprint(text: str) -> bool:

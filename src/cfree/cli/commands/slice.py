@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from cfree.cli import options
+from cfree.cli import options, reading
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import bar, check_outputs, computed, read_source
 from cfree.cli.options import examples, file_option
@@ -22,6 +22,7 @@ from cfree.formats.text.archive import is_archive
     ),
 )
 @options.scene
+@reading.strict
 @click.option(
     "--theta", metavar="ANGLE", help='Cut at this orientation: "30deg", "0.5rad" or "tau:1/3".', required=True
 )

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cfree.cli import options
+from cfree.cli import options, reading
 from cfree.cli.faults import REFUTED, one_line_faults
-from cfree.cli.files import bar
+from cfree.cli.files import bar, read_scene
 from cfree.cli.options import FILE, examples
 from cfree.cli.terminal import print_json
 from cfree.formats.text.archive import is_archive
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     )
 )
 @options.scene
+@reading.strict
 @click.argument("file", type=FILE, required=False)
 @click.option(
     "--sample", type=click.IntRange(min=0), metavar="N", help="Check N random trapezoids of a boundary, no sides.",
@@ -78,11 +79,10 @@ def verify(
             options.refuse("only for a boundary", "sample", "slices", "seed")
         elif sample is None and slices == 0:
             options.refuse("only for random choices, and there are none", "seed")
-        from cfree.formats.scene_file import load_scene
         from cfree.verify.answers import answer as verified_answer
         from cfree.verify.driver import boundary as verified_boundary
 
-        loaded = load_scene(scene)
+        loaded = read_scene(scene)
         with bar("verify") as progress:
             if is_archive(file):
                 result = verified_boundary(
@@ -95,7 +95,7 @@ def verify(
 
 def _print_verified(result: Verification, file: Path, as_json: bool) -> None:
     if as_json:
-        print_json({"file": str(file), "verified": result.verified, **asdict(result)})
+        print_json({"file": str(file), "verified": result.verified, **asdict(result), **reading.facts(result.reading)})
     else:
         from cfree.cli.report import print_verification
 

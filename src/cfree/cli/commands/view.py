@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from cfree.cli import options
+from cfree.cli import options, reading
 from cfree.cli.faults import one_line_faults
-from cfree.cli.files import answer_for, bar, check_outputs
+from cfree.cli.files import answer_for, bar, check_outputs, read_scene
 from cfree.cli.options import FILE, examples, file_option
 from cfree.cli.terminal import printable
 
@@ -17,6 +17,7 @@ from cfree.cli.terminal import printable
     epilog=examples("cfree view scene.json", "cfree view scene.json answer.json --html page.html --no-browser")
 )
 @options.scene
+@reading.strict
 @click.argument("answer", type=FILE, required=False)
 @file_option("--html", metavar="HTML", help="Write the page: .html; it needs no other file and no server.")
 @click.option("--browser/--no-browser", help="Open the page in the browser, or not.", default=True, show_default=True)
@@ -28,15 +29,14 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
     that cfree convert reads.
     """
     with one_line_faults():
-        from cfree.formats.scene_file import load_scene
         from cfree.planning.goals import AllSeparated
         from cfree.viewer.browser import view as show
 
         for source in (scene, answer):
             if html and source:
                 check_outputs(source, {"page": html})
+        loaded = read_scene(scene)
         with bar("reading"):
-            loaded = load_scene(scene)
             shown = answer_for(loaded, answer) if answer else None
         if isinstance(shown, AllSeparated):
             raise ValueError(f"{answer}: proofs for several goals, and the page shows one; plan with one goal")

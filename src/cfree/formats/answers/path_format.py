@@ -20,6 +20,7 @@ from cfree.errors import CfreeError, InvalidPoseError
 from cfree.exact.pose import Pose
 from cfree.formats.answers.contact_format import ContactModel
 from cfree.formats.scenes.json_types import Coordinate, Point, Strict
+from cfree.formats.scenes.reading_format import NoteModel
 from cfree.formats.scenes.scene_format import Bounds, Configuration, Goal, PolygonModel, Text, Version
 from cfree.formats.scenes.scene_values import Fault, list_of
 from cfree.paths.path import Path
@@ -171,6 +172,11 @@ class StampModel(Strict):
 
     sha256: Annotated[str, AfterValidator(_digest)]
     robot: Bounds
+    reading: list[NoteModel] = Field([])
+
+    @property
+    def made(self) -> Stamp:
+        return Stamp(self.sha256, self.robot, tuple(note.made for note in self.reading))
 
 
 class WholeModel(Strict):
@@ -243,7 +249,7 @@ class AnswerModel(Strict):
 
     @property
     def stamp(self) -> Stamp | None:
-        return None if self.scene is None else Stamp(self.scene.sha256, self.scene.robot)
+        return None if self.scene is None else self.scene.made
 
 
 class PathModel(AnswerModel):

@@ -13,6 +13,7 @@ from cfree.errors import UnsupportedError
 from cfree.exact.number import MAX_DIGITS
 from cfree.exact.pose import Pose
 from cfree.formats.answers.effect import Effect, Written
+from cfree.formats.scenes.reading_text import records
 from cfree.formats.text.json_positions import Path as Place
 from cfree.formats.text.json_text import json_line
 from cfree.paths.path import Path
@@ -55,7 +56,7 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
         "units": answer.units,
         "frame": answer.frame,
         "answer": kind,
-        "scene": {"sha256": stamp.sha256, "robot": _exactly(stamp.robot)},
+        "scene": {"sha256": stamp.sha256, "robot": _exactly(stamp.robot), **_reading(stamp)},
         **({"whole": asdict(answer.whole)} if answer.whole else {}),
         **({"polygons": _polygons(answer.scene)} if answer.scene and has_polygons(answer) else {}),
         "start": _numbers(decimals, ("start",), 3),
@@ -63,6 +64,11 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
         "exact": {"start": _exact(answer.start), "goal": _exact(answer.goal)},
         **({"moved": _asked(answer.moved)} if answer.moved else {}),
     }
+
+
+def _reading(stamp: Stamp) -> dict[str, Any]:
+    """Return the scene's record of reading, if there is one."""
+    return {"reading": records(stamp.reading)} if stamp.reading else {}
 
 
 def _asked(moved: Moved) -> dict[str, Any]:

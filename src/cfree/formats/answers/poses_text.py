@@ -9,6 +9,7 @@ from itertools import repeat
 from typing import TYPE_CHECKING, Any
 
 from cfree.exact.pose import Poses
+from cfree.formats.scenes.reading_text import records
 from cfree.paths.path import Path
 
 if TYPE_CHECKING:
@@ -66,6 +67,8 @@ def geojson_text(path: Path, scene: Scene, step: float, turn: float, seconds: Se
         features.append(_feature(shape, role=role, x=x, y=y, theta=theta, motion=motion, share=share, **when))
     lines = ",\n".join(f"  {json.dumps(feature)}" for feature in features)
     head = f'"type": "FeatureCollection", "units": {json.dumps(path.units)}, "frame": {json.dumps(path.frame)}'
+    if scene.reading:
+        head += f', "reading": {json.dumps(records(scene.reading))}'
     return f'{{{head},\n "features": [\n{lines}\n]}}\n'
 
 

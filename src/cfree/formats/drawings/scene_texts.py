@@ -1,7 +1,7 @@
 """Write scenes as GeoJSON, SVG and DXF, which `cfree.load_scene` reads again.
 
 Besides the shapes, each file has bounds, start, goals and texts as members of JSON. GeoJSON has exact numbers, SVG
-decimals of 14 digits, DXF doubles: other numbers are rounded, and `write_scene` reports their count.
+decimals of 14 digits, DXF doubles: other numbers are rounded, and `write_scene` returns a note with their count.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from cfree.formats.text.extras import needed
 from cfree.formats.text.number_text import number_text
 from cfree.palette import OBSTACLE, ROBOT
 from cfree.polygons.polygon import Polygon
+from cfree.scene.reading import Note
 from cfree.scene.scene import Scene
-from cfree.words import counted
 
 COLOURS = {"robot": ROBOT, "obstacle": OBSTACLE, "workspace": "none"}
 
 
-def write_scene(scene: Scene, path: Path) -> tuple[str, ...]:
-    """Write a scene in the format of the file's suffix; return its changes in words."""
+def write_scene(scene: Scene, path: Path) -> tuple[Note, ...]:
+    """Write a scene in the format of the file's suffix; return notes about its changes."""
     writer = _WRITERS[path.suffix.lower()]
     text, changed = writer(scene)
     with replacing(path) as unfinished:
@@ -45,11 +45,11 @@ def _shapes(scene: Scene) -> list[tuple[str, str, Polygon]]:
     ]
 
 
-def _rounded(count: int, what: str) -> tuple[str, ...]:
-    return (f"{counted(count, 'number')}: rounded to {what}",) if count else ()
+def _rounded(count: int) -> tuple[Note, ...]:
+    return (Note("near", "number rounded to 14 digits", "near", count),) if count else ()
 
 
-def geojson_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
+def geojson_text(scene: Scene) -> tuple[str, tuple[Note, ...]]:
     """Return a feature for each shape; the robot's first one has the settings."""
     settings: dict[str, Any] = settings_of(scene)
     lines = []
@@ -67,7 +67,7 @@ def geojson_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
     return '{"type": "FeatureCollection", "features": [\n' + ",\n".join(lines) + "\n]}\n", ()
 
 
-def svg_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
+def svg_text(scene: Scene) -> tuple[str, tuple[Note, ...]]:
     """Return a path for each shape, in a group that turns y upwards."""
     rounded = 0
 
@@ -94,7 +94,7 @@ def svg_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" data-cfree="{settings}">\n'
         f'<g transform="scale(1 -1)">\n' + "\n".join(lines) + "\n</g>\n</svg>\n"
-    ), _rounded(rounded, "14 digits")
+    ), _rounded(rounded)
 
 
 _RIM = f' stroke="{OBSTACLE}" vector-effect="non-scaling-stroke"'
@@ -109,7 +109,7 @@ def _box(shapes: list[tuple[str, str, Polygon]]) -> tuple[float, float, float, f
     return min(xs), min(ys), max(xs), max(ys)
 
 
-def dxf_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
+def dxf_text(scene: Scene) -> tuple[str, tuple[Note, ...]]:
     """Return a hatch for each shape, with its outlines, on a layer of its role or name."""
     from io import StringIO
 
@@ -137,12 +137,12 @@ def dxf_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
             hatch.paths.add_polyline_path(points, is_closed=True, flags=1 if k == 0 else 16)
     stream = StringIO()
     document.write(stream)
-    names = (f"{counted(renamed, 'name')}: without what no layer may be called",) if renamed else ()
-    return stream.getvalue(), _rounded(rounded, "14 digits") + names
+    names = (Note("info", "name of a layer without the characters that DXF forbids", count=renamed),) if renamed else ()
+    return stream.getvalue(), _rounded(rounded) + names
 
 
 _NO_LAYER = '<>/\\":;?*|=`'
-_WRITERS: dict[str, Callable[[Scene], tuple[str, tuple[str, ...]]]] = {
+_WRITERS: dict[str, Callable[[Scene], tuple[str, tuple[Note, ...]]]] = {
     ".geojson": geojson_text,
     ".svg": svg_text,
     ".dxf": dxf_text,

@@ -1,0 +1,103 @@
+"""`convert` reads the scene in a file of any kind and writes it to a file of another."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+from cfree.arguments import checked
+from cfree.formats.drawings.source import CURVE_SHARE
+from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, save_scene
+from cfree.scene.reading import Note, together
+from cfree.scene.scene import Scene, largest_of, round_count, shapes_of, with_reading
+
+
+@checked
+def convert(
+    source: str | PathLike[str],
+    target: str | PathLike[str],
+    *,
+    robot: Any = None,
+    outer: float | None = None,
+    inner: float | None = None,
+    tolerance: float | None = None,
+    unknown: Literal["obstacle", "free"] = "obstacle",
+    roles: Mapping[str, str] | None = None,
+) -> Scene:
+    """Read the scene in a file of any kind, and write it to another file, all of it or nothing.
+
+    Parameters
+    ----------
+    source : path
+        A file of any kind that `load_shapes` reads.
+    target : path
+        The suffix gives the format: ``.json``, ``.geojson``, ``.svg`` or ``.dxf``.
+    robot : shape, sequence of shapes, Shapes, or path, optional
+        A robot to replace the file's; of a file its robot, or all of its shapes if there is none.
+    outer, inner : float, optional
+        Replace round shapes by polygons around them, or inside them, within this error.
+    tolerance, unknown, roles : optional
+        As in `load_shapes`. Without `outer` and `inner`, formats that have no round shapes get polygons around them
+        within the tolerance.
+
+    Returns
+    -------
+    Scene
+        The scene that was written. Its `reading` has all losses and changes, those of writing included.
+
+    Raises
+    ------
+    FormatError
+        If the source cannot be read.
+    UnsupportedError
+        If the suffix of the target is of another format.
+
+    Examples
+    --------
+    >>> import tempfile, cfree
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     scene = convert("examples/scenes/round_disc.json", f"{folder}/disc.svg", tolerance=0.01)
+    ...     len(cfree.load_scene(f"{folder}/disc.svg").obstacles) == len(scene.obstacles)
+    True
+    >>> [note.kind for note in scene.reading]
+    ['near', 'near']
+    """
+    check_scene_path(target)
+    options: dict[str, Any] = {"tolerance": tolerance, "unknown": unknown, "roles": roles}
+    other = load_shapes(robot, tolerance=tolerance) if isinstance(robot, str | PathLike) else robot
+    scene, notes = written(load_shapes(source, **options).scene(other), Path(target), outer, inner, tolerance)
+    return with_reading(scene, together(scene.reading, notes))
+
+
+def written(
+    scene: Scene, target: Path, outer: float | None, inner: float | None, tolerance: float | None
+) -> tuple[Scene, tuple[Note, ...]]:
+    """Write a scene; return the scene in the file, and notes about its differences from the one before."""
+    straight, notes = _straight(scene, target, outer, inner, tolerance)
+    return straight, together(notes, save_scene(with_reading(straight, together(straight.reading, notes)), target))
+
+
+def _straight(
+    scene: Scene, target: Path, outer: float | None, inner: float | None, tolerance: float | None
+) -> tuple[Scene, tuple[Note, ...]]:
+    """Replace round shapes by polygons if wanted, or if the file format has no round shapes."""
+    if outer is not None and inner is not None:
+        raise ValueError("--outer and --inner: give one of them")
+    error = outer if inner is None else inner
+    if error is not None and not 0 < error < math.inf:
+        raise ValueError(f"--{'outer' if inner is None else 'inner'}: {error}; give a length above 0")
+    if not scene.curved or (error is None and not is_without_curves(target)):
+        return scene, ()
+    if error is None:
+        error = tolerance or largest_of(scene) / CURVE_SHARE
+    straight = scene.outer(error) if inner is None else scene.inner(error)
+    what = f"round shape replaced by a polygon {'around' if inner is None else 'inside'} it"
+    return straight, (Note("near", what, "near", round_count(shapes_of(scene)), size=error),)
+
+
+def is_without_curves(target: Path) -> bool:
+    """True if the format of a file has no round shapes."""
+    return target.suffix.lower() in EXPORTS
