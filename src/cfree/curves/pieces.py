@@ -218,7 +218,7 @@ def exact_of(ring: Sequence[drawn.Segment]) -> list[Piece]:
     Curves in doubles do not exactly end where their neighbours begin. Here the ends become decimals of 14 digits, and
     arcs become arcs of ellipses through these ends. All moves are within the rounding of doubles.
     """
-    joints = [_joint(ring[k - 1], segment) for k, segment in enumerate(ring)]
+    joints = joints_of(ring)
     pieces: list[Piece] = []
     for segment, start, end in zip(ring, joints, [*joints[1:], *joints[:1]], strict=True):
         match segment:
@@ -227,8 +227,13 @@ def exact_of(ring: Sequence[drawn.Segment]) -> list[Piece]:
             case drawn.Cubic((_, q, r, _), _):
                 pieces.append(Cubic((start, _exactly(q), _exactly(r), end)))
             case drawn.Arc():
-                pieces += _spans(segment, start, end)
+                pieces += spans(segment, start, end)
     return pieces
+
+
+def joints_of(ring: Sequence[drawn.Segment]) -> list[ExactPoint]:
+    """Return the exact starts of the segments of a ring in doubles; ends of lines are exact already."""
+    return [_joint(ring[k - 1], segment) for k, segment in enumerate(ring)]
 
 
 def _joint(before: drawn.Segment, segment: drawn.Segment) -> ExactPoint:
@@ -243,7 +248,7 @@ def _exactly(p: drawn.Vector) -> ExactPoint:
     return Fraction(p[0]), Fraction(p[1])
 
 
-def _spans(arc: drawn.Arc, start: ExactPoint, end: ExactPoint) -> Iterator[Span]:
+def spans(arc: drawn.Arc, start: ExactPoint, end: ExactPoint) -> Iterator[Span]:
     """Split an arc into spans of less than a right angle each."""
     count = math.floor(abs(arc.last - arc.first) / (math.pi / 2)) + 1
     step = (arc.last - arc.first) / count
