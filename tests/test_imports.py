@@ -70,7 +70,7 @@ def test_imports_lead_down(name: str) -> None:
 def test_imports_within_formats_lead_down() -> None:
     """`formats/__init__.py` lists the order of the parts of the package."""
     text = MODULES["cfree.formats"].read_text()
-    order = re.findall(r"^\d\. `(\w+)(?:/|\.py)`", text, re.MULTILINE)
+    order = re.findall(r"^\d+\. `(\w+)(?:/|\.py)`", text, re.MULTILINE)
     files = {name: name.split(".")[2] for name in MODULES if name.startswith("cfree.formats.")}
     assert sorted(order) == sorted(set(files.values()))
     for name, part in files.items():

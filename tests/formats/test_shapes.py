@@ -1,12 +1,17 @@
-"""Shapes of other programs: GeoJSON and WKT."""
+"""Shapes of other programs: GeoJSON and WKT; layers and the record of reading."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from cfree.errors import FormatError
+from cfree.formats.drawings.source import Source, shapes_of
 from cfree.formats.scene_file import load_polygons, load_scene
+from cfree.formats.shapes import Shape, Shapes
 from cfree.polygons.polygon import Polygon
+from cfree.scene.reading import MOST_POINTS, Note
 from cfree.scene.scene import Scene
 from scene_texts import GEOJSON, WKT, faults, read
 
@@ -111,3 +116,63 @@ def test_wkt_is_read_as_databases_write_it(line: str, tmp_path: Path) -> None:
     scene = read(tmp_path, f"robot: POLYGON ((0 0, 1 0, 0 1))\n{empty}{line}\n", "map.wkt")
     assert scene.obstacles == (Polygon([(3, 0), (4, 0), (4, 1)]),)
     assert scene.obstacle_names == ("lake" if line.startswith("lake") else "obstacle 0",)
+
+
+# the record of reading
+
+
+def source_of(*notes: Note, shapes: Sequence[Shape] = ()) -> Shapes:
+    """Shapes as a reader gives them."""
+    source = Source("folder/plan.dxf")
+    for note in notes:
+        source.note(note.kind, note.what, note.effect, count=note.count, where=note.where)  # type: ignore[arg-type]
+    return shapes_of(source, "DXF", list(shapes), {}, "draw it")
+
+
+LOST = Note("lost", "open line", "less", 3, "A-WALL")
+DESK = Shape("obstacle", "desk", Polygon([(5, 5), (9, 5), (5, 9)]))
+ROBOT = Shape("robot", None, Polygon([(0, 0), (1, 0), (0, 1)]))
+
+
+def test_layers_have_their_shapes_and_notes() -> None:
+    shapes = source_of(LOST, Note("guess", "outline", "more", 1, "desk"), shapes=[ROBOT, DESK, DESK])
+    assert list(shapes.layers) == ["robot", "desk", "A-WALL"]
+    desk, wall = shapes.layers["desk"], shapes.layers["A-WALL"]
+    assert desk.shapes == (DESK, DESK) and [note.kind for note in desk.reading] == ["guess"]
+    assert wall.shapes == () and [note.count for note in wall.reading] == [3]
+
+
+def test_the_text_of_shapes_tells_counts_and_losses() -> None:
+    assert repr(source_of(LOST, Note("info", "unit"), shapes=[DESK, ROBOT, DESK])) == (
+        "<Shapes of plan.dxf (DXF): 1 robot, 2 obstacles; 1 loss: 3 open lines of A-WALL>"
+    )
+    assert repr(source_of()) == "<Shapes of plan.dxf (DXF): none; 0 losses>"
+
+
+def test_the_scene_of_shapes_has_their_record_and_that_of_its_robot() -> None:
+    shapes, robot = source_of(LOST, shapes=[DESK]), source_of(Note("lost", "point", "less"), shapes=[ROBOT])
+    scene = shapes.scene(replace(robot, file="robot.svg"))
+    assert [(note.what, note.file) for note in scene.reading] == [("open line", "plan.dxf"), ("point", "robot.svg")]
+    assert scene.robot == (ROBOT.polygon,)
+    assert [note.what for note in shapes.scene(ROBOT.polygon).reading] == ["open line"]
+
+
+def test_no_shape_at_all_is_never_silent() -> None:
+    assert [note.what for note in source_of().reading] == ["nothing is drawn in plan.dxf"]
+    assert [note.what for note in source_of(Note("info", "a user unit is 2 mm")).reading] == [
+        "a user unit is 2 mm", "nothing is drawn in plan.dxf",
+    ]  # fmt: skip
+    assert [note.what for note in source_of(LOST).reading] == ["open line"]
+    bare = source_of(shapes=[ROBOT]).scene()
+    assert [note.what for note in bare.reading] == ["nothing forbids a pose: no obstacle and no workspace"]
+
+
+def test_items_of_notes_have_places_and_lines_for_pictures() -> None:
+    source = Source("plan.dxf")
+    line = [(0.0, float(k)) for k in range(500)]
+    source.note("lost", "open line", "less", at=(0, 0), size=499, handle="5F", points=line)
+    source.note("lost", "open line", "less", points=line[:2])
+    (note,) = source.notes
+    first, second = note.items
+    assert (first.handle, first.at, first.size, len(first.points)) == ("5F", (0, 0), 499, MOST_POINTS)
+    assert second.points == ((0, 0), (0, 1))

@@ -11,8 +11,9 @@ from typing import Any, Literal
 from cfree.arguments import checked
 from cfree.formats.drawings.source import CURVE_SHARE
 from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, save_scene
+from cfree.formats.shapes import Shapes
 from cfree.scene.reading import Note, together
-from cfree.scene.scene import Scene, largest_of, round_count, shapes_of, with_reading
+from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_reading
 
 
 @checked
@@ -63,11 +64,13 @@ def convert(
     ...     len(cfree.load_scene(f"{folder}/disc.svg").obstacles) == len(scene.obstacles)
     True
     >>> [note.kind for note in scene.reading]
-    ['near', 'near']
+    ['near']
     """
+    is_file, is_made = isinstance(robot, str | PathLike), robot is None or isinstance(robot, Shapes)
+    other = robot if is_file or is_made else shapes_in(robot, "robot")
     check_scene_path(target)
     options: dict[str, Any] = {"tolerance": tolerance, "unknown": unknown, "roles": roles}
-    other = load_shapes(robot, tolerance=tolerance) if isinstance(robot, str | PathLike) else robot
+    other = load_shapes(robot, tolerance=tolerance) if is_file else other
     scene, notes = written(load_shapes(source, **options).scene(other), Path(target), outer, inner, tolerance)
     return with_reading(scene, together(scene.reading, notes))
 
@@ -85,10 +88,10 @@ def _straight(
 ) -> tuple[Scene, tuple[Note, ...]]:
     """Replace round shapes by polygons if wanted, or if the file format has no round shapes."""
     if outer is not None and inner is not None:
-        raise ValueError("--outer and --inner: give one of them")
+        raise ValueError("outer and inner: give one of them")
     error = outer if inner is None else inner
     if error is not None and not 0 < error < math.inf:
-        raise ValueError(f"--{'outer' if inner is None else 'inner'}: {error}; give a length above 0")
+        raise ValueError(f"{'outer' if inner is None else 'inner'}: {error}; give a length above 0")
     if not scene.curved or (error is None and not is_without_curves(target)):
         return scene, ()
     if error is None:
