@@ -18,6 +18,7 @@ from cfree.arguments import checked, one_of
 from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
 from cfree.exact.half_angle import Angle
+from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose
 from cfree.formats.drawings.source import Reading
 from cfree.formats.readers import read_file, read_json_file
@@ -64,7 +65,7 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     Fraction(-3, 1)
     """
     with collection_paused():
-        content = read_file(path)
+        content = read_file(path, Reading(curves=True))
         return content if isinstance(content, Scene) else content.scene()
 
 
@@ -73,8 +74,25 @@ def load_shapes(
     path: str | PathLike[str],
     *,
     tolerance: float | None = None,
-    unknown: Literal["obstacle", "free"] = "obstacle",
     roles: Mapping[str, str] | None = None,
+    units: str = "",
+    scale: Number | None = None,
+    join: float | None = None,
+    join_holes: bool = False,
+    strokes: float | Literal["ignore", "drawn"] = "ignore",
+    repair: bool | None = None,
+    holes: Literal["outlines", "nested"] = "outlines",
+    fills: Literal["outlines", "hatches"] = "outlines",
+    space: str = "",
+    language: str = "en",
+    min_area: float = 0.0,
+    unknown: Literal["obstacle", "free"] = "obstacle",
+    map_rules: Literal["strict", "nav2", "nav2-old", "ros1"] = "strict",
+    occupied: int | None = None,
+    free_thresh: float | None = None,
+    unknown_grey: int | None = None,
+    despeckle: int = 0,
+    padding: float = 0.0,
 ) -> Shapes:
     """Read the shapes of a file of any kind, before they are a scene; `docs/formats.md` describes the kinds.
 
@@ -84,16 +102,53 @@ def load_shapes(
         A scene, GeoJSON, WKT, SVG, DXF, the YAML of a ROS map or of nav2 parameters, URDF, or nesting JSON.
     tolerance : float, optional
         Curves become polygons with this error at most, in the scene's unit: around robot and obstacles, inside the
-        workspace. The default is a thousandth of the drawing's size.
-    unknown : "obstacle" or "free"
-        The meaning of unknown cells of a map.
+        workspace. By default outlines with curves are round shapes, `Curved`.
     roles : mapping of str to str, optional
         Roles of layers, groups or names: "robot", "obstacle", "workspace", or "ignore".
+    units : str
+        Unit of a file that names none: "mm", "m", "in" ...
+    scale : number, optional
+        All lengths are multiplied by it.
+    join : float, optional
+        Greatest gap of a drawing that is closed; 0 closes none. The default is a millionth of the drawing's size.
+    join_holes : bool
+        Outlines that a larger `join` closes may be holes. By default they are solid, whatever was meant.
+    strokes : float, "ignore" or "drawn"
+        Unfilled lines are walls of this width, or of the width drawn; by default closed ones are solids, and open ones
+        forbid nothing.
+    repair : bool, optional
+        Outlines that cross themselves are mended by their fill rule; by default in drawings, and not in JSON.
+    holes : "outlines" or "nested"
+        Nested unfilled elements of an SVG group are solids, or holes.
+    fills : "outlines" or "hatches"
+        Solids of a DXF layer: its outlines, or its hatches alone.
+    space : str
+        Layout of a DXF file; by default the model space.
+    language : str
+        Language of the branches of SVG's switch.
+    min_area : float
+        Shapes of a drawing of less area are left out, which is an assumption of the answer.
+    unknown : "obstacle" or "free"
+        The meaning of unknown cells of a map.
+    map_rules : "strict", "nav2", "nav2-old" or "ros1"
+        The map server whose rules decide which cells are free; a cell is free for "strict" if it is for all.
+    occupied : int, optional
+        Cells in scale or raw mode are forbidden from this value up, of 100.
+    free_thresh : float, optional
+        Threshold of free cells in place of the map's.
+    unknown_grey : int, optional
+        Grey value of unknown cells.
+    despeckle : int
+        Occupied specks of fewer cells are free, which is an assumption of the answer.
+    padding : float
+        The robot is padded as nav2 pads a footprint.
 
     Raises
     ------
     FormatError
         If the file cannot be read.
+    ValueError
+        If an option makes no sense.
     ImportError
         If the reader's package is missing, with the command that installs it.
 
@@ -103,13 +158,29 @@ def load_shapes(
     >>> shapes.form, len(shapes.of("obstacle")) == len(shapes.scene().obstacles)
     ('scene', True)
     """
+    options = {name: value for name, value in locals().items() if name != "path"}
     if tolerance is not None and not 0 < tolerance < math.inf:
         raise ValueError(f"tolerance: {tolerance} is no length; give one above 0")
+    for name in ("join", "min_area", "padding", "despeckle"):
+        if options[name] is not None and not 0 <= options[name] < math.inf:
+            raise ValueError(f"{name}: {options[name]}; give 0 or more")
+    if strokes not in ("ignore", "drawn") and not (not isinstance(strokes, str) and 0 < strokes < math.inf):
+        raise ValueError(f'strokes: {strokes!r}; give a width above 0, "drawn" or "ignore"')
     for name, role in (roles or {}).items():
         one_of(f"roles: {name}", role, (*ROLES, IGNORE))
+    options["roles"] = dict(roles or {})
+    options["scale"] = None if scale is None else to_fraction(scale)
+    return read_shapes(path, Reading(**options, curves=tolerance is None))
+
+
+def read_shapes(path: str | PathLike[str], reading: Reading) -> Shapes:
+    """Read the shapes of a file with these options."""
+    from cfree.formats.fitting import sized
+
     with collection_paused():
-        content = read_file(path, Reading(tolerance, unknown, dict(roles or {})))
-        return shapes_in(content, os.fspath(path)) if isinstance(content, Scene) else content
+        content = read_file(path, reading)
+        shapes = shapes_in(content, os.fspath(path)) if isinstance(content, Scene) else content
+        return sized(shapes, reading.units, reading.scale)
 
 
 def scene_from_text(name: str, text: str) -> Scene:

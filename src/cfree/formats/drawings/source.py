@@ -6,6 +6,7 @@ import re
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal, NoReturn
 
@@ -47,6 +48,8 @@ class Reading:
     space: str = ""  # layout of a DXF file
     language: str = "en"  # of branches of SVG's switch
     units: str = ""  # unit of a file that names none
+    scale: Fraction | None = None  # lengths are multiplied by this
+    curves: bool = False  # outlines with curves become round shapes, not polygons
     map_rules: Literal["strict", "nav2", "nav2-old", "ros1"] = "strict"
     occupied: int | None = None  # cells of a map from this value up, of 100, are occupied
     free_thresh: float | None = None  # in place of the map's
