@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cmp_to_key
+from itertools import pairwise
 from math import atan2
 from typing import Any
 
@@ -195,7 +196,7 @@ class Faces:
                 if cycle[half] < 0:
                     while cycle[half] < 0:
                         cycle[half] = count
-                        half = self._next[half]  # noqa: PLW2901
+                        half = self._next[half]
                     count += 1
         return cycle, count
 
@@ -253,7 +254,7 @@ def _around(graph: Graph, halves: list[int]) -> list[int]:
         if not d[1] and d[0] < 0:
             angles[half] = -4.0
     halves = sorted(halves, key=angles.__getitem__)
-    if any(angles[b] - angles[a] < _NEAR for a, b in zip(halves, halves[1:], strict=False)):
+    if any(angles[b] - angles[a] < _NEAR for a, b in pairwise(halves)):
 
         def compared(a: int, b: int) -> int:
             if abs(angles[a] - angles[b]) >= _NEAR:

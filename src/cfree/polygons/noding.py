@@ -4,8 +4,8 @@ All decimals of a drawing have a common denominator, so points are integers of o
 fractions. Candidates are pairs of boxes that meet. A filter in doubles drops pairs that are certainly apart; exact
 numbers decide the rest.
 
-Let u = 2^-53, and M the largest coordinate. A rounded coordinate is off by u M at most, a difference d by 2 u M + u |d|.
-So the two products l, r of an orientation and their difference are off by less than
+Let u = 2^-53, and M the largest coordinate. A rounded coordinate is off by u M at most, a difference d by
+2 u M + u |d|. So the two products l, r of an orientation and their difference are off by less than
 4 u (|l| + |r|) + 2 u M (sum of the four differences) + 8 u^2 M^2, which the bound below exceeds.
 """
 
@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -81,7 +82,7 @@ class Graph:
 
     def index(self, p: Sequence[Any]) -> int:
         """Return the index of a point, which becomes one if it is new."""
-        return self._at((_reduced(p[0] * self.scale), _reduced(p[1] * self.scale)))
+        return self.node_at((_reduced(p[0] * self.scale), _reduced(p[1] * self.scale)))
 
     @property
     def floats(self) -> NDArray[np.float64]:
@@ -120,7 +121,8 @@ class Graph:
         """Return the edges that are in use."""
         return [edge for edge, uses in enumerate(self.uses) if uses]
 
-    def _at(self, p: Scaled) -> int:
+    def node_at(self, p: Scaled) -> int:
+        """Return the index of a point in the scale of the graph."""
         k = self._index.setdefault(p, len(self.points))
         if k == len(self.points):
             self.points.append(p)
@@ -147,11 +149,14 @@ class Graph:
         if to_r and to_s and to_p and to_q:
             if (to_r > 0) != (to_s > 0) and (to_p > 0) != (to_q > 0):
                 share = Fraction(to_p) / (to_p - to_q)
-                node = self._at((_reduced(p[0] + (q[0] - p[0]) * share), _reduced(p[1] + (q[1] - p[1]) * share)))
+                node = self.node_at((_reduced(p[0] + (q[0] - p[0]) * share), _reduced(p[1] + (q[1] - p[1]) * share)))
                 cuts.setdefault(a, set()).add(node)
                 cuts.setdefault(b, set()).add(node)
             return
-        for edge, ends, others in ((a, (p, q), ((k, r, to_r), (l, s, to_s))), (b, (r, s), ((i, p, to_p), (j, q, to_q)))):
+        for edge, ends, others in (
+            (a, (p, q), ((k, r, to_r), (l, s, to_s))),
+            (b, (r, s), ((i, p, to_p), (j, q, to_q))),
+        ):
             for node, other, side in others:
                 if not side and _between(ends[0], other, ends[1]):
                     cuts.setdefault(edge, set()).add(node)
@@ -163,7 +168,7 @@ class Graph:
         a, b = self.points[p], self.points[q]
         axis = 0 if a[0] != b[0] else 1
         chain = [p, *sorted(between, key=lambda k: self.points[k][axis], reverse=bool(a[axis] > b[axis])), q]
-        for u, v in zip(chain, chain[1:], strict=False):
+        for u, v in pairwise(chain):
             for _ in self._segment(u, v, uses):
                 pass
 

@@ -27,14 +27,13 @@ from cfree.curves.drawn import (
     bulged,
     carried,
     ends,
-    middle,
     point_of,
     polyline,
     quadratic,
     reversed_ring,
 )
 from cfree.exact.number import ExactPoint
-from cfree.formats.drawings.content import Drawn
+from cfree.formats.drawings.content import Curve, Drawn, Lines
 from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.source import DEEPEST, Source, read_bytes
 from cfree.formats.scenes.scene_settings import read_settings
@@ -120,58 +119,13 @@ class _Walk:
         for copy in copies:
             self.all(copy.virtual_entities(), layer, depth + 1)
 
-    def drawn(self) -> Iterator[Drawn]:
+    def drawn(self) -> Iterator[Drawn | Lines]:
         """Yield the rings that are filled together: those of each layer, and each hatch."""
-        for layer, pieces in self.open.items():
-            self.closed[layer] += self.joined(pieces)
-        for layer, rings in self.closed.items():
-            if rings:
-                yield Drawn(rings, (layer,))
+        for layer in dict.fromkeys([*self.closed, *self.open]):
+            curves = [Curve(ring, True) for ring in self.closed[layer] if ring]
+            curves += [Curve([piece]) for piece in self.open[layer]]
+            yield Lines(curves, (layer,))
         yield from self.filled
-
-    def joined(self, pieces: Ring) -> list[Ring]:
-        """Join pieces that meet end to end to rings; drop the pieces that join no ring."""
-        pieces = self.once(pieces)
-        meeting: dict[ExactPoint, list[tuple[int, bool]]] = defaultdict(list)
-        for k, piece in enumerate(pieces):
-            for last, end in enumerate(ends(piece)):
-                meeting[_joint(end)].append((k, bool(last)))
-        rings: list[Ring] = []
-        seen: set[int] = set()
-        used = 0
-        for k, piece in enumerate(pieces):
-            if k in seen:
-                continue
-            seen.add(k)
-            first, here = map(_joint, ends(piece))
-            ring, current = [piece], (k, True)
-            while here != first and len(meeting[here]) == 2:
-                a, b = meeting[here]
-                j, last = b if a == current else a
-                if j in seen:
-                    break
-                seen.add(j)
-                ring += reversed_ring([pieces[j]]) if last else [pieces[j]]
-                here, current = _joint(ends(pieces[j])[0 if last else 1]), (j, not last)
-            if here == first:
-                rings.append(_tied(ring))
-                used += len(ring)
-        if len(pieces) > used:
-            self.source.note(
-                "lost", "open line: it forbids nothing; close it, or give it width", "less", count=len(pieces) - used
-            )
-        return rings
-
-    def once(self, pieces: Ring) -> Ring:
-        """Drop pieces that are a point, and repeated ones."""
-        distinct: dict[tuple[frozenset[ExactPoint], ExactPoint], Segment] = {}
-        for piece in pieces:
-            joints, between = frozenset(map(_joint, ends(piece))), _joint(middle(piece))
-            if joints == {between}:
-                self.source.note("lost", "line so short that it is a point", "less")
-            elif distinct.setdefault((joints, between), piece) is not piece:
-                self.source.note("lost", "line that is drawn twice: once", "less")
-        return [*distinct.values()]
 
     def goes_on(self, layer: str, pieces: Ring) -> None:
         """Keep pieces with two ends for joining; raise a ValueError if an end is no point."""
@@ -333,13 +287,3 @@ def _joint(p: Vector) -> ExactPoint:
     return point_of(
         float(f"{p[0]:.9g}") if abs(p[0]) > 1e-9 else 0.0, float(f"{p[1]:.9g}") if abs(p[1]) > 1e-9 else 0.0
     )
-
-
-def _tied(ring: Ring) -> Ring:
-    """Move the starts of lines exactly to the ends of the lines before them."""
-    tied = list(ring)
-    for k, segment in enumerate(tied):
-        before = tied[k - 1]
-        if isinstance(segment, Line) and isinstance(before, Line):
-            tied[k] = Line(before.end, segment.end)
-    return [segment for segment in tied if not isinstance(segment, Line) or segment.start != segment.end]
