@@ -43,7 +43,7 @@ class Loose:
 
     def may_join(self, edge: int, gap: float) -> bool:
         """True if an edge at this distance is another part of the drawing, and not the end's own curve."""
-        return gap < self.junction and edge not in self.crossing and self.along.get(edge, math.inf) >= 2 * gap
+        return gap < self.junction and edge not in self.crossing and self.along.get(edge, math.inf) > 2 * gap
 
 
 def joins(mesh: Mesh, reach: float) -> list[Join]:
