@@ -74,7 +74,7 @@ def test_a_missing_extra_is_named_in_one_line(folder: Path, monkeypatch: pytest.
     result = run("check", folder / "a.svg")
     assert (result.exit_code, result.stderr) == (
         2,
-        "error: SVG needs svgelements; install it: pip install 'cfree[svg]'\n",
+        "error: SVG needs tinycss2; install it: pip install 'cfree[svg]'\n",
     )
 
 

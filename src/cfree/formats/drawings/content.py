@@ -33,6 +33,10 @@ class Curve:
         Bound of the distance of an end from the point that was meant, by the digits that are written.
     width : float
         Width of its stroke as drawn, in the scene's unit; 0 if it has none.
+    cap, corner : str
+        Forms of the stroke's ends, "butt", "round" or "square", and of its corners, "miter", "round" or "bevel".
+    miter : float
+        Greatest length of a corner's miter, divided by the width.
     """
 
     segments: Ring
@@ -40,12 +44,29 @@ class Curve:
     handle: str = ""
     rounding: float = 0.0
     width: float = 0.0
+    cap: str = "round"
+    corner: str = "round"
+    miter: float = 4.0
 
 
 @dataclass(frozen=True, slots=True)
 class Lines:
-    """Unfilled curves of one layer or group, which may close outlines together, and the names of their groups."""
+    """Unfilled curves of one layer or group, which may close outlines together, and the names of their groups.
+
+    Attributes
+    ----------
+    curves : list of Curve
+        In the order of the file.
+    names : tuple of str
+        The innermost first.
+    line : int
+        Place in the file.
+    loose : bool
+        True if closed curves are elements of their own: they nest only inside of an outline that open curves close.
+        Each of the others is a solid.
+    """
 
     curves: list[Curve] = field(default_factory=list)
     names: tuple[str, ...] = ()
     line: int = 1
+    loose: bool = False

@@ -6,6 +6,7 @@ file is opened.
 
 from __future__ import annotations
 
+import re
 import zlib
 from dataclasses import dataclass, field
 from xml.parsers import expat
@@ -18,14 +19,28 @@ MOST_WITH_ENTITIES = 1 << 22
 """Maximum size of a file with entities; expanded, it is at most fifty times as large."""
 
 
+XLINK = "http://www.w3.org/1999/xlink"
+INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+
+
 @dataclass(slots=True)
 class Node:
-    """An element; names are without their namespaces."""
+    """An element; names are without their namespaces.
+
+    Attributes
+    ----------
+    space : str
+        The namespace of the element; empty if it has none.
+    text : str
+        The text in a style sheet; empty for all other elements.
+    """
 
     tag: str
     attributes: dict[str, str]
     line: int
     children: list[Node] = field(default_factory=list)
+    space: str = ""
+    text: str = ""
 
 
 def read_tree(source: Source) -> Node:
@@ -33,18 +48,31 @@ def read_tree(source: Source) -> Node:
     parser = expat.ParserCreate(namespace_separator=" ")
     top = Node("", {}, 1)
     open_nodes = [top]
+    texts: list[str] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
         source.spend()
         if len(open_nodes) > DEEPEST:
             source.refuse(f"elements nested more than {DEEPEST} deep; flatten the groups", parser.CurrentLineNumber)
-        plain = {key.rpartition(" ")[2]: value for key, value in attributes.items()}
-        node = Node(name.rpartition(" ")[2], plain, parser.CurrentLineNumber)
+        space, _, tag = name.rpartition(" ")
+        plain = attributes if not any(map(_FOREIGN, attributes)) else _own(attributes)
+        node = Node(tag, plain, parser.CurrentLineNumber, space=space)
         open_nodes[-1].children.append(node)
         open_nodes.append(node)
 
     def end(name: str) -> None:
-        open_nodes.pop()
+        node = open_nodes.pop()
+        if node.tag == "style":
+            node.text = "".join(texts)
+            texts.clear()
+
+    def text(data: str) -> None:
+        if open_nodes[-1].tag == "style":
+            texts.append(data)
+
+    def instruction(target: str, data: str) -> None:
+        if target == "xml-stylesheet":
+            source.note("guess", "style sheet of another file: not read", "unknown")
 
     def entity(name: str, is_parameter: int, value: str | None, *rest: object) -> None:
         plain = not is_parameter and value is not None and "&" not in value and len(value) <= LONGEST_ENTITY
@@ -56,6 +84,8 @@ def read_tree(source: Source) -> Node:
             )
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler, parser.ProcessingInstructionHandler = text, instruction
+    parser.buffer_text = True
     parser.EntityDeclHandler = entity
     raw = _unpacked(source, read_bytes(source.findings.file, MOST_BYTES))
     try:
@@ -67,6 +97,18 @@ def read_tree(source: Source) -> Node:
     except (ValueError, LookupError) as error:  # an unknown encoding
         source.refuse(f"{error}; save the file as UTF-8 text")
     return top.children[0]
+
+
+_FOREIGN = re.compile(" ").search
+
+
+def _own(attributes: dict[str, str]) -> dict[str, str]:
+    """Return attributes without a namespace, links of XLink, and labels of Inkscape; all others move no shape."""
+    plain = {key: value for key, value in attributes.items() if " " not in key}
+    for key in (f"{XLINK} href", f"{INKSCAPE} label"):
+        if key in attributes:
+            plain.setdefault(key.rpartition(" ")[2], attributes[key])
+    return plain
 
 
 def _unpacked(source: Source, raw: bytes) -> bytes:

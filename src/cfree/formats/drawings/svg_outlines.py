@@ -1,0 +1,178 @@
+"""Outlines of SVG elements: fills with their rule, unfilled curves by groups, clips, and notes of losses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from cfree.curves.drawn import Ring
+from cfree.curves.hulls import box_of
+from cfree.formats.drawings.content import Curve, Drawn, Lines
+from cfree.formats.drawings.outlines import PIVOT
+from cfree.formats.drawings.source import Source, role_of
+from cfree.formats.drawings.svg_curves import Group, Pen
+from cfree.formats.drawings.svg_element import Element
+from cfree.formats.drawings.svg_paths import Subpath, closed_by_a_line, end_of, on_a_line
+from cfree.formats.drawings.svg_viewports import corners_in
+
+_NONE = Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class Painted:
+    """A filled element, its role and its colour."""
+
+    drawn: Drawn
+    role: str
+    colour: str
+
+
+class Outlines:
+    """The outlines of all elements."""
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.filled: list[Drawn | Lines] = []
+        self.painted: list[Painted] = []
+        self.groups: list[Group] = []
+        self._own: dict[tuple[int, str], Group] = {}
+
+    def group(self, names: tuple[str, ...]) -> Group:
+        """Begin a group of unfilled curves."""
+        self.groups.append(Group(names))
+        return self.groups[-1]
+
+    def content(self) -> list[Drawn | Lines]:
+        """Return filled elements in the order of the file, then unfilled curves by their groups."""
+        together = self.source.reading.holes == "nested" or self.source.reading.strokes != "ignore"
+        return self.filled + [lines for group in self.groups if group.elements for lines in group.lines(together)]
+
+    def add(self, element: Element) -> None:
+        """Add the outline of a path or a basic shape."""
+        style, names = element.state.style, element.state.names
+        if style["visibility"].lower() != "visible":
+            self.source.note("hidden", f"hidden {element.node.tag}", "less", where=element.name)
+            return
+        parts, fault = element.form().parts()
+        if fault is not None:
+            self._broken(element, parts, fault)
+        if any(style[f"marker-{place}"].lower() != "none" for place in ("start", "mid", "end")):
+            self.source.note("lost", "marker", "less", where=element.name)
+        if not parts:
+            return
+        role, _ = role_of(self.source, *names)
+        if role == "workspace" and element.state.unsure:
+            element.refuse("a workspace with a rule of a style sheet that is not obeyed; write it at the element")
+        if role in ("workspace", "robot") and (style["filter"].lower() != "none" or "url(" in style["fill"]):
+            what = f"{role} with a filter, a gradient or a pattern: its outline is read"
+            self.source.note("info", what, where=element.name)
+        pivot = bool(names) and names[0].lower() == PIVOT
+        if pivot or (element.node.tag != "line" and style["fill"].lower() != "none"):
+            self._fill(element, parts, role)
+        else:
+            self._lines(element, parts, role)
+
+    def _broken(self, element: Element, parts: list[Subpath], fault: int) -> None:
+        x, y = end_of(parts[-1].segments) if parts else (None, None)
+        self.source.note(
+            "lost",
+            f"{element.node.tag} with a fault: not read from there on",
+            "unknown",
+            where=element.name,
+            at=None if x is None or y is None else (float(x), float(y)),
+            handle=f"line {element.node.line}, character {fault + 1}",
+        )
+
+    def _fill(self, element: Element, parts: list[Subpath], role: str) -> None:
+        """Add a filled element; its parts on a line are lines."""
+        style = element.state.style
+        flat = [part for part in parts if not part.closed and on_a_line(part.segments)]
+        if flat:
+            self._lines(element, flat, role)
+            parts = [part for part in parts if not any(part is line for line in flat)]
+        rings = [closed_by_a_line(part) for part in parts]
+        if rings and element.state.clips:
+            _, rings = self._clipped(element, role, rings)
+        if not rings:
+            return
+        drawn = Drawn(rings, element.state.names, element.node.line, style["fill-rule"].lower() == "evenodd")
+        self.filled.append(drawn)
+        self.painted.append(Painted(drawn, role, style["fill"].lower() or "black"))
+        if not style["fill"] and len(parts) == 1 and len(parts[0].segments) == 1 and not parts[0].closed:
+            self._group_of(element, role).doubtful += self._curves(element, parts)
+        if self.source.reading.strokes == "drawn" and style["stroke"].lower() != "none":
+            self.filled.append(Lines(self._curves(element, parts), element.state.names, element.node.line))
+
+    def _lines(self, element: Element, parts: list[Subpath], role: str) -> None:
+        """Add an unfilled element to its group; by itself, if a clip changes it or was not applied."""
+        curves = self._curves(element, parts)
+        rings = [curve.segments for curve in curves]
+        if element.state.clips:
+            whole, left = self._clipped(element, role, rings, all(curve.closed for curve in curves))
+            if len(left) == len(curves):
+                curves = [replace(curve, segments=ring) for curve, ring in zip(curves, left, strict=True)]
+            if whole or left != rings:
+                if left:
+                    self.filled.append(Lines(curves, element.state.names, element.node.line))
+                return
+        self._group_of(element, role).elements.append((element.state.names, element.node.line, curves))
+
+    def _group_of(self, element: Element, role: str) -> Group:
+        """Return the group around an element; another one for elements with a role that the group does not give."""
+        group = element.state.group
+        if role_of(self.source, *group.names)[0] == role:
+            return group
+        key = id(group), role
+        if key not in self._own:
+            self._own[key] = self.group(element.state.names)
+        return self._own[key]
+
+    def _curves(self, element: Element, parts: list[Subpath]) -> list[Curve]:
+        state = element.state
+        pen = Pen(self.source, state.style, state.measure, state.frame, element.name)
+        return [pen.curve(part, element.handle) for part in parts]
+
+    def _clipped(self, element: Element, role: str, rings: list[Ring], closed: bool = True) -> tuple[bool, list[Ring]]:
+        """Return True if some clip was not applied, and what the others leave of rings."""
+        whole = False
+        where = element.name or element.handle
+        for clip in element.state.clips:
+            effect, rings = clip.applied(rings, closed)
+            if effect == "all":
+                self.source.note("hidden", f"{element.node.tag} outside of its {clip.what}", "less", where=where)
+                return whole, []
+            if effect != "unknown":
+                continue
+            if role == "workspace":
+                element.refuse(f"a workspace with a {clip.what} would be larger than drawn; draw what is left of it")
+            whole = True
+            x0, y0, x1, y1 = box_of(rings)
+            at = (x0 + x1) / 2, (y0 + y1) / 2
+            self.source.note("guess", f"{clip.what} not applied: larger than drawn", "more", where=where, at=at)
+        return whole, rings
+
+    # elements without an outline
+
+    def text(self, element: Element) -> None:
+        """Note a text with its place."""
+        try:
+            (x, y), *_ = corners_in(element.state.frame, element.corner(), (_NONE, _NONE))
+            at = float(x), float(y)
+        except ValueError:  # a list of places, one for each letter
+            at = None
+        self.source.note("paint", "text", "less", where=element.name, at=at)
+
+    def picture(self, element: Element) -> None:
+        """Note a picture or a piece of another language, with its box."""
+        width, height = element.sizes()
+        corners = corners_in(element.state.frame, element.corner(), (width or _NONE, height or _NONE))
+        xs, ys = zip(*((float(x), float(y)) for x, y in corners), strict=True)
+        self.source.note(
+            "lost",
+            element.node.tag,
+            "less",
+            where=element.name,
+            at=((min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2),
+            size=max(max(xs) - min(xs), max(ys) - min(ys)),
+            remedy="trace it in the drawing",
+        )
