@@ -51,22 +51,8 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Lines:
-    """Unfilled curves of one layer or group, which may close outlines together, and the names of their groups.
-
-    Attributes
-    ----------
-    curves : list of Curve
-        In the order of the file.
-    names : tuple of str
-        The innermost first.
-    line : int
-        Place in the file.
-    loose : bool
-        True if closed curves are elements of their own: they nest only inside of an outline that open curves close.
-        Each of the others is a solid.
-    """
+    """Unfilled curves of one layer or group, which may close outlines together, and the names of their groups."""
 
     curves: list[Curve] = field(default_factory=list)
     names: tuple[str, ...] = ()
     line: int = 1
-    loose: bool = False

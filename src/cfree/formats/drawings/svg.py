@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from cfree.curves.drawn import IDENTITY, Affine, Ring, compose
+from cfree.curves.drawn import IDENTITY, Affine, compose
 from cfree.formats.drawings.content import Drawn, Lines
 from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.source import Source
@@ -49,15 +49,11 @@ def _filled(source: Source, content: Iterable[Drawn | Lines]) -> Iterator[Drawn]
         if isinstance(item, Drawn):
             yield item
             continue
-        rings: list[Ring] = []
         for curve in item.curves:
-            if curve.closed:
-                rings.append(curve.segments)
-            else:
+            if not curve.closed:
                 source.note("lost", "open line", "less", where=item.names[0] if item.names else "", handle=curve.handle)
-        for group in [[ring] for ring in rings] if item.loose else [rings]:
-            if group:
-                yield Drawn(group, item.names, item.line)
+        if rings := [curve.segments for curve in item.curves if curve.closed]:
+            yield Drawn(rings, item.names, item.line)
 
 
 def _settings(source: Source, root: Node) -> dict[str, Any]:

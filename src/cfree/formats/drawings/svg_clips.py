@@ -80,7 +80,7 @@ class Clip:
         x0, y0, x1, y1 = box_of(rings)
         xs, ys = zip(*((float(x), float(y)) for x, y in self.corners), strict=True)
         noise = _NOISE * max(map(abs, (x0, y0, x1, y1, *xs, *ys)))
-        return x1 < min(xs) - noise or x0 > max(xs) + noise or y1 < min(ys) - noise or y0 > max(ys) + noise
+        return bool(x1 < min(xs) - noise or x0 > max(xs) + noise or y1 < min(ys) - noise or y0 > max(ys) + noise)
 
 
 def convex(points: Sequence[ExactPoint]) -> tuple[ExactPoint, ...]:

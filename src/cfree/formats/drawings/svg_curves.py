@@ -30,14 +30,14 @@ class Group:
     doubtful: list[Curve] = field(default_factory=list)  # filled curves that may be pieces of an outline
 
     def lines(self, together: bool) -> Iterator[Lines]:
-        """Yield the curves of each element; of all elements together if some are open."""
-        curves = [curve for _, _, own in self.elements for curve in own]
-        if together or not all(curve.closed for curve in curves):
+        """Yield the curves of all elements together, or the open curves together and each closed element."""
+        open_curves = [curve for _, _, own in self.elements for curve in own if together or not curve.closed]
+        if open_curves:
             names, line = self.elements[0][:2] if len(self.elements) == 1 else (self.names, self.elements[0][1])
-            yield Lines(curves + self.doubtful, names, line, loose=not together)
-        else:
-            for names, line, own in self.elements:
-                yield Lines(own, names, line)
+            yield Lines(open_curves + self.doubtful, names, line)
+        for names, line, own in () if together else self.elements:
+            if closed := [curve for curve in own if curve.closed]:
+                yield Lines(closed, names, line)
 
 
 class Pen:

@@ -65,8 +65,6 @@ def read_numbers(text: str) -> tuple[list[Decimal], int | None]:
     match = _NUMBERS.match(text)
     end = match.end() if match else 0
     words = _NUMBER.findall(text, 0, end)
-    if end == len(text) and text.rstrip(" \t\n\r\f").endswith(","):
-        end -= 1
     if any(len(word) > 17 for word in words) or "e" in text or "E" in text:
         return [number(word) for word in words], None if end == len(text) else end
     return [*map(Decimal, words)], None if end == len(text) else end

@@ -198,7 +198,10 @@ class Walk:
     def _viewport(self, element: Element) -> State | None:
         """Return the state inside of an inner svg or a symbol; None if it draws nothing."""
         state, node = element.state, element.node
-        used, own = state.sizes or (None, None), element.sizes()
+        used, own, place = state.sizes or (None, None), element.sizes(), element.corner()
+        if node.tag == "symbol" and (any(own) or any(place)):
+            self.source.note("guess", "place or size of a symbol itself: not obeyed", "unknown", where=element.name)
+            own, place = (None, None), (Fraction(0), Fraction(0))
         width = next((part for part in (used[0], own[0]) if part is not None), None)
         height = next((part for part in (used[1], own[1]) if part is not None), None)
         size = (
@@ -207,7 +210,7 @@ class Walk:
         )
         if min(size) < 0:
             raise ValueError("a size below 0; give one above 0")
-        place, box = element.corner(), box_of_view(node)
+        box = box_of_view(node)
         if not all(size) or (box and not all(box[2:])):
             self.source.note("hidden", f"{node.tag} of size 0", "less", where=element.name)
             return None
