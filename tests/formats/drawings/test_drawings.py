@@ -59,7 +59,8 @@ def test_dxf_is_read_as_it_is_drawn(folder: Path) -> None:
     scene = shapes.scene()
     assert (scene.units, scene.start) == ("mm", cfree.Pose(2, 2))
     assert scene.workspace == cfree.Polygon([(-50, -50), (120, -50), (120, 100), (-50, 100)])
-    assert shapes.dropped[0] == "CIRCLE on layer off, which is off"
+    hidden = [(note.what, note.where, note.count) for note in shapes.reading if note.kind == "hidden"]
+    assert hidden == [("entity on a layer that is off", "off", 1)]
 
 
 def test_packed_svg_is_read_like_its_text(folder: Path, tmp_path: Path) -> None:
@@ -99,9 +100,7 @@ def test_lines_that_are_drawn_twice_or_are_points_count_once(tmp_path: Path) -> 
     document.saveas(tmp_path / "a.dxf")
     shapes = cfree.load_shapes(tmp_path / "a.dxf")
     assert [round(float(shape.polygon.exact_area)) for shape in shapes.shapes] == [12, 13]
-    twice, point, open_line = shapes.dropped
-    assert twice == "line that is drawn twice: once (6 times)"
-    assert point.startswith("line so short") and open_line.startswith("open line")
+    assert {note.what: note.count for note in shapes.reading if note.kind == "lost"} == {"open line": 1}
 
 
 @pytest.mark.parametrize("path", ["M0 0 L4 0 L2 0 Z", "M0 0 L4 0 L2 0 Z M0 0 L4 4 L4 4 Z"])

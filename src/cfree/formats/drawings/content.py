@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 from cfree.curves.drawn import Ring
 
@@ -33,8 +34,8 @@ class Curve:
         Bound of the distance of an end from the point that was meant, by the digits that are written.
     width : float
         Width of its stroke as drawn, in the scene's unit; 0 if it has none.
-    cap, corner : str
-        Forms of the stroke's ends, "butt", "round" or "square", and of its corners, "miter", "round" or "bevel".
+    cap, join : str
+        Forms of its ends, "butt", "square" or "round", and of its corners, "miter", "round" or "bevel".
     miter : float
         Greatest length of a corner's miter, divided by the width.
     """
@@ -44,8 +45,8 @@ class Curve:
     handle: str = ""
     rounding: float = 0.0
     width: float = 0.0
-    cap: str = "round"
-    corner: str = "round"
+    cap: Literal["butt", "square", "round"] = "square"  # if unknown: no other is larger
+    join: Literal["miter", "round", "bevel"] = "miter"
     miter: float = 4.0
 
 

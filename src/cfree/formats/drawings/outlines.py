@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from importlib import import_module
 from typing import Any
 
+from cfree.curves.curved import Curved
 from cfree.curves.drawn import IDENTITY, Affine, Ring, carried, decimal, translation
+from cfree.curves.from_drawing import curved_of
 from cfree.curves.hulls import Outline, box_of, in_range, polygon_of
 from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.exact.number import ExactPoint
@@ -15,6 +16,7 @@ from cfree.exact.pose import Pose
 from cfree.formats.drawings.content import Curve, Drawn, Lines
 from cfree.formats.drawings.regions import filled_outlines, layer_outlines
 from cfree.formats.drawings.source import Source, role_of, shapes_of, tolerance_of
+from cfree.formats.drawings.strokes import walls
 from cfree.formats.shapes import IGNORE, Shape, Shapes
 from cfree.formats.text.findings import InvalidFileError, Problem
 from cfree.scene.scene import explained
@@ -93,6 +95,9 @@ class _Makers:
         """Make polygons of outlines."""
         role, name = place.role, place.name
         for outline in outlines:
+            if outline.curved and self.source.reading.curves and (shape := _round_shape(outline)):
+                self.shapes.append(Shape(role, name, shape))
+                continue
             self.curves += outline.curved
             try:
                 polygon = polygon_of(outline, self.tolerance, role == "workspace", self.source.spend)
@@ -106,8 +111,8 @@ class _Makers:
 
     def walls(self, place: _Place, curves: Sequence[Curve]) -> None:
         """Make walls of curves."""
-        walls = getattr(import_module("cfree.formats.drawings.strokes"), "walls")  # noqa: B009
-        self.shapes += [Shape(place.role, place.name, shape) for shape in walls(self.source, curves)]
+        polygons = walls(self.source, curves, place.name or place.role)
+        self.shapes += [Shape(place.role, place.name, polygon) for polygon in polygons]
 
     def finish(self) -> list[Shape]:
         """Return the shapes; raise the problems."""
@@ -119,6 +124,14 @@ class _Makers:
         if self.problems:
             raise InvalidFileError(self.source.findings.file, self.problems)
         return self.shapes
+
+
+def _round_shape(outline: Outline) -> Curved | None:
+    """Return the round shape of an outline, or None if no polygon around it can be proved."""
+    try:
+        return curved_of(outline)
+    except (InvalidPolygonError, UndecidedError):
+        return None
 
 
 def _rings_of(item: Drawn | Lines) -> list[Ring]:

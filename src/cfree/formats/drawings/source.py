@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -18,9 +17,10 @@ from cfree.scene.reading import Effect, Item, Kind, Note, Notes, Place, thinned,
 
 MOST_BYTES = 1 << 26
 """Maximum size of a drawing or a map."""
-MOST_STEPS = 1_000_000
+MOST_STEPS = 4_000_000
 """Maximum number of elements, points and pieces of curves of a file, blocks and references expanded."""
-MOST_SECONDS = 60.0
+REPORTED = 10_000
+"""Number of steps between two reports of progress."""
 DEEPEST = 100
 """Maximum depth of groups, blocks and references."""
 CURVE_SHARE = 1000
@@ -59,27 +59,42 @@ class Reading:
     padding: float = 0.0  # of the robot, as nav2 pads a footprint
 
 
-class Source:
-    """One file while it is read."""
+Progress = Callable[[int], object]
+"""Called with the number of elements, points and pieces of curves that were read, now and then."""
 
-    def __init__(self, file: str, text: str = "", reading: Reading | None = None) -> None:
+
+class Source:
+    """One file while it is read.
+
+    Parameters
+    ----------
+    file : str
+    text : str
+    reading : Reading, optional
+    progress : callable, optional
+        Called with the number of steps so far: elements, points and pieces of curves. It may raise to end reading.
+    """
+
+    def __init__(
+        self, file: str, text: str = "", reading: Reading | None = None, progress: Progress | None = None
+    ) -> None:
         self.findings = Findings(file, text)
         self.reading = reading or Reading()
         self.notes = Notes()
         self._steps = 0
-        self._end = time.monotonic() + MOST_SECONDS
+        self._progress = progress
 
     @property
     def folder(self) -> Path:
         return Path(self.findings.file).parent
 
     def spend(self, steps: int = 1) -> None:
-        """Count steps; refuse a file that takes too many of them, or too long."""
+        """Count steps; refuse a file that takes too many of them. The count is the same on every machine."""
         self._steps += steps
         if self._steps > MOST_STEPS:
             self.refuse(f"more than {MOST_STEPS:,} elements and points, references expanded; give a smaller file")
-        if self._steps % 64 < steps and time.monotonic() > self._end:
-            self.refuse(f"not read after {MOST_SECONDS:g} seconds; give a smaller file")
+        if self._progress is not None and self._steps % REPORTED < steps:
+            self._progress(self._steps)
 
     def note(
         self,

@@ -1,0 +1,130 @@
+"""Notice unfilled outlines that may be rooms, or lines that may be walls. Signals ask; none changes a shape.
+
+Exporters write floor plans and parts with the same lines, and nothing in a file decides between them. One outline
+around nearly everything is suspicious if its name means a wall or a room, if quarter arcs end on lines (doors), or if
+lines end inside the sides of others (walls that divide rooms).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+from cfree.curves.drawn import Arc, Line, Vector, ends
+from cfree.curves.hulls import box_of
+from cfree.formats.drawings.content import Curve, Drawn, Lines
+from cfree.formats.drawings.source import Source, role_of
+from cfree.formats.drawings.strokes import usual_width
+
+NAMES = re.compile(r"wall|wand|w[aä]nde|mur|muro|pared|a-wall|room|raum|r[aä]ume|zimmer|floor|outline", re.IGNORECASE)
+MOST_OF = 0.8
+"""Share of the other shapes, or of the drawing's box, that such an outline contains."""
+JUNCTIONS = 3
+"""Number of lines that end inside others, from which on they are divided rooms."""
+NEAR = 1e-4
+"""Distance of an end from a line that it meets, per size."""
+MOST_PAIRS = 1 << 22
+
+Box = tuple[float, float, float, float]
+
+
+def ask(source: Source, content: Sequence[Drawn | Lines]) -> None:
+    """Note each unfilled outline that is read as a solid, contains nearly everything, and may be a room or walls."""
+    if source.reading.strokes != "ignore":
+        return
+    boxes = [box_of([curve.segments]) for item in content if isinstance(item, Lines) for curve in item.curves]
+    boxes += [box_of(item.rings) for item in content if isinstance(item, Drawn)]
+    if not boxes:
+        return
+    whole = _united(boxes)
+    for item in content:
+        if not isinstance(item, Lines) or role_of(source, *item.names)[0] != "obstacle":
+            continue
+        outline = _outline(item)
+        if not outline:
+            continue
+        box = box_of([curve.segments for curve in outline])
+        others = len(boxes) - len(outline)
+        inside = sum(_contains(box, other) for other in boxes) - len(outline)
+        if (others and inside > MOST_OF * others) or (others and _area(box) > MOST_OF * _area(whole)):
+            name = item.names[0] if item.names else ""
+            if NAMES.search(name) or _has_doors(item, whole) or _junctions(source, item, whole) >= JUNCTIONS:
+                source.note(
+                    "info",
+                    "line around nearly everything, read as a solid",
+                    "more",
+                    where=name,
+                    at=ends(outline[0].segments[0])[0],
+                    size=max(box[2] - box[0], box[3] - box[1]),
+                    handle=outline[0].handle,
+                    remedy=f"--role {name}=workspace or --strokes {usual_width(item.curves):g}",
+                )
+
+
+def _outline(item: Lines) -> list[Curve]:
+    """Return the largest closed curve of a layer, or its open ones if they may close an outline together."""
+    closed = [curve for curve in item.curves if curve.closed]
+    loose = [curve for curve in item.curves if not curve.closed]
+    largest = max(closed, key=lambda curve: _area(box_of([curve.segments])), default=None)
+    if len(loose) > JUNCTIONS and (
+        largest is None or _area(box_of([c.segments for c in loose])) > _area(box_of([largest.segments]))
+    ):
+        return loose
+    return [largest] if largest else []
+
+
+def _has_doors(item: Lines, whole: Box) -> bool:
+    """True if a quarter arc of a circle ends on the end of a line."""
+    near = NEAR * max(whole[2] - whole[0], whole[3] - whole[1])
+    tips = {_cell(p, near) for curve in item.curves for s in curve.segments if isinstance(s, Line) for p in ends(s)}
+    for curve in item.curves:
+        for segment in curve.segments if not curve.closed else ():
+            is_quarter = isinstance(segment, Arc) and abs(abs(segment.last - segment.first) - math.pi / 2) < 0.02
+            if is_quarter and any(_cell(p, near) in tips for p in ends(segment)):
+                return True
+    return False
+
+
+def _junctions(source: Source, item: Lines, whole: Box) -> int:
+    """Count ends of lines inside the sides of others, up to the number that counts."""
+    near = NEAR * max(whole[2] - whole[0], whole[3] - whole[1])
+    sides = [ends(s) for curve in item.curves for s in curve.segments if isinstance(s, Line)]
+    tips = [
+        p
+        for curve in item.curves
+        if not curve.closed
+        for p in (ends(curve.segments[0])[0], ends(curve.segments[-1])[1])
+    ]
+    count = 0
+    for p in tips[: MOST_PAIRS // max(1, len(sides))]:
+        source.spend(1 + len(sides) // 64)
+        count += any(_is_inside(p, a, b, near) for a, b in sides)
+        if count >= JUNCTIONS:
+            break
+    return count
+
+
+def _is_inside(p: Vector, a: Vector, b: Vector, near: float) -> bool:
+    """True if a point is on a line, and away from its ends."""
+    x, y = b[0] - a[0], b[1] - a[1]
+    length = math.hypot(x, y)
+    along = ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / length
+    return abs((p[0] - a[0]) * y - (p[1] - a[1]) * x) <= near * length and 10 * near < along < length - 10 * near
+
+
+def _cell(p: Vector, near: float) -> tuple[int, int]:
+    return (round(p[0] / near), round(p[1] / near)) if near else (0, 0)
+
+
+def _united(boxes: Sequence[Box]) -> Box:
+    x0, y0, x1, y1 = zip(*boxes, strict=True)
+    return min(x0), min(y0), max(x1), max(y1)
+
+
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])
+
+
+def _contains(outer: Box, inner: Box) -> bool:
+    return outer[0] <= inner[0] and outer[1] <= inner[1] and inner[2] <= outer[2] and inner[3] <= outer[3]
