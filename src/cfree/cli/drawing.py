@@ -15,7 +15,6 @@ from cfree.cli.options import Word
 if TYPE_CHECKING:
     from cfree.formats.drawings.source import Reading
     from cfree.formats.fitting import Pivot
-    from cfree.formats.shapes import Shapes
 
 _VALUES, _NAMED = "cfree.drawing", "cfree.drawing.named"
 SECTION = "Reading SCENE and ROBOT"
@@ -198,8 +197,10 @@ def pivot() -> Pivot | None:
     from cfree.exact.number import to_fraction
 
     text: str | None = _values().get("pivot")
-    if text is None or text == "centroid":
-        return text
+    if text is None:
+        return None
+    if text == "centroid":
+        return "centroid"
     try:
         x, y = map(to_fraction, text.split(","))
     except ValueError:

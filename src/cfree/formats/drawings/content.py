@@ -7,6 +7,9 @@ from typing import Literal
 
 from cfree.curves.drawn import Ring
 
+Cap = Literal["butt", "square", "round"]
+Join = Literal["miter", "round", "bevel"]
+
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
@@ -45,8 +48,8 @@ class Curve:
     handle: str = ""
     rounding: float = 0.0
     width: float = 0.0
-    cap: Literal["butt", "square", "round"] = "square"  # if unknown: no other is larger
-    join: Literal["miter", "round", "bevel"] = "miter"
+    cap: Cap = "square"  # if unknown: no other is larger
+    join: Join = "miter"
     miter: float = 4.0
 
 

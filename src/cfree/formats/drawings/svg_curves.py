@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from cfree.curves.drawn import Affine
 from cfree.curves.hulls import box_of
-from cfree.formats.drawings.content import Curve, Lines
+from cfree.formats.drawings.content import Cap, Curve, Join, Lines
 from cfree.formats.drawings.source import Source
 from cfree.formats.drawings.svg_lengths import Measure
 from cfree.formats.drawings.svg_paths import Subpath, closed_by_a_line, end_of, start_of
@@ -19,6 +19,9 @@ LARGEST_MISS = 1e-3
 """Maximum distance, per size of a curve, that the digits of its numbers explain."""
 LARGEST_ROUNDING = 1e-5
 """The same for ends of different curves."""
+
+_CAPS: dict[str, Cap] = {"butt": "butt", "square": "square", "round": "round"}
+_JOINS: dict[str, Join] = {"miter": "miter", "round": "round", "bevel": "bevel"}
 
 
 @dataclass(slots=True)
@@ -92,8 +95,9 @@ class Pen:
                     "joined", "end that misses its begin by rounding", "near", where=self.where, at=(ax, ay), size=gap
                 )
         rounding = min(miss, LARGEST_ROUNDING * size)
-        cap, corner = self.style["stroke-linecap"].lower(), self.style["stroke-linejoin"].lower()
-        return Curve(segments, closed, handle, rounding, self.width, cap, corner, self._miter())
+        cap = _CAPS.get(self.style["stroke-linecap"].lower(), "butt")
+        join = _JOINS.get(self.style["stroke-linejoin"].lower(), "miter")
+        return Curve(segments, closed, handle, rounding, self.width, cap, join, self._miter())
 
     def _miter(self) -> float:
         try:

@@ -248,7 +248,7 @@ def scene_from_models(findings: Findings, data: object) -> Scene:
         obstacle_names=[part.name for part in model.obstacles],
         workspace=workspace,
         reading=model.record,
-        **{key: getattr(model, key) for key in READERS},
+        **{key: getattr(model, key) for key in READERS if key != "reading"},
     )
 
 
