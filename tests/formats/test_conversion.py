@@ -45,7 +45,8 @@ def test_notes_about_writing_are_returned(tmp_path: Path) -> None:
     scene = cfree.convert(tmp_path / "thirds.json", tmp_path / "thirds.svg")
     assert scene.reading == (Note("near", "number rounded to 14 digits", "near", 2),)
     straight = cfree.convert(ROUND, tmp_path / "round.svg", tolerance=0.01)
-    assert [(note.kind, note.effect, note.size) for note in straight.reading][0] == ("near", "near", 0.01)
+    (note,) = straight.reading
+    assert (note.kind, note.effect, note.size) == ("near", "near", 0.01)
     assert cfree.load_scene(tmp_path / "round.svg").reading[0].what == "round shape replaced by a polygon around it"
 
 

@@ -12,12 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from cfree.formats.drawings.source import Reading, Source, shapes_of
-from cfree.formats.scenes.scene_values import scene_from_plain
+from cfree.formats.scenes.scene_values import Fault, scene_from_plain
 from cfree.formats.shapes import Shapes
 from cfree.formats.text.archive import is_archive
 from cfree.formats.text.findings import Findings, InvalidFileError, read_text, whole
 from cfree.formats.text.json_text import read_literals, with_numbers
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, with_reading
 
 DRAWINGS = {
     ".svg": "svg.read_svg",
@@ -98,6 +98,20 @@ def read_wkt(findings: Findings) -> Shapes:
     return shapes_of(source, "WKT", wkt_shapes(findings), {}, "begin its line with robot:")
 
 
+def quick_scene(data: object) -> Scene | None:
+    """Return the scene of JSON with literals, if it has no fault; models are imported only for a record of reading."""
+    if not isinstance(data, Mapping) or "reading" not in data:
+        return scene_from_plain(data)
+    from cfree.formats.scenes.reading_format import read_notes
+
+    try:
+        notes = read_notes(data["reading"])
+    except Fault:
+        return None
+    scene = scene_from_plain({key: value for key, value in data.items() if key != "reading"})
+    return scene and with_reading(scene, notes)
+
+
 def read_json_file(findings: Findings, data: object, reading: Reading | None = None) -> Shapes | Scene:
     """Read a scene, GeoJSON, or a nesting instance from JSON with literals."""
     source = Source(findings.file, reading=reading)
@@ -116,7 +130,7 @@ def read_json_file(findings: Findings, data: object, reading: Reading | None = N
 
         instance: Shapes = read_nesting(source, with_numbers(data))
         return instance
-    if not findings and (scene := scene_from_plain(data)):
+    if not findings and (scene := quick_scene(data)):
         return scene
     from cfree.formats.scenes.scene_format import scene_from_models
 

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from cfree.errors import FormatError
+from cfree.formats.readers import quick_scene
 from cfree.formats.scenes.scene_format import scene_from_models
-from cfree.formats.scenes.scene_values import scene_from_plain
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_text import read_literals, with_numbers
 from cfree.scene.scene import Scene
@@ -60,7 +60,7 @@ def both(text: str) -> tuple[Scene | None, Scene | None]:
     """What the quick reader says, and what the models say."""
     findings = Findings("scene.json", text)
     data = read_literals(findings)
-    quick = None if findings else scene_from_plain(data)
+    quick = None if findings else quick_scene(data)
     try:
         return quick, scene_from_models(findings, with_numbers(read_literals(Findings("scene.json", text))))
     except FormatError:

@@ -21,7 +21,6 @@ from cfree.formats.text.json_text import Literal, number_of
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.goals import Goal
-from cfree.scene.reading import Note
 from cfree.scene.scene import Scene
 
 VERSION = 1
@@ -207,13 +206,6 @@ def _pose(value: Any) -> Pose:
     return pose((coordinate(x), coordinate(y), angle(theta)))
 
 
-def _reading(value: Any) -> tuple[Note, ...]:
-    """Return the record of reading; its models are imported only if there is one."""
-    from cfree.formats.scenes.reading_format import read_notes
-
-    return read_notes(value)
-
-
 def _goal(value: Any) -> Goal:
     """Return a pose or a place; null is a fault."""
     if isinstance(value, list) and len(value) == 2:
@@ -232,5 +224,4 @@ READERS: dict[str, Callable[[Any], Any]] = {
     "goal": lambda value: None if value is None else _goal(value),
     "goals": lambda value: [_goal(goal) for goal in (value if isinstance(value, list) else [None])],
     "check": _object,
-    "reading": _reading,
 }
