@@ -490,7 +490,7 @@ def test_the_schema_is_that_of_the_models() -> None:
 def test_examples_in_the_format_document_load(tmp_path: Path) -> None:
     document = (ROOT / "docs" / "scene-format.md").read_text()
     blocks = [block.split("```")[0] for block in document.split("```json\n")[1:]]
-    assert [len(read(tmp_path, block).obstacles) for block in blocks] == [2, 5, 1]
+    assert [len(read(tmp_path, block).obstacles) for block in blocks] == [2, 5, 0, 1]
     assert doctest.testfile(str(ROOT / "docs" / "scene-format.md"), module_relative=False) == (0, 7)
     wkt = document.split("```\nrobot:")[1].split("```")[0]
     assert len(read(tmp_path, f"robot:{wkt}", "map.wkt").obstacles) == 3

@@ -22,7 +22,7 @@ MOST_LINES = 8
 """Maximum number of lines about one file; `cfree check` prints all of them."""
 AS_READ = "as read"
 """Key of the line that ends a result: the worst note, and the claim that it harms."""
-_NOTES, _SOURCES = "cfree.reading", "cfree.reading.sources"
+_NOTES, _SOURCES = "record", "record.sources"
 _ANY, _LOST = f"{_NOTES}.strict", f"{_NOTES}.strict_lost"
 
 
