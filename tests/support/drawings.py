@@ -55,6 +55,13 @@ NESTING = """{"name": "swim", "items": [
   {"item_id": 1, "transformation": {"rotation": 0, "translation": [12, 1]}}]}}}
 """
 
+MOVINGAI = "type octile\nheight 3\nwidth 4\nmap\n..@S\nG.WO\n.T..\n"
+MONITOR = """collision_monitor: {ros__parameters: {polygons: ["Stop"], Stop: {type: polygon, points: [1, 1, 1, -1, 0, -1]}}}
+FollowPath:
+  footprint_model: {type: two_circles, front_offset: 0.2, front_radius: 0.2, rear_offset: 0.3, rear_radius: 0.25}
+costmap: {footprint: [[2, 0], [4, 0], [4, 1], [2, 1]], footprint_padding: 0.1}
+"""
+
 
 @cache
 def dxf() -> str:
@@ -101,6 +108,7 @@ def files() -> dict[str, bytes]:
     head = f'<!DOCTYPE svg [<!ENTITY ns "{NAMESPACE}">]>'
     named = head + SVG[SVG.index("<svg") :].replace(NAMESPACE, "&ns;")
     texts = {"a.svg": SVG, "nav.yaml": NAV2, "r.urdf": URDF, "n.json": NESTING, "a.dxf": dxf(), "map.yaml": MAP}
+    texts |= {"grid.map": MOVINGAI, "teb.yaml": MONITOR}
     return {name: text.encode() for name, text in texts.items()} | {"b.svgz": gzip.compress(named.encode(), mtime=0)}
 
 

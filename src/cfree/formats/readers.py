@@ -25,6 +25,7 @@ DRAWINGS = {
     ".dxf": "dxf.read_dxf",
     ".yaml": "ros.read_yaml",
     ".yml": "ros.read_yaml",
+    ".map": "movingai.read_map",
     ".urdf": "urdf.read_urdf",
 }
 """Readers in `drawings/` of files with these suffixes."""

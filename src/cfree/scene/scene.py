@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -193,6 +193,52 @@ class Scene(Shown, Keeping):
         lost = losses(self.reading)
         worst = f"; {lost[0].label}: {lost[0].things}" if lost else ""
         return f"Scene({title}robot: {robot}{_edges(self.robot)}; {obstacles}{worst})"
+
+    @classmethod
+    @checked
+    def from_grid(
+        cls,
+        robot: Any,
+        array: Any,
+        resolution: Number,
+        origin: Sequence[Number] | Pose = (0, 0, 0),
+        occupied: int = 65,
+        unknown: Literal["obstacle", "free"] = "obstacle",
+        rows: Literal["up", "down"] = "up",
+    ) -> Scene:
+        """Return the scene of a robot among the occupied cells of a grid.
+
+        Parameters
+        ----------
+        robot : shape or sequence of shapes
+        array : (rows, columns) array of int or bool
+            Occupancies from 0, free, to 100, occupied, such as the data of a ROS OccupancyGrid, reshaped to
+            (height, width). All values outside of 0 to 100 and masked ones are unknown. True is occupied.
+        resolution : number
+            Side of a cell.
+        origin : (x, y, yaw) or Pose
+            Pose of the lower left corner of the grid.
+        occupied : int
+            Cells from this value up are obstacles; all from 0 up that are below are free.
+        unknown : "obstacle" or "free"
+            Meaning of unknown cells. If they are obstacles, the edge of the grid is the workspace.
+        rows : "up" or "down"
+            Direction in which the rows follow each other: upwards in an OccupancyGrid, downwards in an image.
+
+        Raises
+        ------
+        ValueError
+            If the array has not two dimensions, or all its numbers are from 0 to 1, unless `occupied` is 1.
+
+        Examples
+        --------
+        >>> grid = [[0, 0, 100], [0, -1, 100]]
+        >>> scene = Scene.from_grid([(0, 0), (1, 0), (0, 1)], grid, "0.05", unknown="free")
+        >>> [polygon.bounds for polygon in scene.obstacles]
+        [(0.1, 0.0, 0.15, 0.1)]
+        """
+        scene: Scene = registered("scene_from_grid")(robot, array, resolution, origin, occupied, unknown, rows)
+        return scene
 
     def plot(self) -> Any:
         """Draw obstacles, bounds, workspace, start and goal with `cfree.plot.picture`; return the matplotlib figure."""

@@ -28,7 +28,7 @@ def test_a_map_has_exact_cells(folder: Path) -> None:
     corners = [(2, 0), (3, 0), (3, 2), (1, 2), (1, 1), (2, 1)]
     (found,) = shapes.polygons
     assert set(found.exact_vertices) == {(left + x * cell, low + y * cell) for x, y in corners}
-    assert shapes.changed == ("1 unknown cell: free",)
+    assert [note.what for note in shapes.reading if note.effect == "less"] == ["unknown cell: free"]
     both = cfree.load_shapes(folder / "map.yaml")
     assert [shape.role for shape in both.shapes] == ["obstacle", "workspace"]
     assert both.polygons[0].exact_area == 4 * cell**2
@@ -65,11 +65,13 @@ def test_outlines_are_simple_and_cover_the_cells(seed: int) -> None:
 def test_footprints(folder: Path) -> None:
     shapes = cfree.load_shapes(folder / "nav.yaml")
     box = cfree.Polygon([("0.5", "0.25"), ("-0.5", "0.25"), ("-0.5", "-0.25"), ("0.5", "-0.25")])
-    assert shapes.polygons == (box,) == (cfree.footprint("[[.5,.25],[-.5,.25],[-.5,-.25],[.5,-.25]]"),)
-    assert shapes.dropped == (
-        "footprint_padding 0.01: the robot is not grown by it",
-        "robot_radius: there is also a footprint",
-    )
+    assert box == cfree.footprint("[[.5,.25],[-.5,.25],[-.5,-.25],[.5,-.25]]")
+    (padded,) = shapes.polygons  # the disc of the other costmap is in it
+    assert padded.bounds == (-0.51, -0.26, 0.51, 0.26)
+    assert [(note.kind, note.what) for note in shapes.reading if note.effect == "more"] == [
+        ("guess", "different footprint: the robot is all of them"),
+        ("info", "footprint_padding, as nav2 adds it"),
+    ]
     (folder / "radius.yaml").write_text("robot_radius: 0.22")
     (disc,) = cfree.load_polygons(folder / "radius.yaml")
     assert 0.22 < min(np.hypot(*disc.vertices.T)) < 0.221
@@ -77,9 +79,14 @@ def test_footprints(folder: Path) -> None:
     for text in ("", "[]", "[[1, 2]", "[[1, 2], [3, 4]]", "[[0, 0], [1, 0], [0, x]]", "[[0, 0], [1, 0], [0, 1]"):
         with pytest.raises(FormatError, match="footprint: "):
             cfree.footprint(text)
-    (folder / "two.yaml").write_text("a: {robot_radius: 1}\nb: {robot_radius: 2}")
-    with pytest.raises(FormatError, match=r"two.yaml:2:19 footprint: another one than in line 1; keep one"):
-        cfree.load_polygons(folder / "two.yaml")
+
+
+def test_two_different_footprints_are_both_the_robot(folder: Path) -> None:
+    (folder / "two.yaml").write_text("a: {robot_radius: 1}\nb: {footprint: [[0, 0], [3, 0], [0, 3]]}")
+    shapes = cfree.load_shapes(folder / "two.yaml")
+    disc, triangle = shapes.polygons
+    assert (round(disc.area, 2), triangle.exact_area) == (3.14, Fraction(9, 2))
+    assert [(note.kind, note.count) for note in shapes.reading if note.effect == "more"] == [("guess", 2)]
 
 
 def test_urdf_seen_from_above(folder: Path) -> None:
@@ -102,6 +109,42 @@ def test_nesting(folder: Path) -> None:
         '{"Name": "a", "Items": [{"Demand": 1, "Shape": {"Type": "SimplePolygon", "Data": [[0, 0], [1, 0], [0, 1]]}}]}'
     )
     assert cfree.load_polygons(folder / "old.json") == (cfree.Polygon([(0, 0), (1, 0), (0, 1)]),)
+
+
+def test_what_nesting_leaves_out_is_said(folder: Path) -> None:
+    def notes(roles: dict[str, str], text: str = "") -> list[tuple[str, str, int, str]]:
+        (folder / "m.json").write_text(text or drawings.NESTING)
+        shapes = cfree.load_shapes(folder / "m.json", roles=roles)
+        return [(note.kind, note.what, note.count, note.where) for note in shapes.reading]
+
+    often = ("info", "item wanted several times, read once", 1, "")
+    assert notes({}) == [often]
+    assert notes({"item 0": "robot"})[1:] == [("info", "place of the robot's item, not read", 1, "item 0")]
+    assert notes({"item 1": "ignore"})[0] == ("assumption", "ignored item", 1, "item 1")
+    again = drawings.NESTING.replace('"placed_items": [', '"placed_items": [{"item_id": 0},')
+    lost = ("lost", "further copy of the robot's item", 1, "item 0")
+    assert lost in notes({"item 0": "robot"}, again)
+    alone = drawings.NESTING.replace('"solution"', '"other"')
+    assert notes({}, alone)[0] == ("lost", "item without a place, in no scene", 2, "")
+    assert ("info", "strip without a length, no workspace", 1, "") in notes({}, alone)
+    first = drawings.NESTING.replace('{"item_id": 0, "transformation"', '{"item_id": 1, "transformation"')
+    assert ("lost", "item without a place, in no scene", 1, "") in notes({}, first)
+
+
+def test_visual_shapes_of_a_link_without_collision_shapes_are_read(tmp_path: Path) -> None:
+    box = '<geometry><box size="2 1 1"/></geometry>'
+    mesh = '<geometry><mesh filename="a.stl"/></geometry>'
+    for collision, size, kinds in (
+        ("", 2, ["guess"]),
+        (f"<collision>{mesh}</collision>", 2, ["lost", "guess"]),
+        (f"<collision>{box.replace('2', '4')}</collision>", 4, []),
+    ):
+        link = f'<link name="body">{collision}<visual>{box}</visual></link>'
+        (tmp_path / "r.urdf").write_text(f'<robot name="r">{link}</robot>')
+        shapes = cfree.load_shapes(tmp_path / "r.urdf")
+        assert shapes.polygons[0].exact_area == size
+        assert [note.kind for note in shapes.reading] == kinds
+        assert shapes.settings["source"] == {"robot frame": "body"}
 
 
 def test_geojson_properties_of_the_robot_are_the_scenes(tmp_path: Path) -> None:

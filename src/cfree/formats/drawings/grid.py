@@ -49,8 +49,48 @@ def outlines(mask: Mask, spend: Callable[[int], object] = lambda steps: None) ->
                 yield [[(x + column + p, y + row + q) for p, q in ring] for ring in _rings(piece, spend)]
 
 
-def _connected(mask: Mask, spend: Callable[[int], object]) -> Iterator[tuple[Mask, Point]]:
-    """Yield each part of cells connected over sides, cut to its box, and the box's corner."""
+def specks(
+    mask: Mask, free: Mask, fewer_than: int, spend: Callable[[int], object] = lambda steps: None
+) -> Iterator[tuple[tuple[NDArray[np.intp], NDArray[np.intp]], int]]:
+    """Yield rows and columns of the cells of each small part, and their number.
+
+    A part is connected over sides and corners. All cells around it are free, and inside of the grid.
+
+    Examples
+    --------
+    >>> mask = np.zeros((5, 8), dtype=bool)
+    >>> mask[1, 1] = mask[2, 2] = mask[3, 5] = mask[0, 7] = True
+    >>> [(rows.tolist(), columns.tolist()) for (rows, columns), _ in specks(mask, ~mask, 3)]
+    [([1, 2], [1, 2]), ([3], [5])]
+    >>> [count for _, count in specks(mask, ~mask, 2)]
+    [1]
+    """
+    inside = np.pad(free | mask, 1)  # what is outside of the grid is not free
+    for members, rows, starts, stops in _parts(mask, spend, corners=True):
+        count = int((stops[members] - starts[members]).sum())
+        if count >= fewer_than:
+            continue
+        runs = [(int(rows[k]), int(starts[k]), int(stops[k])) for k in members]
+        if all(inside[row : row + 3, start : stop + 2].all() for row, start, stop in runs):
+            yield (
+                (
+                    np.concatenate([np.full(stop - start, row) for row, start, stop in runs]),
+                    np.concatenate([np.arange(start, stop) for _, start, stop in runs]),
+                ),
+                count,
+            )
+
+
+Runs = NDArray[np.intp]
+
+
+def _parts(
+    mask: Mask, spend: Callable[[int], object], corners: bool = False
+) -> Iterator[tuple[list[int], Runs, Runs, Runs]]:
+    """Yield the runs of each part of cells connected over sides, or also over corners.
+
+    These are indices into the rows, starts and stops of all runs.
+    """
     rows, starts = np.nonzero(_steps(mask) > 0)
     _, stops = np.nonzero(_steps(mask) < 0)
     count = len(rows)
@@ -64,7 +104,7 @@ def _connected(mask: Mask, spend: Callable[[int], object]) -> Iterator[tuple[Mas
         return k
 
     first = np.searchsorted(rows, np.arange(mask.shape[0] + 1)).tolist()
-    begin, end = starts.tolist(), stops.tolist()
+    begin, end = starts.tolist(), (stops + corners).tolist()  # a run longer by one meets those over its corners
     for row in range(1, mask.shape[0]):
         a, b = first[row - 1], first[row]
         while a < first[row] and b < first[row + 1]:
@@ -78,12 +118,18 @@ def _connected(mask: Mask, spend: Callable[[int], object]) -> Iterator[tuple[Mas
     for k in range(count):
         runs[root(k)].append(k)
     for members in runs.values():
+        yield members, rows, starts, stops
+
+
+def _connected(mask: Mask, spend: Callable[[int], object]) -> Iterator[tuple[Mask, Point]]:
+    """Yield each part of cells connected over sides, cut to its box, and the box's corner."""
+    for members, rows, starts, stops in _parts(mask, spend):
         left, right = starts[members].min(), stops[members].max()
         top, bottom = rows[members[0]], rows[members[-1]] + 1
         spend(1 + (right - left) * (bottom - top) // 1024)
         piece = np.zeros((bottom - top, right - left), dtype=bool)
         for k in members:
-            piece[rows[k] - top, begin[k] - left : end[k] - left] = True
+            piece[rows[k] - top, starts[k] - left : stops[k] - left] = True
         yield piece, (int(left), int(top))
 
 

@@ -42,8 +42,11 @@ def read_nesting(source: Source, data: Any) -> Shapes:
     wanted = source.reading.roles
     free = [(name, part, wanted.get(name, PART)) for name, _, parts in items.values() for part in parts]
     shapes += [Shape(role, name, part) for name, part, role in free if role != IGNORE and (role != PART or not placed)]
-    if not placed and any(role == PART for _, _, role in free):
-        source.note("lost", "items without a place: in no scene, unless a role says what they are", "less")
+    parts = {name for name, _, role in free if role == PART} - {shape.name for shape in placed}
+    remedy = '--role "item 0=robot"'
+    source.note("lost", "item without a place, in no scene", "less", count=len(parts), remedy=remedy)
+    for name in dict.fromkeys(name for name, _, _ in free if wanted.get(name) == IGNORE):
+        source.note("assumption", "ignored item", "less", where=name)
     shapes += reader.strip(data)
     name = _member(data, "name")[0]
     settings = {"name": name} if isinstance(name, str) else {}
@@ -87,7 +90,7 @@ class _Reader:
             by_id[number] = f"item {number}", allowed, self.polygons(shape, (key, k, shape_key))
             demand, _ = _member(item, "demand")
             if type(demand) is int and demand > 1:
-                self.source.note("info", "items that are wanted several times: once each")
+                self.source.note("info", "item wanted several times, read once")
         return by_id
 
     def polygons(self, shape: Any, path: Path) -> list[Polygon]:
@@ -157,11 +160,12 @@ class _Reader:
             several, inner = _member(value, "layouts")
             if isinstance(several, list) and several:
                 if len(several) > 1:
-                    self.source.note("lost", "layouts after the first", "less", count=len(several) - 1)
+                    self.source.note("lost", "layout after the first", "less", count=len(several) - 1)
                 yield several[0], (*path, inner, 0)
 
     def placed(self, layout: Any, path: Path, items: dict[int, Item]) -> Iterator[Shape]:
         rows, key = _member(layout, "placed_items")
+        robots: set[str] = set()
         for k, one in enumerate(rows if isinstance(rows, list) else ()):
             self.source.spend()
             place = (*path, key, k)
@@ -172,8 +176,13 @@ class _Reader:
             name, allowed, parts = items[number]
             pose = self.pose(_member(one, "transformation")[0], allowed, place)
             role = self.source.reading.roles.get(name, "obstacle")
-            if role == "robot":
-                continue  # the robot stays in its own frame
+            if role == "robot":  # it stays in its own frame
+                is_first, robots = name not in robots, robots | {name}
+                if is_first:
+                    self.source.note("info", "place of the robot's item, not read", where=name)
+                else:
+                    self.source.note("lost", "further copy of the robot's item", "less", where=name)
+                continue
             for part in parts:
                 outer, *holes = map(pose.apply_exact, part.exact_rings)
                 yield Shape(role, name, Polygon(outer, holes))
@@ -204,6 +213,7 @@ class _Reader:
         solution, where = _member(data, "solution")
         width, _ = _member(solution, "strip_width")
         if height is None or width is None:
+            self.source.note("info", "strip without a length, no workspace", "less", count=height is not None)
             return []
         try:
             h, w = _NUMBER.validate_python(height), _NUMBER.validate_python(width)

@@ -1,36 +1,35 @@
-"""Read ROS files: occupancy maps (map_server's YAML beside an image), and footprints in nav2's parameters.
+"""Read ROS files: occupancy maps (map_server's YAML beside an image), and the YAML of parameters with footprints.
 
 Each cell of a map is a square; its side is the resolution. The lower left corner of the image is at the origin, turned
-by its yaw. Cells become polygons exactly. A cell is an obstacle if it is darker than ``occupied_thresh``, free if
-lighter than ``free_thresh``, else unknown.
+by its yaw. Cells become polygons exactly. The rules of the map servers decide which cells are occupied, see
+`map_rules.py`.
 """
 
 from __future__ import annotations
 
-import warnings
+from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.curves.drawn import Ring, arc_of_circle
-from cfree.curves.hulls import Outline, polygon_of
-from cfree.errors import CfreeError, FormatError
+from cfree.errors import CfreeError
 from cfree.exact.number import to_fraction
 from cfree.exact.pose import Pose
-from cfree.formats.drawings.footprints import footprint
-from cfree.formats.drawings.grid import Mask, outlines
-from cfree.formats.drawings.source import Source, read_bytes, shapes_of, tolerance_of
-from cfree.formats.drawings.yaml_nodes import every, members, read_nodes, written
-from cfree.formats.shapes import Shape, Shapes
-from cfree.polygons.polygon import Polygon
-from cfree.words import counted
+from cfree.formats.drawings.cells import BETWEEN, FREE, OCCUPIED, UNKNOWN, Place, States, cell_shapes
+from cfree.formats.drawings.map_image import Pixels, read_image
+from cfree.formats.drawings.map_rules import SAVED_UNKNOWN, SERVERS, Colours, Mode, Thresholds, Values, published
+from cfree.formats.drawings.nav2 import ROBOT, read_parameters
+from cfree.formats.drawings.source import Source, read_bytes, shapes_of
+from cfree.formats.drawings.yaml_nodes import above_zero, fault, members, read_nodes, written
+from cfree.formats.shapes import Shapes
+from cfree.scene.reading import Effect, Kind
 
-MOST_CELLS = 1 << 26
-_IMAGES = ["PPM", "PNG", "BMP"]
-_ROBOT = "give one: --robot with a footprint or a file, or shapes.scene(robot)"
+T = TypeVar("T")
+Flags = NDArray[np.bool_]
+MODES: dict[str, Mode] = {"trinary": "trinary", "scale": "scale", "raw": "raw"}
 
 
 def read_yaml(source: Source) -> Shapes:
@@ -38,176 +37,162 @@ def read_yaml(source: Source) -> Shapes:
     root = read_nodes(source)
     if "image" in (keys := members(root)):
         return _map(source, keys)
-    return _parameters(source, root)
-
-
-# footprints
-
-
-def _parameters(source: Source, root: Any) -> Shapes:
-    polygons: dict[Polygon, Any] = {}
-    radii: list[tuple[Fraction, Any]] = []
-    for key, node in every(root, ("footprint", "robot_radius", "footprint_padding")):
-        text = written(source, node)
-        try:
-            if key == "footprint" and text.strip() not in ("", "[]"):
-                polygons.setdefault(footprint(text), node)
-            elif key == "robot_radius":
-                radii.append((_above_zero(text), node))
-            elif key == "footprint_padding" and to_fraction(text):
-                source.note("lost", f"{key} {text}: the robot is not grown by it", "less")
-        except (FormatError, ValueError) as error:
-            _fault(source, node, key, str(error).removeprefix("footprint: "))
-    if not polygons:
-        for radius, node in radii:
-            polygon = _disc(source, radius)
-            polygons.setdefault(polygon, node)
-    elif radii:
-        source.note("lost", "robot_radius: there is also a footprint", "less", count=len(radii))
-    if len(polygons) > 1:
-        for node in list(polygons.values())[1:]:
-            _fault(
-                source, node, "footprint", f"another one than in line {_line(next(iter(polygons.values())))}; keep one"
-            )
-    elif not polygons and not len(source.findings):
-        source.findings.at(0, "", 'no "image" of a map, no "footprint" and no "robot_radius"; give one of them')
-    shapes = [Shape("robot", None, polygon) for polygon in polygons]
-    return shapes_of(source, "nav2 parameters", shapes, {"units": "m"}, _ROBOT)
-
-
-def _disc(source: Source, radius: Fraction) -> Polygon:
-    ring: Ring = [arc_of_circle((0.0, 0.0), float(radius))]
-    tolerance = tolerance_of(source, [ring])
-    source.note("info", f"robot_radius {float(radius):g}: a polygon around the disc, within {tolerance:g}")
-    return polygon_of(Outline(ring), tolerance, spend=source.spend)
-
-
-# maps
+    return read_parameters(source, root)
 
 
 def _map(source: Source, keys: dict[str, Any]) -> Shapes:
-    resolution = _read(source, keys, "resolution", _above_zero, Fraction(1))
-    occupied = _read(source, keys, "occupied_thresh", _share, Fraction(65, 100))
-    free = _read(source, keys, "free_thresh", _share, Fraction(196, 1000))
-    negate = _read(source, keys, "negate", _truth, False)
-    mode = _read(source, keys, "mode", _mode, "trinary")
+    resolution = _read(source, keys, "resolution", above_zero, Fraction(1))
     origin = _read(source, keys, "origin", _pose, Pose(0, 0))
+    limits = Thresholds(
+        _read(source, keys, "occupied_thresh", _share, 0.65),
+        _read(source, keys, "free_thresh", _share, 0.196),
+        _read(source, keys, "negate", _truth, False),
+        _read(source, keys, "mode", _mode, "trinary"),
+    )
     for key in ("image", "resolution", "origin"):
         if key not in keys:
             source.findings.at(0, "", f'key "{key}" is missing; add it')
     source.findings.fail_if_any()
-    values, opaque = _image(source, keys["image"])
-    table = [_state(Fraction(v), occupied, free, negate, mode) for v in range(256)]
-    states = np.array(table, dtype=np.int8)[values]
-    if mode == "scale":
-        states[~opaque] = -1
-    states = states[::-1]  # the first row of an image is its top
-    marked: Mask = states > 0
-    unknown = int((states < 0).sum())
-    if source.reading.unknown == "obstacle":
-        marked |= states < 0
-    rows, columns = marked.shape
-    if origin.theta_error:
-        off = origin.theta_error * float(resolution) * (rows + columns)
-        source.note("info", f"yaw of the origin: within {origin.theta_error:.1g} radians, cells within {off:.1g}")
-    if unknown:
-        what = "obstacles" if source.reading.unknown == "obstacle" else "free"
-        source.note("info", f"{counted(unknown, 'unknown cell')}: {what}")
-
-    def placed(ring: list[tuple[int, int]]) -> list[Any]:
-        return list(origin.apply_exact([(x * resolution, y * resolution) for x, y in ring]))
-
-    shapes = [
-        Shape("obstacle", None, Polygon(placed(outer), [placed(hole) for hole in holes]))
-        for outer, *holes in outlines(marked, source.spend)
-    ]
-    if source.reading.unknown == "obstacle":
-        edge = placed([(0, 0), (columns, 0), (columns, rows), (0, rows)])
-        shapes.append(Shape("workspace", None, Polygon(edge)))
-        source.note("info", "the outside of the map is also unknown: the map's edge is the workspace")
-    return shapes_of(source, "ROS map", shapes, {"units": "m"}, _ROBOT)
+    for key in ("occupied_thresh", "free_thresh"):
+        if key not in keys and limits.mode != "raw":
+            source.note("info", "default threshold", where=key)
+    colours, pixels = _image(source, keys["image"])
+    cells = _Cells(source, colours, pixels, Place(resolution, origin))
+    values = cells.values(limits)
+    states = _states(values)
+    if (grey := source.reading.unknown_grey) is not None:
+        states = cells.with_unknown_grey(states, grey)
+    elif limits.mode != "raw":
+        is_trap = (colours.greys == SAVED_UNKNOWN) & (states == FREE)
+        what, remedy = "free cell in map_saver's colour for unknown", "--free-thresh 0.196"
+        cells.note("warning", what, "less", is_trap, f"grey {SAVED_UNKNOWN}", f"{remedy} or --unknown-grey 205")
+    states = cells.with_occupied(states, values)
+    shapes = cell_shapes(source, states[pixels][::-1], resolution, origin, "unknown")  # the first row is the top
+    return shapes_of(source, "ROS map", shapes, {"units": "m", "source": {"frame": "map"}}, ROBOT)
 
 
-def _state(value: Fraction, occupied: Fraction, free: Fraction, negate: bool, mode: str) -> int:
-    """Return the state of a grey value: 1 occupied, 0 free, -1 unknown."""
-    if mode == "raw":
-        share = value / 100
-        if share > 1:
-            return -1
-    else:
-        share = value / 255 if negate else 1 - value / 255
-    return 1 if share > occupied or (mode == "raw" and share >= occupied) else 0 if share < free else -1
+class _Cells:
+    """The cells of an image while it is read: decisions about colours, and notes about the cells that have them."""
+
+    def __init__(self, source: Source, colours: Colours, pixels: Pixels, place: Place) -> None:
+        self.source, self.colours, self.pixels, self.place = source, colours, pixels, place
+        self.counts = np.bincount(pixels.ravel(), minlength=len(colours.rgb))
+
+    def note(self, kind: Kind, what: str, effect: Effect, are: Flags, where: str = "", remedy: str = "") -> None:
+        """Note the cells of some colours, with the place of the first."""
+        count = int(self.counts[are].sum())
+        if count:
+            columns = self.pixels.shape[1]
+            row, column = divmod(int(are[self.pixels].argmax()), columns)
+            middle = self.place.middle(self.pixels.shape[0] - 1 - row, column)
+            self.source.note(kind, what, effect, count=count, where=where, at=middle, remedy=remedy)
+
+    def values(self, limits: Thresholds) -> Values:
+        """Return what the requested map server publishes for each colour; note where servers disagree."""
+        reading = self.source.reading
+        rules, own = reading.map_rules, limits
+        if reading.free_thresh is not None:
+            limits = replace(limits, free=reading.free_thresh)
+        values = published(rules, self.colours, limits)
+        what = "cell freed by another threshold"
+        is_freed = (values == FREE) & (published(rules, self.colours, own) != FREE)
+        self.note("assumption", what, "less", is_freed, remedy=f"--free-thresh {limits.free:g}")
+        self.source.note("info", "map rules", where=rules, remedy="--map-rules")
+        if rules == "strict":
+            servers = [published(server, self.colours, limits) for server in SERVERS]
+            is_disputed = (values != FREE) & np.any([other == FREE for other in servers], axis=0)
+            what, remedy = "cell forbidden by some map servers only", "--map-rules ros1, nav2 or nav2-old"
+            self.note("info", what, "more", is_disputed, remedy=remedy)
+        else:
+            strict = published("strict", self.colours, limits)
+            unknown_is_free = reading.unknown == "free"
+            is_disputed = _are_free(values, unknown_is_free) & ~_are_free(strict, unknown_is_free)
+            what = "free cell that another map server forbids"
+            self.note("assumption", what, "less", is_disputed, remedy="--map-rules strict")
+        return values
+
+    def with_unknown_grey(self, states: States, grey: int) -> States:
+        """Return states in which the cells of a grey are unknown."""
+        is_grey = self.colours.greys == grey
+        if self.source.reading.unknown == "free":
+            what = "forbidden cell taken as unknown"
+            self.note("assumption", what, "less", is_grey & (states > FREE), remedy=f"--unknown-grey {grey}")
+        return np.where(is_grey, np.int8(UNKNOWN), states)
+
+    def with_occupied(self, states: States, values: Values) -> States:
+        """Return states in which cells in between are obstacles, from a requested value up."""
+        is_between = states == BETWEEN
+        present = values[is_between & (self.counts > 0)]
+        if not present.size:
+            return states
+        where = f"values {present.min()} to {present.max()}"
+        least = self.source.reading.occupied
+        if least is None:
+            what = "forbidden cell in between"
+            self.note("guess", what, "more", is_between, where, "--occupied 65")
+            return states
+        is_freed = is_between & (values < least)
+        what = "cell in between below the limit, free"
+        self.note("assumption", what, "less", is_freed, where, f"--occupied {least}")
+        states = np.where(is_between, np.int8(OCCUPIED), states)
+        return np.where(is_freed, np.int8(FREE), states)
 
 
-def _image(source: Source, node: Any) -> tuple[NDArray[np.uint8], Mask]:
-    """Return grey values by rows from the top, and a mask of the opaque cells."""
-    from io import BytesIO
+def _states(values: Values) -> States:
+    states = np.full(values.shape, BETWEEN, dtype=np.int8)
+    states[values == 0] = FREE
+    states[values < 0] = UNKNOWN
+    states[values >= 100] = OCCUPIED
+    return states
 
-    from PIL import Image
 
+def _are_free(values: Values, unknown_is_free: bool) -> Flags:
+    return np.isin(values, [FREE, UNKNOWN] if unknown_is_free else [FREE])
+
+
+def _image(source: Source, node: Any) -> tuple[Colours, Pixels]:
+    """Return the colours of the image and the index of each pixel's, by rows from the top."""
     name, folder = written(source, node), source.folder.resolve()
     try:
         file = (folder / name).resolve()
         inside = file.is_relative_to(folder)
     except (OSError, ValueError, RuntimeError):
         inside = False
-    if not inside or Path(name).is_absolute():
-        _fault(source, node, "image", f"{name[:60]!r} is outside of the map's folder; put it beside the map")
+    if not inside:
+        fault(source, node, "image", f"{name[:60]!r} is outside of the map's folder; put it beside the map")
         source.findings.fail_if_any()
     try:
-        raw = read_bytes(str(file))
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            with Image.open(BytesIO(raw), formats=_IMAGES) as image:
-                width, height = image.size
-                if width * height > MOST_CELLS:
-                    raise ValueError(f"{width} x {height} cells; give at most {MOST_CELLS:,}")
-                alpha = image.convert("LA").getchannel("A") if "A" in image.getbands() or image.info else None
-                pixels = np.asarray(image if image.mode in ("L", "1") else _grey(image))
-                opaque = np.full(pixels.shape, True) if alpha is None else np.asarray(alpha) == 255
+        colours, pixels, has_palette = read_image(read_bytes(str(file)))
     except CfreeError as error:
-        _fault(source, node, "image", str(error))
+        fault(source, node, "image", str(error))
     except Exception as error:  # Pillow's readers raise errors of many types
         reason = str(error).partition("<")[0].strip() or type(error).__name__
-        _fault(source, node, "image", f"{name[:60]}: {reason}; give a PGM, PNG or BMP image")
+        fault(source, node, "image", f"{name[:60]}: {reason}; give a PGM, PNG or BMP image")
     source.findings.fail_if_any()
-    values = pixels.astype(np.uint8) * (255 if pixels.dtype == bool else 1)
-    return values, opaque
-
-
-def _grey(image: Any) -> Any:
-    """Return the average of the channels, as map_server computes it."""
-    if image.mode.startswith("I") or image.mode == "F":
-        most = 65535 if np.asarray(image).max(initial=0) > 255 else 255
-        return np.asarray(image, dtype=np.float64) * 255 // most
-    return np.asarray(image.convert("RGB"), dtype=np.uint32).sum(axis=2) // 3
+    if has_palette:
+        kind: Kind = "warning" if source.reading.map_rules == "ros1" else "info"
+        source.note(kind, "image with a palette: ROS 1 takes numbers of colours for greys", "unknown")
+    return colours, pixels
 
 
 # values
 
 
-def _read(source: Source, keys: dict[str, Any], key: str, reader: Any, default: Any) -> Any:
+def _read(source: Source, keys: dict[str, Any], key: str, reader: Callable[[str], T], default: T) -> T:
     if key not in keys:
         return default
     try:
         return reader(written(source, keys[key]))
     except ValueError as error:
-        _fault(source, keys[key], key, str(error))
+        fault(source, keys[key], key, str(error))
         return default
 
 
-def _above_zero(text: str) -> Fraction:
-    value = to_fraction(text)
-    if not Fraction(1, 10**9) < value < 10**9:
-        raise ValueError(f"{text[:60]}; give a length above 0, from 1e-9 to 1e9")
-    return value
-
-
-def _share(text: str) -> Fraction:
+def _share(text: str) -> float:
     value = to_fraction(text)
     if not 0 <= value <= 1:
         raise ValueError(f"{text[:60]}; give a number from 0 to 1")
-    return value
+    return float(value)
 
 
 def _truth(text: str) -> bool:
@@ -217,10 +202,10 @@ def _truth(text: str) -> bool:
     return known[text.lower()]
 
 
-def _mode(text: str) -> str:
-    if text not in ("trinary", "scale", "raw"):
+def _mode(text: str) -> Mode:
+    if text.lower() not in MODES:
         raise ValueError(f"{text[:60]!r}; give trinary, scale or raw")
-    return text
+    return MODES[text.lower()]
 
 
 def _pose(text: str) -> Pose:
@@ -231,11 +216,3 @@ def _pose(text: str) -> Pose:
     if max(abs(x), abs(y), abs(yaw)) > 10**9:
         raise ValueError(f"{text[:60]}; give numbers below 1e9")
     return Pose(x, y, yaw)
-
-
-def _fault(source: Source, node: Any, place: str, message: str) -> None:
-    source.findings.at(node.start_mark.index, place, message)
-
-
-def _line(node: Any) -> int:
-    return int(node.start_mark.line) + 1

@@ -1,25 +1,27 @@
 """Read URDF: the footprint of a robot, all collision geometry seen from above.
 
 It reads boxes, cylinders and spheres of all links, joints at 0, in the root link's frame: x forward, y to the left.
-Each becomes the convex polygon around its projection on the ground, and all of them move together.
+Each becomes the convex polygon around its projection on the ground, and all of them move together. If the collision
+geometry of a link has none of these, its visual geometry is read.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.curves.drawn import point_of, turn
+from cfree.curves.drawn import point_of
 from cfree.errors import InvalidPolygonError
+from cfree.exact.number import to_fraction
+from cfree.formats.drawings.nav2 import ROBOT_FRAME
+from cfree.formats.drawings.padding import hull, padded
 from cfree.formats.drawings.source import CURVE_SHARE, Source, shapes_of
 from cfree.formats.drawings.xml_tree import Node, read_tree
 from cfree.formats.shapes import IGNORE, Shape, Shapes
-from cfree.polygons.polygon import Polygon
-from cfree.words import counted
 
 Matrix = NDArray[np.float64]
 _SAFE = 1 + 1e-9  # scale of polygons around circles, far above rounding errors of doubles
@@ -30,40 +32,33 @@ def read_urdf(source: Source) -> Shapes:
     root = read_tree(source)
     if root.tag != "robot":
         source.refuse(f"expected an element robot, got {root.tag[:40]}; give URDF", root.line)
-    solids = [
-        solid
-        for link, matrix in _links(source, root)
-        for collision in _children(link, "collision")
-        for solid in _solids(source, link, collision, matrix)
-    ]
+    links = list(_links(source, root))
+    solids = [solid for link, matrix in links for solid in _of_link(source, link, matrix)]
     round_ones = [solid for solid in solids if len(solid) == 3]
     corners = [p for solid in solids for p in _corners(solid, 4)]
     size = max((np.ptp([p[k] for p in corners]) for k in (0, 1)), default=0.0) if corners else 0.0
     tolerance = source.reading.tolerance or float(size) / CURVE_SHARE or 1.0
+    padding = to_fraction(source.reading.padding)
     shapes: list[Shape] = []
     for solid in solids:
         name = solid[0]
-        if source.reading.roles.get(name) == IGNORE:
-            source.note("lost", f"{name}: ignored", "less")
-            continue
         radius = max((math.hypot(*u) for u in solid[2]), default=0.0) * 2 if len(solid) == 3 else 0.0
         step = 2 * math.acos(1 / (1 + tolerance / radius)) if radius else 1.0
         points = _corners(solid, max(4, math.ceil(math.tau / step)))
         source.spend(len(points))
         try:
-            shapes.append(Shape("robot", None, _hull(points)))
-        except (InvalidPolygonError, ValueError) as error:
-            source.note("lost", f"{name}: {error}", "less")
-    if round_ones:
-        source.note(
-            "info",
-            f"{counted(len(round_ones), 'cylinder or sphere', 'cylinders and spheres')}: "
-            f"polygons around, within {tolerance:g}",
-        )
+            outline = hull(point_of(*map(float, p)) for p in points)
+        except (InvalidPolygonError, ValueError):
+            source.note("lost", "shape without an area from above", "less", where=name)
+        else:
+            shapes += [Shape("robot", None, part) for part in padded(source, outline, padding)]
+    what = "polygon around a round shape"
+    source.note("near", what, "near", count=len(round_ones), size=tolerance, remedy="--tolerance")
     remedy = "its links have no box, cylinder or sphere as collision geometry; add one"
     if not shapes:
         source.findings.at(0, "", f"there is no robot; {remedy}")
-    return shapes_of(source, "URDF", shapes, {"units": "m"}, remedy)
+    settings = {"units": "m", "source": {ROBOT_FRAME: links[0][0].attributes.get("name", "")}}
+    return shapes_of(source, "URDF", shapes, settings, remedy)
 
 
 def _children(node: Node, tag: str) -> list[Node]:
@@ -85,7 +80,7 @@ def _links(source: Source, root: Node) -> Iterator[tuple[Node, Matrix]]:
         carried.add(child)
         below.setdefault(parent, []).append((child, _origin(source, joint)))
         if joint.attributes.get("type") not in ("fixed", None):
-            source.note("info", "joints that move: at 0")
+            source.note("info", "moving joint at 0", "unknown")
     tops = [name for name in links if name not in carried]
     if len(tops) != 1:
         source.refuse(f"{len(tops)} root links; join the links to one tree", root.line)
@@ -139,6 +134,22 @@ Solid = tuple[Any, ...]
 """Name and corners seen from above; for round solids centers, and two conjugate radii for each."""
 
 
+def _of_link(source: Source, link: Node, matrix: Matrix) -> list[Solid]:
+    """Return the solids of a link: of its collision geometry, else of its visual geometry."""
+    name = link.attributes.get("name", "")
+    if source.reading.roles.get(name) == IGNORE:
+        source.note("assumption", "ignored link", "less", where=name)
+        return []
+    for tag in ("collision", "visual"):
+        solids = [solid for node in _children(link, tag) for solid in _solids(source, link, node, matrix)]
+        if solids:
+            if tag == "visual":
+                what = "visual shape in place of collision shapes"
+                source.note("guess", what, "more", count=len(solids), where=name, remedy=f'--role "{name}=ignore"')
+            return solids
+    return []
+
+
 def _solids(source: Source, link: Node, collision: Node, outer: Matrix) -> Iterator[Solid]:
     matrix = outer @ _origin(source, collision)
     name = link.attributes.get("name", "")
@@ -156,7 +167,8 @@ def _solids(source: Source, link: Node, collision: Node, outer: Matrix) -> Itera
                 (radius,) = _numbers(source, form, "radius", 1)
                 yield name, [tuple(matrix[:2, 3])], [(radius, 0.0), (0.0, radius)]
             else:
-                source.note("lost", f"{form.tag[:40]}: only boxes, cylinders and spheres are read", "less")
+                what = "unread mesh" if form.tag == "mesh" else "unread geometry"
+                source.note("lost", what, "less", where=name)
 
 
 def _corners(solid: Solid, count: int) -> list[tuple[float, float]]:
@@ -167,17 +179,3 @@ def _corners(solid: Solid, count: int) -> list[tuple[float, float]]:
     scale = _SAFE / math.cos(math.pi / count)
     turns = [(math.cos(t) * scale, math.sin(t) * scale) for t in np.arange(count) * math.tau / count + math.pi / count]
     return [(x + u[0] * c + v[0] * s, y + u[1] * c + v[1] * s) for x, y in centers for c, s in turns]
-
-
-def _hull(points: Sequence[tuple[float, float]]) -> Polygon:
-    """Return the exact convex hull of points."""
-    ordered = sorted({point_of(*map(float, p)) for p in points})
-    halves = []
-    for row in (ordered, ordered[::-1]):
-        hull: list[Any] = []
-        for p in row:
-            while len(hull) > 1 and turn(hull[-2], hull[-1], p) <= 0:
-                hull.pop()
-            hull.append(p)
-        halves.append(hull[:-1])
-    return Polygon(halves[0] + halves[1])

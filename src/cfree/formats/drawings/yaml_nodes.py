@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from cfree.exact.number import to_fraction
 from cfree.formats.drawings.source import DEEPEST, Source
 from cfree.formats.text.extras import needed
 from cfree.formats.text.findings import Findings, InvalidFileError, read_text
@@ -46,19 +48,20 @@ def members(node: Any) -> dict[str, Any]:
     return {key.value: value for key, value in node.value if key.id == "scalar"}
 
 
-def every(node: Any, keys: tuple[str, ...]) -> Iterator[tuple[str, Any]]:
-    """Yield all members of these names at any depth; shared nodes once."""
-    waiting, seen = [node], {id(None)}
+def mappings(source: Source, node: Any) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield the key and the members of all mappings at any depth, in order; shared nodes once."""
+    waiting, visited = [("", node)], {id(None)}
     while waiting:
-        node = waiting.pop()
-        if id(node) in seen or node.id == "scalar":
+        name, node = waiting.pop()
+        source.spend()
+        if id(node) in visited or node.id == "scalar":
             continue
-        seen.add(id(node))
+        visited.add(id(node))
         if node.id == "mapping":
-            yield from ((key, value) for key, value in members(node).items() if key in keys)
-            waiting += [value for _, value in reversed(node.value)]
+            yield name, members(node)
+            waiting += [(key.value if key.id == "scalar" else "", value) for key, value in reversed(node.value)]
         else:
-            waiting += reversed(node.value)
+            waiting += [(name, value) for value in reversed(node.value)]
 
 
 def written(source: Source, node: Any, depth: int = 3) -> str:
@@ -69,3 +72,16 @@ def written(source: Source, node: Any, depth: int = 3) -> str:
     if node.id == "sequence" and depth:
         return f"[{', '.join(written(source, part, depth - 1) for part in node.value)}]"
     return "{...}"
+
+
+def above_zero(text: str) -> Fraction:
+    """Read a length above 0."""
+    value = to_fraction(text)
+    if not Fraction(1, 10**9) < value < 10**9:
+        raise ValueError(f"{text[:60]}; give a length above 0, from 1e-9 to 1e9")
+    return value
+
+
+def fault(source: Source, node: Any, place: str, message: str) -> None:
+    """Note a fault of a node."""
+    source.findings.at(node.start_mark.index, place, message)

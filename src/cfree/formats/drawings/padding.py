@@ -1,0 +1,110 @@
+"""Pad outlines of robots as nav2 does, without making them smaller anywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from cfree.curves.curved import Curved
+from cfree.curves.drawn import turn
+from cfree.errors import InvalidPolygonError
+from cfree.exact.number import ExactPoint
+from cfree.exact.orientation import Location, locate
+from cfree.formats.drawings.source import Source
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import AnyShape
+
+Ring = tuple[ExactPoint, ...]
+_ROOT_OF_TWO = Fraction(14142136, 10**7)  # rounded up
+_MOST_PAIRS = 20_000  # of edges, in the test whether one outline contains another
+
+
+def padded(source: Source, polygon: Polygon, by: Fraction, is_disc: bool = False) -> list[AnyShape]:
+    """Return the outline as drawn and the one that nav2 pads, or one shape that contains both; note it.
+
+    nav2 moves each vertex away from both axes. That leaves parts of many drawn outlines out, and makes some cross
+    themselves: then the drawn outline is grown by a disc that contains every vertex of the padded one. The polygon
+    around a disc is padded at all sides: nav2 pads a polygon inside of the disc.
+
+    Examples
+    --------
+    >>> box = Polygon([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+    >>> [part.exact_area for part in padded(Source(""), box, Fraction(1, 2))]
+    [Fraction(9, 1)]
+    >>> beside = Polygon([(2, 0), (4, 0), (4, 1), (2, 1)])
+    >>> [part.bounds for part in padded(Source(""), beside, Fraction(1))]
+    [(2.0, 0.0, 4.0, 1.0), (3.0, 0.0, 5.0, 2.0)]
+    """
+    if by <= 0:
+        return [polygon]
+    ring, *holes = polygon.exact_rings
+    moved = [(x + by * _sign(x), y + by * _sign(y)) for x, y in ring]
+    size = float(by)
+    if is_disc:
+        moved = [*hull((x + u, y + v) for x, y in ring for u in (-by, by) for v in (-by, by)).exact_vertices]
+    try:
+        larger = Polygon(moved, holes)
+    except InvalidPolygonError:
+        size = float(by * _ROOT_OF_TWO)
+        what = "padded outline with crossings: the drawn one is grown by a disc"
+        source.note("guess", what, "more", size=size)
+        return [Curved(ring, holes, grown=by * _ROOT_OF_TWO)]
+    if contains(larger, polygon):
+        source.note("info", "footprint_padding, as nav2 adds it", "more", size=size)
+        return [larger]
+    what = "padded outline beside the drawn one: both are the robot"
+    source.note("guess", what, "more", size=size)
+    return [polygon, larger]
+
+
+def hull(points: Iterable[ExactPoint]) -> Polygon:
+    """Return the exact convex hull of points."""
+    ordered = sorted(set(points))
+    halves = []
+    for row in (ordered, ordered[::-1]):
+        hull: list[Any] = []
+        for p in row:
+            while len(hull) > 1 and turn(hull[-2], hull[-1], p) <= 0:
+                hull.pop()
+            hull.append(p)
+        halves.append(hull[:-1])
+    return Polygon(halves[0] + halves[1])
+
+
+def contains(outer: Polygon, inner: Polygon) -> bool:
+    """True if a polygon is proved to contain another; false also if there are holes, or too many edges to try.
+
+    Examples
+    --------
+    >>> angle = Polygon([(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)])
+    >>> contains(angle, Polygon([(0, 0), (1, 0), (1, 3)])), contains(angle, Polygon([(0, 0), (4, 0), (0, 4)]))
+    (True, False)
+    """
+    if len(outer.exact_rings) > 1 or len(outer) * len(inner) > _MOST_PAIRS:
+        return False
+    ring = outer.exact_rings[0]
+    edges = list(zip(ring, (*ring[1:], ring[0]), strict=True))
+    points: list[ExactPoint] = [*inner.exact_rings[0]]
+    if not outer.is_convex:
+        for p, q in zip(inner.exact_rings[0], (*points[1:], points[0]), strict=True):
+            stops = sorted({Fraction(0), Fraction(1), *(t for r, s in edges for t in _meetings(p, q, r, s))})
+            middles = ((a + b) / 2 for a, b in pairwise(stops))
+            points += [(p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])) for t in middles]
+    return all(locate(point, edges) is not Location.OUTSIDE for point in points)
+
+
+def _meetings(p: ExactPoint, q: ExactPoint, r: ExactPoint, s: ExactPoint) -> list[Fraction]:
+    """Return the parameters in (0, 1) at which the line from p to q meets the line through r and s."""
+    ux, uy, vx, vy = q[0] - p[0], q[1] - p[1], s[0] - r[0], s[1] - r[1]
+    if cross := ux * vy - uy * vx:
+        parameters = [((r[0] - p[0]) * vy - (r[1] - p[1]) * vx) / cross]
+    else:
+        length = ux * ux + uy * uy
+        parameters = [((e[0] - p[0]) * ux + (e[1] - p[1]) * uy) / length for e in (r, s)]
+    return [t for t in parameters if 0 < t < 1]
+
+
+def _sign(value: Fraction) -> int:
+    return (value > 0) - (value < 0)
