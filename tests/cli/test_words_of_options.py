@@ -18,9 +18,9 @@ from cfree.plot.rendered import Renderer
 
 SCENE = "examples/scenes/flat.json"
 NEEDED = {"film": [SCENE, "-o", "film.gif"], "figures": ["-o", "figures"], "convert": [SCENE, "scene.svg"]}
-UNKNOWN = get_type_hints(cfree.load_shapes)["unknown"]
-SAME = {
-    "--unknown": UNKNOWN, "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer
+OF_READING = {f"--{name.replace('_', '-')}": hint for name, hint in get_type_hints(cfree.load_shapes).items()}
+SAME = {name: OF_READING[name] for name in ("--unknown", "--map-rules", "--holes", "--fills")} | {
+    "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer
 }  # fmt: skip
 
 

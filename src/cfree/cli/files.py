@@ -8,14 +8,16 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cfree.cli import drawing
 from cfree.cli.options import refuse
-from cfree.cli.reading import made, report
+from cfree.cli.reading import MOST_LINES, made, report
 from cfree.cli.terminal import status
 from cfree.formats.text.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.cli.folders import FolderPlanner
     from cfree.forbidden.boundary import Boundary
+    from cfree.formats.shapes import Shapes
     from cfree.paths.path import Path as Motions
     from cfree.paths.preferences import Preferences
     from cfree.planning.curved import CurvedPlanner
@@ -25,29 +27,53 @@ if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
 
-def read_scene(source: Path) -> Scene:
-    """Read the scene in a file, and report its record of reading."""
-    from cfree.collector import collection_paused
-    from cfree.formats.readers import read_file
-    from cfree.scene.scene import Scene
+def read_scene(source: Path, *, straight: bool = False) -> Scene:
+    """Read the scene in a file with the options on the command line, and report its record of reading.
 
-    with bar("reading"), collection_paused():
-        content = read_file(source)
-    if not isinstance(content, Scene):
-        return made(content, source)
-    report(content.reading, source)
-    return content
+    With `straight`, round shapes become polygons around them, within --tolerance.
+    """
+    return _straight(read_shapes(source)[1], source) if straight else read_shapes(source)[1]
 
 
-def read_source(source: Path) -> Scene | Boundary:
+def read_shapes(source: Path, most: int | None = MOST_LINES) -> tuple[Shapes, Scene]:
+    """Read the shapes in a file, and their scene, with the options on the command line."""
+    from cfree.formats import scene_file
+
+    wanted = drawing.options_of_reading()
+    with bar("reading"):
+        shapes = scene_file.read_shapes(source, wanted)
+        robot = drawing.robot(wanted)
+    scene = made(shapes, source, robot, drawing.pivot(), most)
+    drawing.refuse_unused((shapes.form, *([robot.form] if hasattr(robot, "form") else [])), curved=scene.curved)
+    return shapes, scene
+
+
+def read_source(source: Path, *, straight: bool = True) -> Scene | Boundary:
     """Read the boundary in a file, or the scene, and report the record of reading."""
     if is_archive(source):
         from cfree.formats.boundaries.boundary_file import load_boundary
 
+        drawing.refuse_all("only for files that are read as scenes, and this is a boundary")
         boundary = load_boundary(source)
         report(boundary.scene.reading, source)
         return boundary
-    return read_scene(source)
+    return read_scene(source, straight=straight)
+
+
+def _straight(scene: Scene, source: Path) -> Scene:
+    """Return a scene of polygons around round shapes, within --tolerance; report them."""
+    from cfree.formats.drawings.source import CURVE_SHARE
+    from cfree.scene.reading import Note, together
+    from cfree.scene.scene import largest_of, round_count, shapes_of, with_reading
+
+    if not scene.curved:
+        return scene
+    error = drawing.tolerance() or largest_of(scene) / CURVE_SHARE
+    what = "polygon around a round shape"
+    note = Note("near", what, "near", round_count(shapes_of(scene)), size=error, remedy="--tolerance")
+    report([note], Path(f"polygons of {source}"))
+    straight = scene.outer(error)
+    return with_reading(straight, together(straight.reading, [note]))
 
 
 def computed(
@@ -85,7 +111,7 @@ def answer_for(scene: Scene, file: Path) -> Motions | Separated | AllSeparated:
 
 
 def planner_of(
-    source: Path, max_seconds: float | None, preferences: Preferences, tolerance: float | None
+    source: Path, max_seconds: float | None, preferences: Preferences
 ) -> Planner | CurvedPlanner | FolderPlanner:
     """Make a planner for the scene in a file, with its free space if the file is a boundary; or for a folder."""
     from cfree.planning.curved import CurvedPlanner
@@ -93,6 +119,7 @@ def planner_of(
 
     if source.is_dir() or is_archive(source):
         refuse("only for scenes, whose boundary is not yet computed", "max_seconds")
+        drawing.refuse_all("only for files that are read as scenes, and this is a boundary")
     if source.is_dir():
         from cfree.cli.folders import FolderPlanner
 
@@ -110,9 +137,7 @@ def planner_of(
         scene = read_scene(source)
         planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
         if scene.curved:
-            return CurvedPlanner(planner, tolerance)
-    if tolerance is not None:
-        raise ValueError(f"--tolerance: {tolerance}, only for scenes with round shapes; leave it out")
+            return CurvedPlanner(planner, drawing.tolerance())
     return planner
 
 

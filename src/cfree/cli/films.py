@@ -72,7 +72,7 @@ def film_answer(
     from cfree.planning.separation import Separated
 
     check_frames(fps, size)
-    data = read_source(source)
+    data = read_source(source, straight=False)
     scene = data.scene if isinstance(data, Boundary) else data
     answer = answer_for(scene, file)
     if scene.curved:  # the answer contains the polygons it was computed with

@@ -14,6 +14,7 @@ from cfree.cli.terminal import printable
 from cfree.formats.text.archive import is_archive
 
 if TYPE_CHECKING:
+    from cfree.formats.fitting import Pivot
     from cfree.formats.shapes import Shapes
     from cfree.scene.reading import Note
     from cfree.scene.scene import Scene
@@ -51,12 +52,14 @@ def strict(command: Any) -> Any:
     return command
 
 
-def made(shapes: Shapes, source: Path, robot: Any = None, most: int | None = MOST_LINES) -> Scene:
+def made(
+    shapes: Shapes, source: Path, robot: Any = None, pivot: Pivot | None = None, most: int | None = MOST_LINES
+) -> Scene:
     """Return the scene of the shapes in a file, and report its record of reading, also if it cannot be made."""
     from cfree.errors import FormatError
 
     try:
-        scene = shapes.scene(robot)
+        scene = shapes.scene(robot, pivot)
     except FormatError:
         report((*shapes.record, *getattr(robot, "record", ())), source, most)
         raise

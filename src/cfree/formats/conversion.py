@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
 from cfree.arguments import checked
+from cfree.exact.number import Number
 from cfree.formats.drawings.source import CURVE_SHARE
 from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, save_scene
 from cfree.formats.shapes import Shapes
@@ -25,8 +26,8 @@ def convert(
     outer: float | None = None,
     inner: float | None = None,
     tolerance: float | None = None,
-    unknown: Literal["obstacle", "free"] = "obstacle",
-    roles: Mapping[str, str] | None = None,
+    pivot: Literal["centroid"] | Sequence[Number] | None = None,
+    **options: Any,
 ) -> Scene:
     """Read the scene in a file of any kind, and write it to another file, all of it or nothing.
 
@@ -40,9 +41,13 @@ def convert(
         A robot to replace the file's; of a file its robot, or all of its shapes if there is none.
     outer, inner : float, optional
         Replace round shapes by polygons around them, or inside them, within this error.
-    tolerance, unknown, roles : optional
-        As in `load_shapes`. Without `outer` and `inner`, formats that have no round shapes get polygons around them
-        within the tolerance.
+    tolerance : float, optional
+        Without `outer` and `inner`, replace round shapes by polygons around them within this error. Formats that have
+        no round shapes get polygons in any case, by default within a thousandth of the size.
+    pivot : "centroid" or (x, y), optional
+        The robot's reference point, see `Shapes.scene`.
+    options
+        All other options of `load_shapes`.
 
     Returns
     -------
@@ -69,9 +74,8 @@ def convert(
     is_file, is_made = isinstance(robot, str | PathLike), robot is None or isinstance(robot, Shapes)
     other = robot if is_file or is_made else shapes_in(robot, "robot")
     check_scene_path(target)
-    options: dict[str, Any] = {"tolerance": tolerance, "unknown": unknown, "roles": roles}
-    other = load_shapes(robot, tolerance=tolerance) if is_file else other
-    scene, notes = written(load_shapes(source, **options).scene(other), Path(target), outer, inner, tolerance)
+    other = load_shapes(robot, **options) if is_file else other
+    scene, notes = written(load_shapes(source, **options).scene(other, pivot), Path(target), outer, inner, tolerance)
     return with_reading(scene, together(scene.reading, notes))
 
 
@@ -92,12 +96,12 @@ def _straight(
     error = outer if inner is None else inner
     if error is not None and not 0 < error < math.inf:
         raise ValueError(f"{'outer' if inner is None else 'inner'}: {error}; give a length above 0")
-    if not scene.curved or (error is None and not is_without_curves(target)):
+    if not scene.curved or (error is None and tolerance is None and not is_without_curves(target)):
         return scene, ()
     if error is None:
         error = tolerance or largest_of(scene) / CURVE_SHARE
     straight = scene.outer(error) if inner is None else scene.inner(error)
-    what = f"round shape replaced by a polygon {'around' if inner is None else 'inside'} it"
+    what = f"polygon {'around' if inner is None else 'inside'} a round shape"
     return straight, (Note("near", what, "near", round_count(shapes_of(scene)), size=error),)
 
 

@@ -9,54 +9,18 @@ from typing import Any, Literal
 
 from cfree.curves.curved import Curved
 from cfree.curves.similar import similar
-from cfree.exact.number import ExactPoint
+from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose
-from cfree.formats.shapes import Shape, Shapes
-from cfree.formats.text.findings import InvalidFileError, whole
-from cfree.formats.units import METRES, factor, unit_of
-from cfree.scene.reading import Note, together
+from cfree.scene.reading import Note
 from cfree.scene.scene import AnyShape
 
-Pivot = Literal["centroid"] | ExactPoint
+Pivot = Literal["centroid"] | Sequence[Number]
 FAR = 1
 """A reference point farther from the robot than this multiple of the robot's size is probably not meant."""
 
 
-def sized(shapes: Shapes, units: str = "", scale: Fraction | None = None) -> Shapes:
-    """Return shapes with another scale, and with a unit if their file names none.
-
-    Raises
-    ------
-    InvalidFileError
-        If a unit is not known, or the file names another.
-    """
-    own = str(shapes.settings.get("units", ""))
-    if units and not unit_of(units):
-        raise InvalidFileError(shapes.file, [whole(f"--units {units}: no unit of length; give {', '.join(METRES)}")])
-    if units and unit_of(own) and unit_of(own) != unit_of(units) and scale is None:
-        ratio = factor(own, units)
-        remedy = f"leave --units out, or give --scale {ratio} to convert"
-        raise InvalidFileError(shapes.file, [whole(f"--units {units}: the file is in {own}; {remedy}")])
-    if scale is not None and scale <= 0:
-        raise InvalidFileError(shapes.file, [whole(f"--scale {scale}: no scale; give a number above 0")])
-    notes = [Note("info", f"length multiplied by {scale}")] if scale not in (None, 1) else []
-    if units:
-        notes.append(Note("info", f"unit taken as {unit_of(units)}")) if not unit_of(own) else None
-    result = scaled(shapes, scale or Fraction(1))
-    settings = {**result.settings, **({"units": unit_of(units)} if units else {})}
-    return replace(result, settings=settings, reading=together(result.reading, notes))
-
-
-def scaled(shapes: Shapes, ratio: Fraction) -> Shapes:
-    """Return shapes, poses, bounds and places of notes with all lengths multiplied by a ratio above 0."""
-    if ratio == 1:
-        return shapes
-    moved = tuple(replace(shape, polygon=similar(shape.polygon, ratio)) for shape in shapes.shapes)
-    notes = tuple(_scaled_note(note, float(ratio)) for note in shapes.reading)
-    return replace(shapes, shapes=moved, settings=_settings(shapes.settings, ratio), reading=notes)
-
-
-def _settings(settings: Mapping[str, Any], ratio: Fraction) -> dict[str, Any]:
+def scaled_settings(settings: Mapping[str, Any], ratio: Fraction) -> dict[str, Any]:
+    """Return settings of a scene with all lengths multiplied by a ratio above 0."""
     result = dict(settings)
     if result.get("bounds") is not None:
         result["bounds"] = tuple(Fraction(c) * ratio for c in result["bounds"])
@@ -74,7 +38,9 @@ def _scaled_goal(goal: Any, ratio: Fraction) -> Any:
     return goal[0] * ratio, goal[1] * ratio
 
 
-def _scaled_note(note: Note, ratio: float) -> Note:
+def scaled_note(note: Note, ratio: float) -> Note:
+    """Return a note with places and sizes multiplied by a ratio."""
+
     def place(p: tuple[float, float] | None) -> tuple[float, float] | None:
         return p and (p[0] * ratio, p[1] * ratio)
 
@@ -82,35 +48,16 @@ def _scaled_note(note: Note, ratio: float) -> Note:
     return replace(note, at=place(note.at), size=note.size and note.size * ratio, items=items)
 
 
-def in_units_of(robot: Shapes, scene: Shapes) -> Shapes:
-    """Return the robot's shapes in the unit of the scene's file; a file without a unit is taken to have the other's."""
-    own, wanted = (str(shapes.settings.get("units", "")) for shapes in (robot, scene))
-    ratio = factor(own, wanted)
-    if ratio is None:
-        named = [name for name in (own, wanted) if unit_of(name)]
-        what = f"unit missing in one of two files: {named[0]} in both" if named else ""
-        notes = [Note("info", what)] if named else []
-        return replace(robot, reading=together(robot.reading, notes))
-    if ratio == 1:
-        return robot
-    converted = scaled(robot, ratio)
-    return replace(
-        converted, reading=together(converted.reading, [Note("info", f"robot converted from {own} to {wanted}")])
-    )
-
-
-def pivoted(parts: Sequence[AnyShape], pivot: Pivot | None) -> tuple[list[AnyShape], ExactPoint | None]:
+def about_pivot(parts: Sequence[AnyShape], pivot: Pivot) -> tuple[list[AnyShape], ExactPoint]:
     """Move the parts of a robot so that the pivot is the reference point; return them, and the pivot.
 
     Parameters
     ----------
     parts : sequence of shapes
-    pivot : "centroid", (x, y) or None
+    pivot : "centroid" or (x, y)
         The centroid of all parts, or a point in their coordinates.
     """
-    if pivot is None:
-        return list(parts), None
-    x, y = centroid(parts) if pivot == "centroid" else pivot
+    x, y = centroid(parts) if isinstance(pivot, str) else map(to_fraction, pivot)
     return [similar(part, shift=(-x, -y)) for part in parts], (x, y)
 
 
@@ -126,9 +73,14 @@ def centroid(parts: Sequence[AnyShape]) -> ExactPoint:
     return mx / (3 * total), my / (3 * total)
 
 
-def about(settings: Mapping[str, Any], pivot: ExactPoint) -> dict[str, Any]:
-    """Return settings of a scene whose poses are those of another point of the robot."""
+def settings_about(settings: Mapping[str, Any], pivot: ExactPoint, *, is_placed: bool) -> dict[str, Any]:
+    """Return settings of a scene whose poses are those of another point of the robot.
+
+    With `is_placed`, the robot is drawn at its place: this is the start if there is no other.
+    """
     result = dict(settings)
+    if is_placed and result.get("start") is None:
+        result["start"] = Pose(0, 0)
     for key in ("start", "goal"):
         if isinstance(result.get(key), Pose):
             result[key] = _pose_about(result[key], pivot)
@@ -155,9 +107,3 @@ def far_reference(parts: Sequence[AnyShape]) -> tuple[Note, ...]:
         return ()
     what = "reference point far outside of the robot"
     return (Note("warning", what, "none", size=off, remedy="--pivot centroid"),)
-
-
-def shapes_with(shapes: Shapes, parts: Sequence[AnyShape]) -> Shapes:
-    """Return shapes with another robot."""
-    others = tuple(shape for shape in shapes.shapes if shape.role != "robot")
-    return replace(shapes, shapes=(*(Shape("robot", None, part) for part in parts), *others))

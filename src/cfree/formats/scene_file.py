@@ -9,12 +9,14 @@ import json
 import math
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from decimal import Decimal
+from fractions import Fraction
 from os import PathLike
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
-from cfree.arguments import checked, one_of
+from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
 from cfree.exact.half_angle import Angle
@@ -23,14 +25,15 @@ from cfree.exact.pose import Pose
 from cfree.formats.drawings.source import Reading
 from cfree.formats.readers import read_file, read_json_file
 from cfree.formats.scenes.reading_text import records
-from cfree.formats.shapes import IGNORE, ROLES, Shape, Shapes
+from cfree.formats.shapes import Shape, Shapes
 from cfree.formats.text.atomic import checked_suffix, replacing
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_text import read_literals
 from cfree.formats.text.number_text import number_text
+from cfree.formats.units import METRES, factor, unit_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.goals import Goal
-from cfree.scene.reading import Note
+from cfree.scene.reading import Note, together
 from cfree.scene.scene import AnyShape, Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
@@ -158,16 +161,7 @@ def load_shapes(
     >>> shapes.form, len(shapes.of("obstacle")) == len(shapes.scene().obstacles)
     ('scene', True)
     """
-    options = {name: value for name, value in locals().items() if name != "path"}
-    if tolerance is not None and not 0 < tolerance < math.inf:
-        raise ValueError(f"tolerance: {tolerance} is no length; give one above 0")
-    for name in ("join", "min_area", "padding", "despeckle"):
-        if options[name] is not None and not 0 <= options[name] < math.inf:
-            raise ValueError(f"{name}: {options[name]}; give 0 or more")
-    if strokes not in ("ignore", "drawn") and not (not isinstance(strokes, str) and 0 < strokes < math.inf):
-        raise ValueError(f'strokes: {strokes!r}; give a width above 0, "drawn" or "ignore"')
-    for name, role in (roles or {}).items():
-        one_of(f"roles: {name}", role, (*ROLES, IGNORE))
+    options: dict[str, Any] = {name: value for name, value in locals().items() if name != "path"}
     options["roles"] = dict(roles or {})
     options["scale"] = None if scale is None else to_fraction(scale)
     return read_shapes(path, Reading(**options, curves=tolerance is None))
@@ -175,12 +169,31 @@ def load_shapes(
 
 def read_shapes(path: str | PathLike[str], reading: Reading) -> Shapes:
     """Read the shapes of a file with these options."""
-    from cfree.formats.fitting import sized
-
     with collection_paused():
         content = read_file(path, reading)
         shapes = shapes_in(content, os.fspath(path)) if isinstance(content, Scene) else content
-        return sized(shapes, reading.units, reading.scale)
+        return _sized(shapes, reading.units, reading.scale)
+
+
+def _sized(shapes: Shapes, units: str, scale: Fraction | None) -> Shapes:
+    """Return shapes with another scale, and with a unit if their file names none."""
+    own = str(shapes.settings.get("units", ""))
+    notes = []
+    if units:
+        if not unit_of(units):
+            raise ValueError(f"units: {units!r} is no unit of length; give one of {', '.join(METRES)}")
+        if unit_of(own) and unit_of(own) != unit_of(units) and scale is None:
+            remedy = f"leave it out, or give the scale {factor(own, units)} as well"
+            raise ValueError(f"units: {units!r}, and {shapes.file} is in {own}; {remedy}")
+        if unit_of(own) != unit_of(units):
+            notes.append(Note("info", f"unit taken as {unit_of(units)}"))
+    if scale is not None and scale != 1:
+        notes.append(Note("info", f"lengths multiplied by {scale}"))
+    if not notes:
+        return shapes
+    result = shapes.scaled(scale or 1)
+    settings = {**result.settings, "units": unit_of(units)} if units else result.settings
+    return replace(result, settings=settings, reading=together(result.reading, notes))
 
 
 def scene_from_text(name: str, text: str) -> Scene:

@@ -6,14 +6,18 @@ and is in no scene.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 from typing import Any, Literal
 
 from cfree.arguments import checked
+from cfree.curves.similar import similar
 from cfree.errors import UnsupportedError
+from cfree.exact.number import Number, to_fraction
+from cfree.formats.fitting import about_pivot, far_reference, scaled_note, scaled_settings, settings_about
 from cfree.formats.text.findings import InvalidFileError, whole
+from cfree.formats.units import factor, unit_of
 from cfree.lazy import registered
 from cfree.polygons.polygon import Polygon
 from cfree.scene.reading import Note, of_file, together, without_places
@@ -23,6 +27,7 @@ from cfree.words import counted
 
 Role = Literal["robot", "obstacle", "workspace", "part"]
 ROLES = ("robot", "obstacle", "workspace")
+DRAWN = ("SVG", "DXF")  # formats in which the robot is drawn at its place
 PART, IGNORE = "part", "ignore"
 
 
@@ -119,24 +124,51 @@ class Shapes:
         """Return the shapes of one role: "robot", "obstacle", "workspace" or "part"."""
         return [shape for shape in self.shapes if shape.role == role]
 
+    def scaled(self, ratio: Number) -> Shapes:
+        """Return the shapes with all lengths multiplied by a number above 0, exactly; poses and bounds as well.
+
+        Examples
+        --------
+        >>> import cfree
+        >>> cfree.load_shapes("examples/scenes/flat.json").scaled("1/1000").scene().robot[0].bounds[2]
+        0.0015
+        """
+        factor = to_fraction(ratio)
+        if factor <= 0:
+            raise ValueError(f"scale: {ratio}; give a number above 0")
+        if factor == 1:
+            return self
+        return replace(
+            self,
+            shapes=tuple(replace(shape, polygon=similar(shape.polygon, factor)) for shape in self.shapes),
+            settings=scaled_settings(self.settings, factor),
+            reading=tuple(scaled_note(note, float(factor)) for note in self.reading),
+        )
+
     @checked
-    def scene(self, robot: Any = None) -> Scene:
+    def scene(self, robot: Any = None, pivot: Literal["centroid"] | Sequence[Number] | None = None) -> Scene:
         """Return the scene of these shapes, with the record of reading.
 
         Parameters
         ----------
         robot : shape, sequence of shapes, or Shapes, optional
             A robot to replace the file's; needed if the file has none. Of the shapes of another file these are its
-            robot, or all of them if there is none; the scene has the records of both files.
+            robot, or all of them if there is none, in the units of this file; the scene has the records of both files.
+        pivot : "centroid" or (x, y), optional
+            The robot's reference point: its centroid, or a point in its coordinates. Poses of the file still describe
+            the same places of the robot; without a start, the robot's place in a drawing is the start.
 
         Raises
         ------
         FormatError
             If there is no robot, or more than one workspace.
         """
+        settings = self.settings
         if isinstance(robot, Shapes):
-            parts = [shape.polygon for shape in robot.of("robot") or robot.shapes]
-            its = without_places(robot.record)  # those are in another frame
+            other, alike = in_units_of(robot, self)
+            parts = [shape.polygon for shape in other.of("robot") or other.shapes]
+            its = together(without_places(other.record), alike)  # its places are in another frame
+            settings = {"units": other.settings["units"], **settings} if other.settings.get("units") else settings
         else:
             parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
             its = ()
@@ -145,6 +177,10 @@ class Shapes:
             raise InvalidFileError(self.file, [whole(f"there is no robot; {self.remedy}")])
         if len(rooms) > 1:
             raise InvalidFileError(self.file, [whole(f"{len(rooms)} workspaces; give one polygon")])
+        if pivot is not None:
+            parts, point = about_pivot(parts, pivot)
+            settings = settings_about(settings, point, is_placed=robot is None and self.form in DRAWN)
+        its = together(its, far_reference(parts) if self.form != "scene" or robot is not None else ())
         obstacles = self.of("obstacle")
         nothing = () if obstacles or rooms or self.form == "scene" else of_file([_NOTHING_FORBIDS], self.file)
         return Scene(
@@ -153,13 +189,28 @@ class Shapes:
             obstacle_names=[shape.name for shape in obstacles],
             workspace=rooms[0].polygon if rooms else None,
             reading=together(self.record, its, nothing),
-            **self.settings,
+            **settings,
         )
 
     @property
     def record(self) -> tuple[Note, ...]:
         """The record of reading with the name of the file in each note; a scene's own is unchanged."""
         return self.reading if self.form == "scene" else of_file(self.reading, self.file)
+
+
+def in_units_of(robot: Shapes, scene: Shapes) -> tuple[Shapes, tuple[Note, ...]]:
+    """Return a robot's shapes in the unit of the scene, and notes.
+
+    A file without a unit is taken to have that of the other.
+    """
+    own, wanted = (str(shapes.settings.get("units", "")) for shapes in (robot, scene))
+    if ratio := factor(own, wanted):
+        what = f"robot in {own}, converted to {wanted}"
+        return robot.scaled(ratio), (Note("info", what),) if ratio != 1 else ()
+    if named := unit_of(own) or unit_of(wanted):
+        missing = PurePath((scene if unit_of(own) else robot).file).name
+        return robot, (Note("info", f"no unit in {missing}, taken as {named}", remedy="--units"),)
+    return robot, ()
 
 
 _ORDER = (*ROLES, PART)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cfree.cli import options, reading
+from cfree.cli import drawing, options, reading
 from cfree.cli.faults import INCOMPLETE, fail, one_line_faults
 from cfree.cli.files import bar, check_outputs, computed, read_source
 from cfree.cli.options import FILE, examples, file_option
@@ -22,13 +22,15 @@ if TYPE_CHECKING:
 
 
 @click.command(
+    cls=drawing.Command,
     epilog=examples(
         "cfree boundary scene.json --picture scene.png",
         "cfree boundary scene.json -o scene.npz --mesh scene.glb --threads 1",
         "cfree boundary robot.json --obstacles city.geojsonl --folder city --workers 4",
-    )
+    ),
 )
 @options.scene
+@drawing.drawing
 @reading.strict
 @file_option("--output", "-o", metavar="FILE", help="Write the boundary to a file.")
 @options.picture

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cfree.cli import options, reading
+from cfree.cli import drawing, options, reading
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import check_outputs
 from cfree.cli.options import FILE, Word, examples, file_option
@@ -18,15 +18,17 @@ if TYPE_CHECKING:
 
 
 @click.command(
+    cls=drawing.Command,
     epilog=examples(
         "cfree film scene.json -o film.mp4",
         "cfree film scene.json answer.json -o way.gif",
         "cfree film paper_fig9.json five_convex.json -o paper.mp4 --seconds 60",
         "cfree film scene.json -o path.gif --storyboard path --seconds 5 --fps 10",
         "cfree film scene.json -o turn.gif --storyboard turntable",
-    )
+    ),
 )
 @click.argument("scenes", type=FILE, metavar="SCENE... [ANSWER]", nargs=-1, required=True)
+@drawing.drawing
 @reading.strict
 @file_option("--output", "-o", metavar="FILE", help="Write the film: .mp4 or .gif.", required=True)
 @click.option(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from cfree.cli import options, reading
+from cfree.cli import drawing, options, reading
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import check_outputs, planner_of
 from cfree.cli.options import Word, examples, file_option
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.command(
+    cls=drawing.Command,
     epilog=examples(
         "cfree plan scene.json",
         "cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png",
@@ -31,9 +32,10 @@ if TYPE_CHECKING:
         "cfree plan scene.json --prefer sideways=5,turning=2 --picture way.png",
         "cfree plan scene.json --what-if --picture blockers.png",
         "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
-    )
+    ),
 )
 @options.scene
+@drawing.drawing
 @reading.strict
 @click.option(
     "--start",
@@ -105,21 +107,13 @@ if TYPE_CHECKING:
     is_flag=True,
     help="If there is no path: find single obstacles whose removal opens one; --picture shows them.",
 )
-@click.option(
-    "--tolerance",
-    type=float,
-    metavar="E",
-    help="Limit the refinement of polygons for round shapes: their least error, in scene units.",
-    show_default="refined until decided",
-)
 @file_option("--part", metavar="JSON", help="Write the scene with the needed obstacles; if SCENE is a folder.")
 @options.max_seconds
 @options.as_json
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: Form | None, step: str | None,
     turn: str | None, speed: str | None, clearance: str | None, nearest_free: bool, improve: str | None,
-    objective: Objective, prefer: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
-    tolerance: float | None, part: Path | None, max_seconds: float | None, as_json: bool,
+    objective: Objective, prefer: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool, part: Path | None, max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
@@ -151,7 +145,7 @@ def plan(
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         how: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": objective}
-        planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), tolerance)
+        planner: Any = planner_of(scene, max_seconds, read_preferences(prefer))
         if (miss or what_if) and planner.scene.curved:
             raise ValueError(
                 "--nearest-miss, --what-if: only for polygons; convert round shapes by cfree convert --inner"

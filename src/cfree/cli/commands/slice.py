@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from cfree.cli import options, reading
+from cfree.cli import drawing, options, reading
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import bar, check_outputs, computed, read_source
 from cfree.cli.options import examples, file_option
@@ -16,12 +16,14 @@ from cfree.formats.text.archive import is_archive
 
 @click.command(
     "slice",
+    cls=drawing.Command,
     epilog=examples(
         "cfree slice scene.json --theta 30deg --picture slice.png",
         "cfree slice scene.npz --theta tau:1/3 -o slice.geojson",
     ),
 )
 @options.scene
+@drawing.drawing
 @reading.strict
 @click.option(
     "--theta", metavar="ANGLE", help='Cut at this orientation: "30deg", "0.5rad" or "tau:1/3".', required=True

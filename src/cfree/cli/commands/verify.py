@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cfree.cli import options, reading
+from cfree.cli import drawing, options, reading
 from cfree.cli.faults import REFUTED, one_line_faults
 from cfree.cli.files import bar, read_scene
 from cfree.cli.options import FILE, examples
@@ -20,14 +20,16 @@ if TYPE_CHECKING:
 
 
 @click.command(
+    cls=drawing.Command,
     epilog=examples(
         "cfree verify scene.json scene.npz",
         "cfree verify scene.json answer.json",
         "cfree verify scene.json scene.npz --deep",
         "cfree verify city --sample 100",
-    )
+    ),
 )
 @options.scene
+@drawing.drawing
 @reading.strict
 @click.argument("file", type=FILE, required=False)
 @click.option(
@@ -82,7 +84,7 @@ def verify(
         from cfree.verify.answers import answer as verified_answer
         from cfree.verify.driver import boundary as verified_boundary
 
-        loaded = read_scene(scene)
+        loaded = read_scene(scene, straight=is_archive(file))
         with bar("verify") as progress:
             if is_archive(file):
                 result = verified_boundary(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from cfree.cli import options, reading
+from cfree.cli import drawing, options, reading
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import answer_for, bar, check_outputs, read_scene
 from cfree.cli.options import FILE, examples, file_option
@@ -14,9 +14,11 @@ from cfree.cli.terminal import printable
 
 
 @click.command(
-    epilog=examples("cfree view scene.json", "cfree view scene.json answer.json --html page.html --no-browser")
+    cls=drawing.Command,
+    epilog=examples("cfree view scene.json", "cfree view scene.json answer.json --html page.html --no-browser"),
 )
 @options.scene
+@drawing.drawing
 @reading.strict
 @click.argument("answer", type=FILE, required=False)
 @file_option("--html", metavar="HTML", help="Write the page: .html; it needs no other file and no server.")
@@ -35,7 +37,7 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
         for source in (scene, answer):
             if html and source:
                 check_outputs(source, {"page": html})
-        loaded = read_scene(scene)
+        loaded = read_scene(scene, straight=answer is None)
         with bar("reading"):
             shown = answer_for(loaded, answer) if answer else None
         if isinstance(shown, AllSeparated):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -9,9 +10,10 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal, NoReturn
 
+from cfree.arguments import one_of
 from cfree.curves.drawn import Ring
 from cfree.curves.hulls import box_of
-from cfree.formats.shapes import Shape, Shapes
+from cfree.formats.shapes import IGNORE, ROLES, Shape, Shapes
 from cfree.formats.text.findings import Findings, InvalidFileError, Problem, whole
 from cfree.scene.reading import Effect, Item, Kind, Note, Notes, Place, thinned, together
 
@@ -57,6 +59,21 @@ class Reading:
     despeckle: int = 0  # occupied parts of a map of fewer cells are free
     min_area: float = 0.0  # smaller shapes of a drawing are left out
     padding: float = 0.0  # of the robot, as nav2 pads a footprint
+
+    def __post_init__(self) -> None:
+        if self.tolerance is not None and not 0 < self.tolerance < math.inf:
+            raise ValueError(f"tolerance: {self.tolerance} is no length; give one above 0")
+        for name in ("join", "min_area", "padding", "despeckle"):
+            value = getattr(self, name)
+            if value is not None and not 0 <= value < math.inf:
+                raise ValueError(f"{name}: {value}; give 0 or more")
+        is_width = not isinstance(self.strokes, str) and 0 < self.strokes < math.inf
+        if not is_width and self.strokes not in ("ignore", "drawn"):
+            raise ValueError(f'strokes: {self.strokes!r}; give a width above 0, "drawn" or "ignore"')
+        if self.scale is not None and self.scale <= 0:
+            raise ValueError(f"scale: {self.scale}; give a number above 0")
+        for name, role in self.roles.items():
+            one_of(f"roles: {name}", role, (*ROLES, IGNORE))
 
 
 Progress = Callable[[int], object]
