@@ -20,6 +20,12 @@ NOUNS = "polygon|vert|patch|motion|piece|hole|goal|proof|cell|surface|trapezoid|
         ("vertex", "vertices"),
         ("contact patch", "contact patches"),
         ("exact slice", "exact slices"),
+        ("entity in paper space", "entities in paper space"),
+        ("cell of grey 205 (map_saver's unknown)", "cells of grey 205 (map_saver's unknown)"),
+        ("outline closed only by a join", "outlines closed only by a join"),
+        ("box", "boxes"),
+        ("key", "keys"),
+        ("POLYLINE: no outline", "POLYLINEs: no outline"),
     ],
 )
 def test_one_is_singular_and_all_else_plural(noun: str, plural: str) -> None:

@@ -21,10 +21,7 @@ def counted(count: int, noun: str, plural: str | None = None) -> str:
     >>> counted(1, "polygon"), counted(1200, "polygon"), counted(0, "contact patch")
     ('1 polygon', '1,200 polygons', '0 contact patches')
     """
-    if plural is None:
-        last = noun.rsplit(" ", 1)[-1]
-        plural = noun.removesuffix(last) + ENDINGS.get(last, last + "s")
-    return f"{count:,} {noun if count == 1 else plural}"
+    return f"{count:,} {noun if count == 1 else plural or plural_of(noun)}"
 
 
 _AFTER_THE_NOUN = re.compile(
@@ -45,12 +42,12 @@ def noun_and_rest(phrase: str) -> tuple[str, str]:
     return noun, "".join(rest)
 
 
-def plural(phrase: str) -> str:
+def plural_of(phrase: str) -> str:
     """Return the plural of a noun with its attributes.
 
     Examples
     --------
-    >>> plural("open line"), plural("entity in paper space"), plural("ring drawn twice"), plural("vertex")
+    >>> plural_of("open line"), plural_of("entity in paper space"), plural_of("ring drawn twice"), plural_of("vertex")
     ('open lines', 'entities in paper space', 'rings drawn twice', 'vertices')
     """
     noun, rest = noun_and_rest(phrase)

@@ -163,6 +163,7 @@ def test_no_shape_at_all_is_never_silent() -> None:
         "a user unit is 2 mm", "nothing is drawn in plan.dxf",
     ]  # fmt: skip
     assert [note.what for note in source_of(LOST).reading] == ["open line"]
+    assert [note.what for note in source_of(Note("info", "shape ignored", where="desk")).reading] == ["shape ignored"]
     bare = source_of(shapes=[ROBOT]).scene()
     assert [note.what for note in bare.reading] == ["nothing forbids a pose: no obstacle and no workspace"]
 

@@ -73,6 +73,13 @@ def test_lines_name_the_file_if_there_are_several() -> None:
     assert [line.split()[1] for line in two] == ["a.dxf:", "robot.svg:"]
 
 
+def test_names_of_a_file_stay_in_their_line() -> None:
+    (line,) = lines([replace(LOST, where="a\nerror: b", file="x")])
+    assert "\n" not in line and 'of "a\\nerror: b"' in line
+    assert "\n" not in as_read([replace(LOST, where="a\n")])
+    assert len(lines([replace(LOST, where="w" * 10**5)])[0]) < 200
+
+
 @pytest.mark.parametrize(
     ("effect", "harmed"),
     [

@@ -167,7 +167,7 @@ class Shapes:
         if isinstance(robot, Shapes):
             other, alike = in_units_of(robot, self)
             parts = [shape.polygon for shape in other.of("robot") or other.shapes]
-            its = together(without_places(other.record), alike)  # its places are in another frame
+            its = together(without_places(of_file(other.record, other.file)), alike)  # its places are in another frame
             settings = {"units": other.settings["units"], **settings} if other.settings.get("units") else settings
         else:
             parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")

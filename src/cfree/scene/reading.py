@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import Literal, get_args
 
-from cfree.words import counted, noun_and_rest, plural
+from cfree.words import counted, noun_and_rest
 
 Kind = Literal["lost", "guess", "assumption", "warning", "joined", "near", "mended", "hidden", "paint", "info"]
 """Kinds of notes, the most serious first."""
@@ -21,6 +21,8 @@ MOST_ITEMS = 1000
 """Maximum number of single places that a note lists; files hold fewer."""
 MOST_POINTS = 100
 """Maximum number of points of one of these."""
+MOST_LETTERS = 80
+"""Maximum length of the name of a layer in a line."""
 Place = tuple[float, float]
 
 
@@ -106,7 +108,7 @@ class Note:
 
     def _things(self, where: str) -> str:
         is_single = self.count == 1 and self.kind not in _COUNTED
-        text = self.what if is_single else counted(self.count, self.what, plural(self.what))
+        text = self.what if is_single else counted(self.count, self.what)
         if not where:
             return text
         noun, rest = noun_and_rest(text)
@@ -146,8 +148,9 @@ _COUNTED = ("lost", "guess", "assumption", "joined", "hidden", "paint")
 
 
 def _named(where: str) -> str:
-    """Quote a name that is more than one plain word."""
-    return where if re.fullmatch(r"[\w.:#$/-]+", where) else f'"{where}"'
+    """Quote a name that is more than one plain word; cut a long one."""
+    name = where if len(where) <= MOST_LETTERS else f"{where[:MOST_LETTERS]}..."
+    return name if re.fullmatch(r"[\w.:#$/-]+", name) else f'"{name}"'
 
 
 class Notes:

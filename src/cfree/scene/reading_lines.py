@@ -39,7 +39,12 @@ def lines(notes: Iterable[Note]) -> list[str]:
     groups: dict[tuple[str, str, str], list[Note]] = {}
     for note in ordered:
         groups.setdefault((note.label, "" if note.kind in _LEFT_OUT else note.where, note.file), []).append(note)
-    return [_line(group, file if len(files) > 1 else "") for (_, _, file), group in groups.items()]
+    return [_in_one(_line(group, file if len(files) > 1 else "")) for (_, _, file), group in groups.items()]
+
+
+def _in_one(text: str) -> str:
+    """Return a text without ends of lines, which names in a file may have."""
+    return text.replace("\n", "\\n").replace("\r", "\\r")
 
 
 def _line(group: Sequence[Note], file: str) -> str:
@@ -75,7 +80,7 @@ def as_read(notes: Iterable[Note], claim: Claim = "scene") -> str:
     ''
     """
     harmful = harms(notes, claim)
-    return f"in the scene as read: {_harm(harmful[0])}" if harmful else ""
+    return _in_one(f"in the scene as read: {_harm(harmful[0])}") if harmful else ""
 
 
 def harms(notes: Iterable[Note], claim: Claim) -> tuple[Note, ...]:

@@ -174,7 +174,7 @@ def shapes_of(source: Source, form: str, shapes: list[Shape], settings: Mapping[
     """Return the shapes that a reader found; raise the problems that it noted."""
     source.findings.fail_if_any()
     own = {key: value for key, value in settings.items() if key != "reading"}
-    if not shapes and not any(note.kind in _DRAWN for note in source.notes):
+    if not shapes and not any(note.kind in _DRAWN or note.where or note.items for note in source.notes):
         source.note("info", f"nothing is drawn in {Path(source.findings.file).name}")
     reading = together(settings.get("reading", ()), source.notes)
     return Shapes(form, tuple(shapes), own, reading, source.findings.file, remedy)
