@@ -222,6 +222,14 @@ def test_check_draws_what_was_lost_in_red(folder: Path) -> None:
     assert red["plain"] == 0 and red["a"] > 100
 
 
+def test_check_draws_a_file_without_a_robot_before_it_is_refused(tmp_path: Path) -> None:
+    rings = '<rect width="9" height="9"/><path fill="none" d="M 0 0 L 5 5"/>'
+    (tmp_path / "a.svg").write_text(f'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">{rings}</svg>')
+    result = run("check", tmp_path / "a.svg", "--picture", tmp_path / "a.png")
+    assert result.exit_code == 2 and "there is no robot" in result.stderr
+    assert (tmp_path / "a.png").stat().st_size > 1000
+
+
 def count_of_red(file: Path) -> int:
     """Number of pixels that are red."""
     with Image.open(file) as image:

@@ -144,9 +144,9 @@ def test_layers_have_their_shapes_and_notes() -> None:
 
 def test_the_text_of_shapes_tells_counts_and_losses() -> None:
     assert repr(source_of(LOST, Note("info", "unit"), shapes=[DESK, ROBOT, DESK])) == (
-        "<Shapes of plan.dxf (DXF): 1 robot, 2 obstacles; 1 loss: 3 open lines of A-WALL>"
+        "<Shapes of plan.dxf (DXF): 1 robot, 2 obstacles; 3 losses: 3 open lines of A-WALL>"
     )
-    assert repr(source_of()) == "<Shapes of plan.dxf (DXF): none; 0 losses>"
+    assert repr(source_of()) == "<Shapes of plan.dxf (DXF): none; no losses>"
 
 
 def test_the_scene_of_shapes_has_their_record_and_that_of_its_robot() -> None:

@@ -79,7 +79,7 @@ def one_line_faults() -> Iterator[None]:
     except Exception as error:  # exit code 1 would look like an answer
         if isinstance(error, ImportError) and "pip install 'cfree[" in str(error):
             fail(str(error), BAD_INPUT)
-        _say("".join(traceback.format_exception(error)))
+        tell("".join(traceback.format_exception(error)))
         fail("this is a bug in cfree, please report it", BUG)
 
 
@@ -110,11 +110,11 @@ def _contradicts_itself(scene: Scene) -> bool:
 
 def fail(message: str, code: int) -> NoReturn:
     """Print the message and exit."""
-    _say(f"error: {message}")
+    tell(f"error: {message}")
     sys.exit(code)
 
 
-def _say(text: str) -> None:
+def tell(text: str) -> None:
     if sys.stderr is not None:
         with suppress(OSError, ValueError):  # standard error is closed
             print(printable(text), file=sys.stderr)

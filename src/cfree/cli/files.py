@@ -6,7 +6,7 @@ import errno
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cfree.cli import drawing
 from cfree.cli.options import refuse
@@ -32,20 +32,24 @@ def read_scene(source: Path, *, straight: bool = False) -> Scene:
 
     With `straight`, round shapes become polygons around them, within --tolerance.
     """
-    return _straight(read_shapes(source)[1], source) if straight else read_shapes(source)[1]
+    scene = scene_of(*read_shapes(source), source)
+    return _straight(scene, source) if straight else scene
 
 
-def read_shapes(source: Path, most: int | None = MOST_LINES) -> tuple[Shapes, Scene]:
-    """Read the shapes in a file, and their scene, with the options on the command line."""
+def read_shapes(source: Path) -> tuple[Shapes, Any]:
+    """Read the shapes in a file, and the robot of --robot, if there is one, with the options on the command line."""
     from cfree.formats import scene_file
 
     wanted = drawing.options_of_reading()
     with bar("reading"):
-        shapes = scene_file.read_shapes(source, wanted)
-        robot = drawing.robot(wanted)
+        return scene_file.read_shapes(source, wanted), drawing.robot(wanted)
+
+
+def scene_of(shapes: Shapes, robot: Any, source: Path, most: int | None = MOST_LINES) -> Scene:
+    """Make the scene of shapes, and report its record of reading; refuse options that had no effect on it."""
     scene = made(shapes, source, robot, drawing.pivot(), most)
     drawing.refuse_unused((shapes.form, *([robot.form] if hasattr(robot, "form") else [])), curved=scene.curved)
-    return shapes, scene
+    return scene
 
 
 def read_source(source: Path, *, straight: bool = True) -> Scene | Boundary:

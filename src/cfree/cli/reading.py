@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from cfree.cli.faults import BAD_INPUT, fail
-from cfree.cli.terminal import printable
+from cfree.cli.faults import BAD_INPUT, fail, tell
 from cfree.formats.text.archive import is_archive
 
 if TYPE_CHECKING:
@@ -87,11 +85,14 @@ def report(notes: Sequence[Note], source: Path, most: int | None = MOST_LINES) -
     is_checkable = source.is_file() and not is_archive(source)
     shown = texts[:most] if is_checkable and not refused else texts
     for text in shown:
-        print(printable(text), file=sys.stderr)
+        tell(text)
     if refused:
-        fail(f"{source}: read with losses ({counts(refused)}); mend the file, or leave --strict out", BAD_INPUT)
+        fail(
+            f"{source}: read with {counts(refused)}, and --strict allows none; mend the file, or leave it out",
+            BAD_INPUT,
+        )
     if len(shown) < len(texts):
-        print(printable(f"and {len(texts) - len(shown):,} more: cfree check {source}"), file=sys.stderr)
+        tell(f"and {len(texts) - len(shown):,} more: cfree check {source}")
 
 
 def is_strict() -> bool:

@@ -21,7 +21,7 @@ from cfree.formats.units import factor, unit_of
 from cfree.lazy import registered
 from cfree.polygons.polygon import Polygon
 from cfree.scene.reading import Note, of_file, together, without_places
-from cfree.scene.reading_lines import losses
+from cfree.scene.reading_lines import counts, losses
 from cfree.scene.scene import AnyShape, Scene, shapes_in
 from cfree.words import counted
 
@@ -63,9 +63,9 @@ class Shapes:
     >>> import cfree
     >>> shapes = cfree.load_shapes("examples/scenes/flat.json")
     >>> shapes
-    <Shapes of flat.json (scene): 1 robot, 39 obstacles; 0 losses>
+    <Shapes of flat.json (scene): 1 robot, 39 obstacles; no losses>
     >>> shapes.layers["outer walls"]
-    <Shapes of flat.json (scene): 1 obstacle; 0 losses>
+    <Shapes of flat.json (scene): 1 obstacle; no losses>
     """
 
     form: str
@@ -79,9 +79,8 @@ class Shapes:
         roles = [shape.role for shape in self.shapes]
         numbers = ", ".join(counted(roles.count(role), role) for role in dict.fromkeys(_ORDER) if role in roles)
         lost = losses(self.reading)
-        worst = f": {lost[0].text}" if lost else ""
-        name = PurePath(self.file).name
-        return f"<Shapes of {name} ({self.form}): {numbers or 'none'}; {counted(len(lost), 'loss', 'losses')}{worst}>"
+        worst = f"{counts(lost)}: {lost[0].text}" if lost else "no losses"
+        return f"<Shapes of {PurePath(self.file).name} ({self.form}): {numbers or 'none'}; {worst}>"
 
     @property
     def layers(self) -> dict[str, Shapes]:

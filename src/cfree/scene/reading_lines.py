@@ -11,6 +11,7 @@ from itertools import groupby
 from typing import Literal
 
 from cfree.scene.reading import EFFECTS, LOSSES, Note, in_order
+from cfree.words import counted
 
 Claim = Literal["path", "no path", "scene"]
 """The claim of an answer: "path" also stands for lower bounds of clearances, "no path" for upper ones."""
@@ -21,6 +22,7 @@ HARMFUL: dict[Claim, tuple[str, ...]] = {
 }
 """Effects that harm a claim."""
 _LEFT_OUT = ("hidden", "paint")
+_NOUNS = {"lost": "loss"}
 
 
 def lines(notes: Iterable[Note]) -> list[str]:
@@ -63,9 +65,9 @@ def losses(notes: Iterable[Note]) -> tuple[Note, ...]:
 
 
 def counts(notes: Iterable[Note]) -> str:
-    """Count the notes of each kind, such as "2 lost, 1 guess"."""
+    """Count the things of each kind, such as "39 losses, 1 guess"."""
     kinds = groupby(in_order(notes), key=lambda note: note.kind)
-    return ", ".join(f"{len(list(group))} {kind}" for kind, group in kinds)
+    return ", ".join(counted(sum(note.count for note in group), _NOUNS.get(kind, kind)) for kind, group in kinds)
 
 
 def as_read(notes: Iterable[Note], claim: Claim = "scene") -> str:

@@ -9,7 +9,7 @@ import click
 
 from cfree.cli import drawing, options, reading
 from cfree.cli.faults import one_line_faults
-from cfree.cli.files import bar, check_outputs, read_shapes
+from cfree.cli.files import bar, check_outputs, read_shapes, scene_of
 from cfree.cli.options import FILE, examples, file_option
 from cfree.cli.terminal import print_json
 from cfree.words import counted
@@ -39,15 +39,14 @@ def check(scene: Path, picture: Path | None, as_json: bool) -> None:
         from cfree.cli.describe import describe
 
         written = check_outputs(scene, {"picture": picture})
-        shapes, loaded = read_shapes(scene, most=None)
+        shapes, robot = read_shapes(scene)
+        if picture and robot is None and not shapes.of("robot"):
+            _draw(shapes, picture)  # the error about the missing robot comes next
+        loaded = scene_of(shapes, robot, scene, most=None)
         with bar("counting"):
             facts = {"file": str(scene)} | describe(loaded) | _facts(shapes) | reading.facts(loaded.reading)
         if picture:
-            from cfree.plot.answer import picture as drawn
-            from cfree.plot.boundary import save_figure
-
-            with bar("picture"):
-                save_figure(drawn(loaded), picture)
+            _draw(loaded, picture)
         if as_json:
             print_json(facts | ({"files": written} if written else {}))
         else:
@@ -89,7 +88,8 @@ def convert(source: Path, target: Path, outer: float | None, inner: float | None
 
         check_scene_path(target)
         files = check_outputs(source, {"scene": target})
-        shapes, scene = read_shapes(source)
+        shapes, robot = read_shapes(source)
+        scene = scene_of(shapes, robot, source)
         if not scene.curved:
             options.refuse("only for round shapes, and this scene has none", "outer", "inner")
         scene, notes = written(scene, target, outer, inner, drawing.tolerance())
@@ -102,6 +102,14 @@ def convert(source: Path, target: Path, outer: float | None, inner: float | None
         rows["obstacles"] = counted(len(scene.obstacles), "polygon")
         rows[reading.AS_READ] = as_read(scene.reading)
         print_rows(scene.name or str(source), rows, files)
+
+
+def _draw(value: Scene | Shapes, file: Path) -> None:
+    from cfree.plot.answer import picture
+    from cfree.plot.boundary import save_figure
+
+    with bar("picture"):
+        save_figure(picture(value), file)
 
 
 def _facts(shapes: Shapes) -> dict[str, Any]:
