@@ -366,3 +366,11 @@ def test_hostile_files_are_refused_or_read_with_counted_work(body: str, message:
     else:
         read(tmp_path, body)
     assert time.process_time() - begin < 20
+
+
+def test_shapes_painted_upon_others_are_solids_and_this_is_said(tmp_path: Path) -> None:
+    plate = '<rect fill="black" width="50" height="50"/>'
+    shapes = read(tmp_path, f'{plate}<circle fill="white" cx="20" cy="20" r="5"/><circle cx="40" cy="40" r="5"/>')
+    assert area(shapes) == 2500
+    (note,) = [note for note in shapes.reading if note.what.startswith("shape painted upon another")]
+    assert (note.count, note.kind) == (1, "info")

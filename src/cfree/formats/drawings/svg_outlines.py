@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 
 from cfree.curves.drawn import Ring
@@ -12,19 +12,11 @@ from cfree.formats.drawings.outlines import PIVOT
 from cfree.formats.drawings.source import Source, role_of
 from cfree.formats.drawings.svg_curves import Group, Pen
 from cfree.formats.drawings.svg_element import Element
+from cfree.formats.drawings.svg_paint import Painted, note_painted
 from cfree.formats.drawings.svg_paths import Subpath, closed_by_a_line, end_of, on_a_line
 from cfree.formats.drawings.svg_viewports import corners_in
 
 _NONE = Fraction(0)
-
-
-@dataclass(frozen=True, slots=True)
-class Painted:
-    """A filled element, its role and its colour."""
-
-    drawn: Drawn
-    role: str
-    colour: str
 
 
 class Outlines:
@@ -44,6 +36,7 @@ class Outlines:
 
     def content(self) -> list[Drawn | Lines]:
         """Return filled elements in the order of the file, then unfilled curves by their groups."""
+        note_painted(self.source, self.painted)
         together = self.source.reading.holes == "nested" or self.source.reading.strokes != "ignore"
         return self.filled + [lines for group in self.groups if group.elements for lines in group.lines(together)]
 

@@ -148,6 +148,7 @@ class Styles:
             self._rules(inner, obeyed and plain, spaces, sheet)
 
     def _rule(self, rule: Any, obeyed: bool, spaces: dict[str | None, str], sheet: Node) -> None:
+        self.source.spend(30)
         declarations = self._parsed(rule.content, sheet)
         text = self.css.serialize(rule.prelude)
         try:
