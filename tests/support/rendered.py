@@ -56,7 +56,7 @@ def main(renderer: str, drawing: str, image: str, width: str) -> None:
     if renderer == "resvg":
         import resvg_py
 
-        png = resvg_py.svg_to_bytes(svg_string=text, width=int(width), dpi=96)
+        png = resvg_py.svg_to_bytes(svg_string=text, width=int(width), dpi=96, languages=["en"])
         Path(image).write_bytes(bytes(png))
     else:
         import cairosvg
