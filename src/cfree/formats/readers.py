@@ -124,7 +124,7 @@ def read_json_file(findings: Findings, data: object, reading: Reading | None = N
         from cfree.formats.drawings.geojson import geojson_shapes
 
         settings: dict[str, Any] = {}
-        shapes = geojson_shapes(findings, with_numbers(data), settings)
+        shapes = geojson_shapes(findings, with_numbers(data), settings, source)
         return shapes_of(source, "GeoJSON", shapes, settings, 'give its feature the property "role": "robot"')
     if isinstance(data, Mapping) and data.keys() & {"items", "Items"}:
         from cfree.formats.drawings.nesting import read_nesting

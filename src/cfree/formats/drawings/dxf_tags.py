@@ -52,8 +52,8 @@ class Tags:
         The file, mended.
     unit, unit_of_angles : float
         One in the last decimal place that is written for lengths, and for angles in degrees; 0 if none is written.
-    lines : dict
-        Line of each entity in the file, by handle.
+    lines : dict, optional
+        Line of each entity in the file, by handle; None if the file has no lines.
     lost : list of Lost
     mended : int
         Number of entities that got markers.
@@ -62,7 +62,7 @@ class Tags:
     raw: bytes
     unit: float = 0.0
     unit_of_angles: float = 0.0
-    lines: dict[str, int] = field(default_factory=dict)
+    lines: dict[str, int] | None = None
     lost: list[Lost] = field(default_factory=list)
     mended: int = 0
 
@@ -94,7 +94,8 @@ class _Pass:
 
     def __init__(self, raw: bytes, codes: Sequence[int], values: Sequence[bytes]) -> None:
         self.codes, self.values = codes, values
-        self.tags = Tags(raw)
+        self.lines: dict[str, int] = {}
+        self.tags = Tags(raw, lines=self.lines)
         self.places, self.places_of_angles = 0, 0
         self.header: int | None = None  # the tag after which the header's variables begin
         self.version: int | None = None
@@ -169,7 +170,7 @@ class _Pass:
             if code == 0:
                 kind = value
             elif code == 5:
-                self.tags.lines.setdefault(value.decode(errors="replace").upper(), 2 * first + 1)
+                self.lines.setdefault(value.decode(errors="replace").upper(), 2 * first + 1)
             elif kind in _MEASURED and b"." in value:
                 if code in _POINTS or (code == _RADIUS and kind in (b"ARC", b"CIRCLE")):
                     self.places = max(self.places, _places(value))

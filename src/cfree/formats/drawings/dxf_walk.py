@@ -167,10 +167,16 @@ class Walk:
         self.source.note("lost", what, effect, where=layer, handle=self.named(entity, place))
 
     def named(self, entity: Any, place: Place) -> str:
-        """Return handle and line of an entity in the file, or of the block reference around it."""
+        """Return handle and line of an entity, or of the block reference around it; empty text if it has none."""
+        handle, line = self.found(entity, place)
+        if self.tags.lines is None:
+            return handle
+        return f"{handle}, line {line}" if line else ""
+
+    def found(self, entity: Any, place: Place) -> tuple[str, int]:
+        """Return handle and line of an entity, or of the block reference around it; the line is 0 if there is none."""
         handle = place.handle or str(entity.dxf.get("handle") or "")
-        line = self.tags.lines.get(handle)
-        return f"{handle}, line {line}" if line else handle
+        return handle, (self.tags.lines or {}).get(handle, 0)
 
     def height(self, *heights: float) -> None:
         low, high = self.heights
@@ -220,9 +226,8 @@ class Walk:
 
     def fill(self, entity: Any, layer: str, place: Place, rings: list[Ring], *, even_odd: bool = True) -> None:
         """Keep rings that are filled together."""
-        line = self.tags.lines.get(place.handle or str(entity.dxf.get("handle") or ""), 1)
         if rings:
-            self.filled.append(Drawn(rings, (layer,), line, even_odd))
+            self.filled.append(Drawn(rings, (layer,), self.found(entity, place)[1] or 1, even_odd))
 
     def content(self) -> list[Drawn | Lines]:
         """Return the unfilled curves of each layer, and the fills."""

@@ -1,51 +1,95 @@
-"""Read polygons from GeoJSON (RFC 7946) with their decimals as written.
+"""Read polygons from GeoJSON (RFC 7946) with their decimals as written, and lines and points of a width as walls.
 
-A feature's property ``role`` gives its role, ``name`` names an obstacle; the robot's feature may have
-``bounds``, ``start``, ``goal``, ``goals``, ``units`` and so on, as a scene has them. Other properties are ignored.
+A feature's property ``role`` gives its role, ``name`` names an obstacle; the robot's feature may have ``bounds``,
+``start``, ``goal``, ``goals``, ``units`` and so on, as a scene has them. A line may have a ``width``, a point a
+``radius``. Other properties are ignored.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, TypeAdapter, ValidationError
 
+from cfree.curves.drawn import Line
 from cfree.errors import InvalidPolygonError
-from cfree.formats.scenes.json_types import Point
+from cfree.exact.number import ExactPoint
+from cfree.formats.drawings.content import Curve
+from cfree.formats.drawings.source import CURVE_SHARE, Source
+from cfree.formats.drawings.strokes import disc, length_of, usual_width, wall
+from cfree.formats.scenes.json_types import Coordinate, Point
 from cfree.formats.scenes.scene_format import report
 from cfree.formats.scenes.scene_settings import read_settings
 from cfree.formats.scenes.scene_values import is_encodable
-from cfree.formats.shapes import ROLES, Shape
+from cfree.formats.shapes import IGNORE, ROLES, Shape
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_positions import Path
 from cfree.polygons.polygon import Polygon
+from cfree.scene.reading import Kind
 from cfree.scene.scene import explained, flat_shape
 
 # further coordinates, such as heights, are ignored as the RFC allows
-_RINGS = TypeAdapter(list[list[Annotated[Point, BeforeValidator(lambda p: p[:2] if isinstance(p, list) else p)]]])
+_POINT = Annotated[Point, BeforeValidator(lambda p: p[:2] if isinstance(p, list) else p)]
+_POINTS = TypeAdapter(list[_POINT])
+_RINGS = TypeAdapter(list[list[_POINT]])
+_LENGTH = TypeAdapter(Coordinate)
 _CHILDREN = {"FeatureCollection": "features", "GeometryCollection": "geometries"}
-_FLAT = ("Point", "MultiPoint", "LineString", "MultiLineString")
+_FLAT = {"Point": 0, "MultiPoint": 1, "LineString": 0, "MultiLineString": 1}
+"""Depth of the lists of single geometries."""
 
 
-def geojson_shapes(findings: Findings, data: object, settings: dict[str, Any] | None = None) -> list[Shape]:
-    """Read a feature, a geometry or a collection; faults go to `findings`, the robot's properties to `settings`."""
+@dataclass(frozen=True, slots=True)
+class _Feature:
+    """The feature around a geometry."""
+
+    role: str = "obstacle"
+    name: str | None = None
+    properties: object = None
+    path: Path = ()
+
+
+def geojson_shapes(
+    findings: Findings, data: object, settings: dict[str, Any] | None = None, source: Source | None = None
+) -> list[Shape]:
+    """Read a feature, a geometry or a collection.
+
+    Parameters
+    ----------
+    findings : Findings
+        For faults.
+    data : object
+        JSON with exact numbers.
+    settings : dict, optional
+        For the robot's properties.
+    source : Source, optional
+        For notes, and with options of reading; without it, lines and points are faults.
+    """
     shapes: list[Shape] = []
-    waiting: list[tuple[Any, Path, str, str | None]] = [(data, (), "obstacle", None)]
+    waiting: list[tuple[Any, Path, _Feature]] = [(data, (), _Feature())]
     while waiting:
-        value, path, role, name = waiting.pop()
+        value, path, feature = waiting.pop()
         kind = str(value.get("type")) if isinstance(value, dict) else ""
+        if source is not None:
+            source.spend()
         if kind == "Feature":
-            properties = value.get("properties")
-            role, name = _role_and_name(findings, properties, (*path, "properties"))
-            if role == "robot" and settings is not None:
-                settings |= read_settings(findings, properties, (*path, "properties"))
+            feature = _feature(findings, value.get("properties"), (*path, "properties"), source)
+            if feature.role == IGNORE:
+                continue
+            if feature.role == "robot" and settings is not None:
+                settings |= read_settings(findings, feature.properties, feature.path)
             place = (*path, "geometry") if "geometry" in value else path
-            waiting.append((value.get("geometry"), place, role, name))
+            if value.get("geometry", 0) is None and source is not None:
+                source.note("info", "feature without a geometry", where=feature.name or "")
+            else:
+                waiting.append((value.get("geometry"), place, feature))
         elif kind in _CHILDREN:
             key = _CHILDREN[kind]
             children = value.get(key)
             if isinstance(children, list):
-                waiting += [(child, (*path, key, k), role, name) for k, child in enumerate(children)][::-1]
+                waiting += [(child, (*path, key, k), feature) for k, child in enumerate(children)][::-1]
             else:
                 findings.under(path, f'a {kind} needs a list "{key}"')
         elif kind in ("Polygon", "MultiPolygon"):
@@ -53,27 +97,42 @@ def geojson_shapes(findings: Findings, data: object, settings: dict[str, Any] | 
                 findings.under(path, f'a {kind} needs "coordinates"')
                 continue
             coordinates, place = value["coordinates"], (*path, "coordinates")
+            if source is not None and coordinates == []:
+                source.note("info", "geometry without coordinates", where=feature.name or "")
+                continue
             parts: list[tuple[Any, Path]] = [(coordinates, place)]
             if kind == "MultiPolygon" and isinstance(coordinates, list):
                 parts = [(rings, (*place, k)) for k, rings in enumerate(coordinates)]
             polygons = [_polygon(findings, rings, where) for rings, where in parts]
-            shapes += [Shape(role, name, polygon) for polygon in polygons if polygon]
+            shapes += [Shape(feature.role, feature.name, polygon) for polygon in polygons if polygon]
         elif kind in _FLAT:
-            findings.under(path, flat_shape(kind))
+            if source is None:
+                findings.under(path, flat_shape(kind))
+            else:
+                flat = _Flat(source, findings, kind, (*path, "coordinates"), feature)
+                shapes += [Shape(feature.role, feature.name, polygon) for polygon in flat.read(value)]
         else:
             findings.under(path, "expected a GeoJSON feature or geometry with polygons, got {got}")
     return shapes
 
 
-def _role_and_name(findings: Findings, properties: object, path: Path) -> tuple[str, str | None]:
+def _feature(findings: Findings, properties: object, path: Path, source: Source | None) -> _Feature:
+    """Return role and name of a feature; the options of reading count before the property."""
     if not isinstance(properties, dict):
-        return "obstacle", None
+        return _Feature()
     role, name = properties.get("role", "obstacle"), properties.get("name")
-    if role not in ROLES:
-        findings.under((*path, "role"), f"expected one of {', '.join(ROLES)}, got {{got}}")
     if not isinstance(name, str | None) or not is_encodable(name or ""):
         findings.under((*path, "name"), "expected text in quotes, got {got}")
-    return role, name
+        name = None
+    wanted = source.reading.roles.get(name) if source and name else None
+    if wanted == IGNORE or (wanted is None and role == IGNORE):
+        if source is not None:
+            kind: Kind = "assumption" if wanted else "hidden"
+            source.note(kind, "feature that is ignored", "less" if wanted else "none", where=name or "")
+        return _Feature(IGNORE, name, properties, path)
+    if wanted is None and role not in ROLES:
+        findings.under((*path, "role"), f"expected one of {', '.join((*ROLES, IGNORE))}, got {{got}}")
+    return _Feature(wanted or role, name, properties, path)
 
 
 def _polygon(findings: Findings, rings: object, path: Path) -> Polygon | None:
@@ -86,3 +145,75 @@ def _polygon(findings: Findings, rings: object, path: Path) -> Polygon | None:
     except InvalidPolygonError as error:
         findings.under((*path, error.ring) if error.ring is not None and rings else path, explained(error))
     return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Flat:
+    """A point, a line, or several of them."""
+
+    source: Source
+    findings: Findings
+    kind: str
+    path: Path
+    feature: _Feature
+
+    def read(self, geometry: dict[str, Any]) -> list[Polygon]:
+        """Return the polygons around a geometry's lines or points, if they have a width; else note them."""
+        if "coordinates" not in geometry:
+            self.findings.under(self.path[:-1], f'a {self.kind} needs "coordinates"')
+            return []
+        is_point = self.kind.endswith("Point")
+        coordinates = geometry["coordinates"]
+        if self.kind == "Point":
+            coordinates = [coordinates]
+        parts = coordinates if self.kind == "MultiLineString" and isinstance(coordinates, list) else [coordinates]
+        lines = [self.points(part, (*self.path, k) if len(parts) > 1 else self.path) for k, part in enumerate(parts)]
+        if is_point:
+            lines = [[p] for line in lines for p in line]
+        half = self.half_width("radius" if is_point else "width")
+        return [polygon for line in lines if line for polygon in self.wall(line, half, is_point=is_point)]
+
+    def points(self, value: object, path: Path) -> list[ExactPoint]:
+        try:
+            return _POINTS.validate_python(value)
+        except ValidationError as error:
+            for item in error.errors(include_url=False, include_input=False):
+                report(self.findings, (*path, *item["loc"]), item)
+        return []
+
+    def half_width(self, key: str) -> Fraction:
+        """Return half the width of a line, or the radius of a point; 0 if there is none."""
+        properties, strokes = self.feature.properties, self.source.reading.strokes
+        if isinstance(properties, dict) and properties.get(key) is not None:
+            try:
+                length = _LENGTH.validate_python(properties[key])
+            except ValidationError:
+                length = Fraction(-1)
+            if length >= 0:
+                return length if key == "radius" else length / 2
+            self.findings.under((*self.feature.path, key), "expected a length, 0 or more, got {got}")
+        if key == "width" and isinstance(strokes, (int, float)):
+            return Fraction(str(strokes)) / 2
+        return Fraction(0)
+
+    def wall(self, line: list[ExactPoint], half: Fraction, *, is_point: bool) -> list[Polygon]:
+        segments = [Line(a, b) for a, b in pairwise(line) if a != b]
+        closed = len(segments) > 2 and line[0] == line[-1]
+        curve = Curve(list(segments), closed)
+        at, name = (float(line[0][0]), float(line[0][1])), self.feature.name or ""
+        if not half:
+            if is_point:
+                self.source.note("lost", "point without a radius", "less", where=name, at=at)
+            else:
+                remedy = f"--strokes {usual_width([curve]):g}" if segments else ""
+                size = length_of(curve.segments) if segments else 0.0
+                self.source.note("lost", "open line", "less", where=name, at=at, size=size, remedy=remedy)
+            return []
+        if self.feature.role == "workspace":
+            self.findings.under(self.path[:-1], f"a workspace needs a Polygon, and this is a {self.kind}")
+            return []
+        if not segments:
+            error = self.source.reading.tolerance or float(half) * 4 / CURVE_SHARE
+            self.source.note("near", "point with a radius", "near", where=name, size=error)
+            return [disc(line[0], half, error)]
+        return wall(self.source, curve, [(2 * half, 2 * half)] * len(segments), "round", name)

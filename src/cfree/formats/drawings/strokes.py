@@ -21,7 +21,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Literal
 
-from cfree.curves.drawn import Arc, Cubic, Line, Ring, Segment, Vector, ends, turn
+from cfree.curves.drawn import Arc, Cubic, Line, Ring, Segment, Vector, decimal, ends, turn
 from cfree.curves.hulls import box_of
 from cfree.exact.number import ExactPoint
 from cfree.formats.drawings.content import Curve
@@ -29,6 +29,7 @@ from cfree.formats.drawings.source import CURVE_SHARE, Source
 from cfree.polygons.disc import around_disc
 from cfree.polygons.polygon import Polygon
 
+Width = float | Fraction
 Style = Literal["drawn", "round"]
 LONGEST_MITRE = 4.2
 """Length of a mitre per width, beyond which a corner is round: just above the limits of SVG and of AutoCAD."""
@@ -64,9 +65,10 @@ def walls(source: Source, curves: Sequence[Curve], where: str = "") -> list[Poly
     """
     strokes = source.reading.strokes
     polygons: list[Polygon] = []
+    width = usual_width(curves)
     for curve in curves:
         if strokes == "ignore":
-            note_open(source, curve, where, curves)
+            note_open(source, curve, where, width)
         elif strokes != "drawn":
             polygons += wall(source, curve, [(strokes, strokes)] * len(curve.segments), "round", where)
         elif curve.width > 0:
@@ -81,14 +83,13 @@ def walls(source: Source, curves: Sequence[Curve], where: str = "") -> list[Poly
                 at=at,
                 size=length,
                 handle=curve.handle,
-                remedy=f"--strokes {usual_width(curves):g}",
+                remedy=f"--strokes {width:g}",
             )
     return polygons
 
 
-def note_open(source: Source, curve: Curve, where: str, among: Sequence[Curve]) -> None:
-    """Note a curve that forbids nothing, with its length and the remedy."""
-    width = usual_width(among)
+def note_open(source: Source, curve: Curve, where: str, width: float) -> None:
+    """Note a curve that forbids nothing, with its length; the remedy is to give it a width."""
     source.note(
         "lost",
         "open line",
@@ -123,7 +124,7 @@ def length_of(ring: Ring) -> float:
 
 
 def wall(
-    source: Source, curve: Curve, widths: Sequence[tuple[float, float]], style: Style, where: str = ""
+    source: Source, curve: Curve, widths: Sequence[tuple[Width, Width]], style: Style, where: str = ""
 ) -> list[Polygon]:
     """Return convex polygons around a curve's stroke.
 
@@ -131,14 +132,14 @@ def wall(
     ----------
     source : Source
     curve : Curve
-    widths : sequence of pairs of float
+    widths : sequence of pairs of numbers
         Width at the start and at the end of each segment.
     style : str
         "drawn": caps and joins of the curve. "round": the Minkowski sum with the disc.
     where : str
         Layer or group, for the notes.
     """
-    narrow = min((max(pair) for pair in widths if max(pair) > 0), default=0.0)
+    narrow = min((float(max(pair)) for pair in widths if max(pair) > 0), default=0.0)
     if not narrow:
         return []
     x0, y0, x1, y1 = box_of([curve.segments])
@@ -151,12 +152,28 @@ def wall(
     return polygons
 
 
+def disc(center: ExactPoint, radius: Fraction, error: float) -> Polygon:
+    """Return a polygon around a disc, no farther from it than an error, or with 64 sides.
+
+    Examples
+    --------
+    >>> len(disc((Fraction(1), Fraction(2)), Fraction(3), 0.1))
+    16
+    """
+    return Polygon(_around(center, radius, error))
+
+
+def _around(p: ExactPoint, h: Fraction, error: float) -> list[ExactPoint]:
+    sides = math.ceil(math.pi / math.acos(1 / (1 + error / float(h))) / 4) * 4
+    return [(p[0] + x, p[1] + y) for x, y in around_disc(h, min(max(sides, SIDES[0]), SIDES[1]))]
+
+
 @dataclass(slots=True)
 class _Stroke:
     """A curve with the widths of its segments."""
 
     curve: Curve
-    widths: Sequence[tuple[float, float]]
+    widths: Sequence[tuple[Width, Width]]
     style: Style
     error: float
     spend: Callable[[int], object]
@@ -164,7 +181,7 @@ class _Stroke:
 
     def polygons(self) -> Iterator[Polygon]:
         for k, (segment, (first, last)) in enumerate(zip(self.curve.segments, self.widths, strict=True)):
-            half = Fraction(first) / 2, Fraction(last) / 2
+            half = _exact(first) / 2, _exact(last) / 2
             if max(half) <= 0:
                 continue
             self.spend(1)
@@ -243,8 +260,7 @@ class _Stroke:
     def disc(self, p: ExactPoint, h: Fraction) -> list[ExactPoint]:
         """Return the corners of a polygon around a disc."""
         self.is_near = True
-        sides = math.ceil(math.pi / math.acos(1 / (1 + self.error / 2 / float(h))) / 4) * 4
-        return [(p[0] + x, p[1] + y) for x, y in around_disc(h, min(max(sides, SIDES[0]), SIDES[1]))]
+        return _around(p, h, self.error / 2)
 
     def end(self, k: int, end: int) -> str | tuple[int, Fraction]:
         """Return the form of an end: a cap, or the side of a mitre and its length per half width."""
@@ -266,6 +282,11 @@ class _Stroke:
         side = (1 if sine < 0 else -1) * (1 if end else -1)
         reach = abs(sine) / (1 + cosine)
         return side, Fraction(1) if cosine == 0 else Fraction(math.ceil(reach / MARGIN) + 1) * Fraction(MARGIN)
+
+
+def _exact(width: Width) -> Fraction:
+    """Return a width; a double as its decimal."""
+    return width if isinstance(width, Fraction) else decimal(width)
 
 
 def _unit(line: Line) -> tuple[ExactPoint, bool]:
