@@ -24,7 +24,6 @@ JUNCTIONS = 3
 """Number of lines that end inside others, from which on they are divided rooms."""
 NEAR = 1e-4
 """Distance of an end from a line that it meets, per size."""
-MOST_PAIRS = 1 << 22
 
 Box = tuple[float, float, float, float]
 
@@ -87,30 +86,21 @@ def _has_doors(item: Lines, whole: Box) -> bool:
 
 
 def _junctions(source: Source, item: Lines, whole: Box) -> int:
-    """Count ends of lines inside the sides of others, up to the number that counts."""
+    """Count ends of open curves that are on a straight side, away from the side's ends."""
+    import numpy as np
+    import shapely
+
     near = NEAR * max(whole[2] - whole[0], whole[3] - whole[1])
-    sides = [ends(s) for curve in item.curves for s in curve.segments if isinstance(s, Line)]
-    tips = [
-        p
-        for curve in item.curves
-        if not curve.closed
-        for p in (ends(curve.segments[0])[0], ends(curve.segments[-1])[1])
-    ]
-    count = 0
-    for p in tips[: MOST_PAIRS // max(1, len(sides))]:
-        source.spend(1 + len(sides) // 64)
-        count += any(_is_inside(p, a, b, near) for a, b in sides)
-        if count >= JUNCTIONS:
-            break
-    return count
-
-
-def _is_inside(p: Vector, a: Vector, b: Vector, near: float) -> bool:
-    """True if a point is on a line, and away from its ends."""
-    x, y = b[0] - a[0], b[1] - a[1]
-    length = math.hypot(x, y)
-    along = ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / length
-    return abs((p[0] - a[0]) * y - (p[1] - a[1]) * x) <= near * length and 10 * near < along < length - 10 * near
+    sides = np.array([ends(s) for curve in item.curves for s in curve.segments if isinstance(s, Line)])
+    loose = [curve.segments for curve in item.curves if not curve.closed]
+    source.spend(len(sides) + len(loose))
+    if not len(sides) or not loose:
+        return 0
+    tips = shapely.points([p for ring in loose for p in (ends(ring[0])[0], ends(ring[-1])[1])])
+    tip, side = shapely.STRtree(shapely.linestrings(sides)).query(tips, predicate="dwithin", distance=near)
+    corners = shapely.points(sides)
+    away = np.minimum(*(shapely.distance(tips[tip], corners[side, end]) for end in (0, 1))) > 10 * near
+    return len(np.unique(tip[away]))
 
 
 def _cell(p: Vector, near: float) -> tuple[int, int]:
