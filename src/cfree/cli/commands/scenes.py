@@ -16,6 +16,7 @@ from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.formats.shapes import Shapes
+    from cfree.scene.scene import Scene
 
 
 @click.command(cls=drawing.Command, epilog=examples(
