@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.polygons.noding import Graph, orientation
+from cfree.polygons.noding import Graph, orientation, ratio
 
 Cycle = list[int]
 """Half-edges, each from the end of the one before."""
@@ -139,13 +139,10 @@ class Faces:
                         part.append(end)
                         waiting.append(end)
             least = min(part, key=self.graph.points.__getitem__)
-            outside = self.face[self._sorted(star[least])[-1]]
+            outside = self.face[_around(self.graph, star[least])[-1]]
             sides = (half for point in part for half in star[point])
             contours.append([half >> 1 for half in sides if self.face[half] == outside])
         return contours
-
-    def _sorted(self, halves: list[int]) -> list[int]:
-        return _around(self.graph, halves)
 
     def _is_hole(self, ring: Cycle) -> bool:
         """True if a simple ring runs clockwise."""
@@ -208,7 +205,7 @@ class Faces:
             if part not in least or points[point] < points[least[part]]:
                 least[part] = point
         # at the least point all edges leave to the right, and the outside is to the left of the highest
-        outer = {part: cycle[self._star[point][-1]] for part, point in least.items()}
+        outer = {part: cycle[_around(self.graph, self._star[point])[-1]] for part, point in least.items()}
         below = _below(self, least) if len(least) > 1 else {}
         face = list(range(count))
         for part in sorted(least, key=lambda part: points[least[part]]):  # what is below begins further left
@@ -231,18 +228,17 @@ def root(parent: list[int], k: int) -> int:
 
 
 def _stars(graph: Graph, edges: list[int]) -> dict[int, list[int]]:
-    """Half-edges that leave each point, counter-clockwise from the direction (-1, 0)."""
+    """Half-edges that leave each point, counter-clockwise."""
     star: dict[int, list[int]] = defaultdict(list)
     for edge in edges:
         u, v = graph.edges[edge]
         star[u].append(2 * edge)
         star[v].append(2 * edge + 1)
-    return {point: _around(graph, halves) for point, halves in star.items()}
+    return {point: _around(graph, halves) if len(halves) > 2 else halves for point, halves in star.items()}
 
 
 def _around(graph: Graph, halves: list[int]) -> list[int]:
-    if len(halves) == 1:
-        return halves
+    """Sort half-edges from a point counter-clockwise, from the direction (-1, 0) on."""
     points, scale = graph.points, graph.scale
     directions: dict[int, tuple[Any, Any]] = {}
     angles: dict[int, float] = {}
@@ -250,9 +246,7 @@ def _around(graph: Graph, halves: list[int]) -> list[int]:
         ends = graph.edges[half >> 1]
         (x, y), (p, q) = points[ends[half & 1]], points[ends[1 - (half & 1)]]
         d = directions[half] = p - x, q - y
-        angles[half] = atan2(*_rounded(d[1], d[0], scale))
-        if not d[1] and d[0] < 0:
-            angles[half] = -4.0
+        angles[half] = atan2(ratio(d[1], scale), ratio(d[0], scale)) if d[1] or d[0] > 0 else -4.0
     halves = sorted(halves, key=angles.__getitem__)
     if any(angles[b] - angles[a] < _NEAR for a, b in pairwise(halves)):
 
@@ -265,12 +259,6 @@ def _around(graph: Graph, halves: list[int]) -> list[int]:
 
         halves = sorted(halves, key=cmp_to_key(compared))
     return halves
-
-
-def _rounded(x: Any, y: Any, scale: int) -> tuple[float, float]:
-    """Two numbers as doubles of their own size."""
-    x, y = x / scale, y / scale
-    return float(x), float(y)
 
 
 def _followers(star: dict[int, list[int]], count: int) -> list[int]:

@@ -33,7 +33,7 @@ MOST_PAIRS = 60_000_000
 """Maximum number of pairs of boxes that meet."""
 MOST_BITS = 1 << 11
 """Maximum size of the common denominator; beyond it all points stay fractions."""
-_CHUNK = 1 << 22  # pairs of boxes at a time
+_CHUNK = 1 << 22  # most pairs of boxes at a time, about
 
 
 class CrowdedError(Exception):
@@ -73,16 +73,16 @@ class Graph:
     def point(self, k: int) -> ExactPoint:
         """Return a point in its own unit."""
         x, y = self.points[k]
-        return Fraction(x) / self.scale, Fraction(y) / self.scale
+        return Fraction(x, self.scale), Fraction(y, self.scale)
 
     def place(self, k: int) -> tuple[float, float]:
         """Return a point in doubles."""
         x, y = self.points[k]
-        return float(x / self.scale), float(y / self.scale)
+        return ratio(x, self.scale), ratio(y, self.scale)
 
     def index(self, p: Sequence[Any]) -> int:
         """Return the index of a point, which becomes one if it is new."""
-        return self.node_at((_reduced(p[0] * self.scale), _reduced(p[1] * self.scale)))
+        return self.node_at((_scaled(p[0], self.scale), _scaled(p[1], self.scale)))
 
     @property
     def floats(self) -> NDArray[np.float64]:
@@ -91,7 +91,7 @@ class Graph:
             self._center = self.points[0]
         a, b = self._center
         for x, y in self.points[len(self._floats) :]:
-            self._floats.append((float((x - a) / self.scale), float((y - b) / self.scale)))
+            self._floats.append((ratio(x - a, self.scale), ratio(y - b, self.scale)))
         return np.array(self._floats, dtype=np.float64).reshape(-1, 2)
 
     def add(self, segments: Iterable[tuple[Sequence[Any], Sequence[Any], int]]) -> None:
@@ -188,6 +188,18 @@ def orientation(p: Scaled, q: Scaled, r: Scaled) -> Any:
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
 
+def ratio(value: Any, scale: int) -> float:
+    """Quotient of an integer or a fraction and a scale, rounded once."""
+    if isinstance(value, Fraction):
+        return value.numerator / (value.denominator * scale)
+    return float(value / scale)
+
+
+def _scaled(value: Any, scale: int) -> Any:
+    denominator = value.denominator
+    return value.numerator * (scale // denominator) if scale % denominator == 0 else _reduced(Fraction(value * scale))
+
+
 def _reduced(value: Any) -> Any:
     return value.numerator if isinstance(value, Fraction) and value.denominator == 1 else value
 
@@ -222,9 +234,12 @@ def _meetings(graph: Graph, fresh: list[int]) -> Iterator[tuple[int, int]]:
     asked = np.flatnonzero(is_fresh[alive])
     step = max(1, _CHUNK // len(alive))
     pairs = meetings = 0
-    for first in range(0, len(asked), step):
+    first = 0
+    while first < len(asked):
         a, b = tree.query(boxes[asked[first : first + step]])
         a = asked[first + a]
+        first += step
+        step = 2 * step if len(a) < _CHUNK // 32 else step
         pairs += len(a)
         keep = (a < b) | ~is_fresh[alive[b]] & (a != b)
         a, b = a[keep], b[keep]

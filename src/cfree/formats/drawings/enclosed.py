@@ -20,7 +20,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from cfree.formats.drawings.content import Curve
-from cfree.formats.drawings.joining import Join, joins, least_distances, loose_ends, square
+from cfree.formats.drawings.joining import Ends, Join, square
 from cfree.formats.drawings.mesh import Mesh
 from cfree.formats.drawings.source import Source
 from cfree.polygons.faces import Faces, root
@@ -31,6 +31,8 @@ DEFAULT_JOIN = 1e-6
 """Default joining distance, per size of the drawing."""
 MOST_NESTED = 20_000_000
 """Maximum number of pairs of a face and a ring around it."""
+LINE, GUESS, RING = 1, 2, 4
+"""Bits: what an edge is part of."""
 Marks = dict[int, list[int]]
 """Rings that an edge bounds."""
 
@@ -49,23 +51,39 @@ class Layer:
     joins: list[Join] = field(default_factory=list)
     guesses: set[int] = field(default_factory=set)  # numbers of joins
     squares: set[int] = field(default_factory=set)  # owners
+    kinds: bytearray = field(default_factory=bytearray)
 
     @property
     def loose(self) -> int:
         """Number of the first owner that is a join."""
         return len(self.curves)
 
+    def sort(self) -> None:
+        """Find what each edge is part of: lines and joins, guessed joins, closed curves."""
+        kinds = bytearray(len(self.mesh.graph.edges))
+        for edge, uses in enumerate(self.mesh.graph.uses):
+            for source, _ in uses:
+                owner = self.mesh.pieces[source].owner
+                if owner in self.closed:
+                    kinds[edge] |= RING
+                elif owner - self.loose in self.guesses:
+                    kinds[edge] |= GUESS
+                elif owner not in self.squares:
+                    kinds[edge] |= LINE
+        self.kinds = kinds
+
     def is_guess(self, edge: int) -> bool:
         """True if an edge is part of guessed joins only."""
-        return all(owner - self.loose in self.guesses for owner, _ in self.mesh.owners(edge))
+        return self.kinds[edge] == GUESS
 
     def is_ring(self, edge: int) -> bool:
         """True if an edge is part of a closed curve."""
-        return any(owner in self.closed for owner, _ in self.mesh.owners(edge))
+        return bool(self.kinds[edge] & RING)
 
-    def is_open(self, edge: int) -> bool:
-        """True if an edge is part of an open curve or a join."""
-        return any(owner not in self.closed and owner not in self.squares for owner, _ in self.mesh.owners(edge))
+    def lines(self, *, guess: bool) -> list[int]:
+        """Return the edges of open curves and joins; with guessed joins, if wanted."""
+        wanted = LINE | GUESS if guess else LINE
+        return [edge for edge, kind in enumerate(self.kinds) if kind & wanted]
 
 
 def enclosed(
@@ -81,10 +99,13 @@ def enclosed(
     layer = Layer(source, name, curves, size, Mesh(sagitta or 1.0, source.spend), workspace)
     _draw(layer)
     _join(layer)
+    layer.sort()
     faces = Faces(layer.mesh.graph)
-    solid, inside = _plain(layer, faces)
+    lines = layer.lines(guess=False)
+    alone = faces if len(lines) == len(faces.edges) else Faces(layer.mesh.graph, lines)
+    solid, inside = _plain(layer, faces, alone)
     if layer.guesses:
-        rings = _guessed_rings(layer, [edge for edge in faces.edges if layer.is_open(edge)])
+        rings = _guessed_rings(layer, layer.lines(guess=True))
         _note_guesses(layer, rings)
         if workspace and rings and not any(solid):  # only guesses close it
             outer = max(rings, key=lambda ring: _width(layer, ring))
@@ -121,10 +142,10 @@ def _join(layer: Layer) -> None:
     source, mesh = layer.source, layer.mesh
     default, wanted = DEFAULT_JOIN * layer.size, source.reading.join
     plain = default if wanted is None else min(wanted, default)
-    _bridge(layer, joins(mesh, plain), guess=False)
+    _bridge(layer, Ends(mesh).joins(plain), guess=False)
     if wanted is None or wanted <= default:
         return
-    _bridge(layer, joins(mesh, wanted), guess=not source.reading.join_holes)
+    _bridge(layer, Ends(mesh).joins(wanted), guess=not source.reading.join_holes)
     if layer.guesses:
         _surround(layer)
 
@@ -174,9 +195,9 @@ def _handle(layer: Layer, owner: int) -> str:
 # --- rings as they are drawn ---
 
 
-def _plain(layer: Layer, faces: Faces) -> tuple[list[bool], list[frozenset[int]]]:
+def _plain(layer: Layer, faces: Faces, alone: Faces) -> tuple[list[bool], list[frozenset[int]]]:
     """Return for each face if it is solid without guesses, and the rings around it."""
-    parity, filled = _rings(layer, faces)
+    parity, filled = _rings(layer, faces, alone)
     inside, contents = _memberships(layer, faces, parity, filled)
     own = _owners_of_faces(faces)
     clusters = _clusters(layer, faces, inside, own)
@@ -197,12 +218,12 @@ def _plain(layer: Layer, faces: Faces) -> tuple[list[bool], list[frozenset[int]]
         else:
             solid[face] = not (odd and is_hole)
     if not layer.workspace:
-        for face in _pockets(layer, faces, inside, guess=False):
+        for face in _pockets(layer, faces, alone, inside, guess=False):
             solid[face] = True
     return solid, inside
 
 
-def _rings(layer: Layer, faces: Faces) -> tuple[Marks, Marks]:
+def _rings(layer: Layer, faces: Faces, alone: Faces) -> tuple[Marks, Marks]:
     """Edges at which the number of times inside of a ring changes, and those at which inside or outside changes."""
     graph = layer.mesh.graph
     times: dict[int, dict[int, int]] = defaultdict(lambda: defaultdict(int))
@@ -235,7 +256,7 @@ def _rings(layer: Layer, faces: Faces) -> tuple[Marks, Marks]:
         for edge in contour:
             filled[edge].append(number)
         number += 1
-    for contour in _open_rings(layer, faces):
+    for contour in contours(alone):
         for edge in contour:
             parity[edge].append(number)
             filled[edge].append(number)
@@ -243,18 +264,9 @@ def _rings(layer: Layer, faces: Faces) -> tuple[Marks, Marks]:
     return parity, filled
 
 
-def contours(faces: Faces, edges: Iterable[int] | None = None) -> list[list[int]]:
+def contours(faces: Faces) -> list[list[int]]:
     """Return the outer contours of the connected parts of edges that are no tails and no bridges."""
-    some = faces.edges if edges is None else edges
-    return faces.outer_edges(edge for edge in some if faces.is_between(edge))
-
-
-def _open_rings(layer: Layer, faces: Faces) -> list[list[int]]:
-    """Return the outer contours of open curves, without guesses."""
-    edges = [edge for edge in faces.edges if layer.is_open(edge) and not layer.is_guess(edge)]
-    if not edges:
-        return []
-    return contours(faces if len(edges) == len(faces.edges) else Faces(layer.mesh.graph, edges))
+    return faces.outer_edges(edge for edge in faces.edges if faces.is_between(edge))
 
 
 def _memberships(
@@ -332,16 +344,13 @@ def _place_in(faces: Faces, face: int) -> tuple[float, float] | None:
     return None
 
 
-def _pockets(layer: Layer, faces: Faces, inside: list[frozenset[int]], *, guess: bool) -> set[int]:
-    """Return the bounded faces outside of all rings that open curves close together with rings."""
-    if not layer.closed:
+def _pockets(layer: Layer, faces: Faces, alone: Faces, inside: list[frozenset[int]], *, guess: bool) -> set[int]:
+    """Return the bounded faces outside of all rings that open curves, which are `alone`, close together with rings."""
+    if not layer.closed or not alone.edges:
         return set()
-    drawn = (edge for edge in faces.edges if layer.is_open(edge) or layer.is_ring(edge))
-    edges = [edge for edge in drawn if guess or not layer.is_guess(edge)]
+    edges = [edge for edge, kind in enumerate(layer.kinds) if kind and (guess or kind != GUESS)]
     whole = faces if len(edges) == len(faces.edges) else Faces(layer.mesh.graph, edges)
-    lines = [edge for edge in edges if layer.is_open(edge)]
-    alone = Faces(layer.mesh.graph, lines)
-    closing = [e for e in lines if whole.is_between(e) and not alone.is_between(e) and not layer.is_ring(e)]
+    closing = [e for e in alone.edges if whole.is_between(e) and not alone.is_between(e) and not layer.is_ring(e)]
     pockets = {whole.face[half] for edge in closing for half in (2 * edge, 2 * edge + 1)} - {0}
     result = set()
     for edge in edges:
@@ -362,8 +371,11 @@ def _guessed(layer: Layer, faces: Faces, rings: list[list[int]], inside: list[fr
             if owner in layer.squares:
                 squares[owner].append(edge)
     around = _counts(faces, [*rings, *squares.values()])
-    pockets = set() if layer.workspace else _pockets(layer, faces, inside, guess=True)
-    return {face for face, count in enumerate(around) if count} | pockets
+    result = {face for face, count in enumerate(around) if count}
+    if not layer.workspace:
+        alone = Faces(layer.mesh.graph, layer.lines(guess=True))
+        result |= _pockets(layer, faces, alone, inside, guess=True)
+    return result
 
 
 def _counts(faces: Faces, rings: list[list[int]]) -> list[int]:
@@ -449,9 +461,10 @@ def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
     if not lost:
         return
     ends: dict[int, list[int]] = defaultdict(list)
-    for node, owner in loose_ends(mesh):
+    loose = Ends(mesh)
+    for node, owner in loose.owners.items():
         ends[owner].append(node)
-    gaps = least_distances(mesh, layer.size)
+    gaps = loose.least_distances(layer.size)
     remedy = _remedy(layer, [gaps[node] for owner in lost for node in ends[owner] if node in gaps])
     for owner, edges in sorted(lost.items()):
         length = sum(math.dist(*map(graph.place, graph.edges[edge])) for edge in edges)

@@ -11,8 +11,10 @@ from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
+import shapely
 
 from cfree.formats.drawings.mesh import Mesh
 from cfree.polygons.noding import Graph
@@ -46,77 +48,91 @@ class Loose:
         return gap < self.junction and edge not in self.crossing and self.along.get(edge, math.inf) > 2 * gap
 
 
-def joins(mesh: Mesh, reach: float) -> list[Join]:
-    """Return the joins up to a distance, or up to the rounding of the ends if that is more; the shortest first."""
-    wanted = [
-        (gap, end, edge)
-        for end, edge, gap in nearest(mesh, {node: _reach(mesh, node, reach) for node, _ in loose_ends(mesh)})
-    ]
-    graph = mesh.graph
-    satisfied: set[int] = set()
-    result: list[Join] = []
-    for gap, end, edge in sorted(wanted, key=lambda item: (item[0], item[1].node)):
-        if end.node in satisfied:
-            continue
-        target = foot(graph, end.node, edge)
-        if target != end.node:
+class Ends:
+    """The loose ends of a mesh, and what is near to them.
+
+    Attributes
+    ----------
+    owners : dict
+        The curve that ends at each node with one edge.
+    """
+
+    def __init__(self, mesh: Mesh) -> None:
+        self.mesh = mesh
+        self.graph = mesh.graph
+        self.alive = self.graph.alive()
+        self.star: dict[int, list[int]] = defaultdict(list)
+        for edge in self.alive:
+            u, v = self.graph.edges[edge]
+            self.star[u].append(edge)
+            self.star[v].append(edge)
+        loose = ((node, edges[0]) for node, edges in self.star.items() if len(edges) == 1)
+        self.owners = {node: next(mesh.owners(edge))[0] for node, edge in sorted(loose)}
+
+    def joins(self, reach: float) -> list[Join]:
+        """Return the joins up to a distance, or up to the rounding of the ends if that is more; shortest first."""
+        far = {node: max(reach, 2 * self.mesh.rounding_at(node)) for node in self.owners}
+        satisfied: set[int] = set()
+        result: list[Join] = []
+        for end, edge, gap in sorted(self.nearest(far), key=lambda item: (item[2], item[0].node)):
+            if end.node in satisfied:
+                continue
+            target = foot(self.graph, end.node, edge)
             satisfied |= {end.node, target}
             result.append(Join(end.node, target, gap, end.owner))
-    return result
+        return result
 
+    def nearest(self, reach: dict[int, float]) -> Iterator[tuple[Loose, int, float]]:
+        """Yield loose ends, each with the nearest edge that it may join within a distance of its own, and the gap."""
+        nodes = [node for node, distance in reach.items() if distance > 0]
+        if not nodes:
+            return
+        places = self.graph.floats
+        points = shapely.points(places[nodes])
+        distances = np.array([reach[node] for node in nodes])
+        a, b = self._tree.query(points, predicate="dwithin", distance=distances)
+        gaps = shapely.distance(points[a], self._tree.geometries[b])
+        by_end: dict[int, list[tuple[float, int]]] = defaultdict(list)
+        for i, j, gap in zip(a.tolist(), b.tolist(), gaps.tolist(), strict=True):
+            by_end[i].append((gap, self.alive[j]))
+        for i, candidates in by_end.items():
+            if len(candidates) == 1:
+                continue  # its own edge
+            end = self._walked(nodes[i], 2 * reach[nodes[i]])
+            for gap, edge in sorted(candidates):
+                if end.may_join(edge, gap):
+                    yield end, edge, gap
+                    break
 
-def loose_ends(mesh: Mesh) -> list[tuple[int, int]]:
-    """Return the nodes with one edge, and the curves that end there."""
-    graph = mesh.graph
-    count: dict[int, int] = defaultdict(int)
-    last: dict[int, int] = {}
-    for edge in graph.alive():
-        for node in graph.edges[edge]:
-            count[node] += 1
-            last[node] = edge
-    return [(node, next(mesh.owners(last[node]))[0]) for node in sorted(count) if count[node] == 1]
+    def least_distances(self, size: float) -> dict[int, float]:
+        """Return the distance to what each loose end could join, if that is below a hundredth of the size."""
+        some = list(self.owners)[:MOST_ENDS]
+        result: dict[int, float] = {}
+        for share in (1e-5, 1e-4, 1e-3, 1e-2):
+            waiting = {node: share * size for node in some if node not in result}
+            result |= {end.node: gap for end, _, gap in self.nearest(waiting)}
+        return result
 
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        return shapely.STRtree(shapely.linestrings(self.graph.floats[np.array(self.graph.edges)[self.alive]]))
 
-def nearest(mesh: Mesh, reach: dict[int, float]) -> Iterator[tuple[Loose, int, float]]:
-    """Yield each loose end with the nearest edge that it may join within a distance of its own, and the gap."""
-    import shapely
-
-    graph = mesh.graph
-    wanted = {node: distance for node, distance in reach.items() if distance > 0}
-    if not wanted:
-        return
-    owners = dict(loose_ends(mesh))
-    alive = graph.alive()
-    places = graph.floats
-    star: dict[int, list[int]] = defaultdict(list)
-    for edge in alive:
-        for node in graph.edges[edge]:
-            star[node].append(edge)
-    nodes = sorted(wanted)
-    lines = shapely.linestrings(places[np.array(graph.edges)[alive]])
-    points = shapely.points(places[nodes])
-    distances = np.array([wanted[node] for node in nodes])
-    a, b = shapely.STRtree(lines).query(points, predicate="dwithin", distance=distances)
-    gaps = shapely.distance(points[a], lines[b])
-    by_end: dict[int, list[tuple[float, int]]] = defaultdict(list)
-    for i, j, gap in zip(a.tolist(), b.tolist(), gaps.tolist(), strict=True):
-        by_end[i].append((gap, alive[j]))
-    for i, candidates in by_end.items():
-        end = _walked(graph, star, nodes[i], owners[nodes[i]], 2 * wanted[nodes[i]])
-        for gap, edge in sorted(candidates):
-            if end.may_join(edge, gap):
-                yield end, edge, gap
-                break
-
-
-def least_distances(mesh: Mesh, size: float) -> dict[int, float]:
-    """Return the distance to what each loose end could join, if that is below a hundredth of the size."""
-    open_ends = [node for node, _ in loose_ends(mesh)][:MOST_ENDS]
-    result: dict[int, float] = {}
-    for share in (1e-5, 1e-4, 1e-3, 1e-2):
-        waiting = {node: share * size for node in open_ends if node not in result}
-        result |= {end.node: gap for end, _, gap in nearest(mesh, waiting)}
-    return result
+    def _walked(self, node: int, limit: float) -> Loose:
+        """Follow the only way from a loose end, up to a distance or to the first junction."""
+        graph, along = self.graph, dict[int, float]()
+        length, here, edge, owner = 0.0, node, self.star[node][0], self.owners[node]
+        while True:
+            along[edge] = length
+            u, v = graph.edges[edge]
+            there = v if here == u else u
+            length += math.dist(graph.place(here), graph.place(there))
+            here = there
+            following = [other for other in self.star[here] if other != edge]
+            if len(following) != 1:
+                return Loose(node, owner, along, length, frozenset(following))
+            if length > limit or following[0] in along:
+                return Loose(node, owner, along)
+            edge = following[0]
 
 
 def foot(graph: Graph, node: int, edge: int) -> int:
@@ -138,27 +154,5 @@ def square(graph: Graph, start: int, end: int, half: float) -> list[int]:
     return [graph.node_at((_reduced(x + u * width), _reduced(y + v * width))) for u, v in signs]
 
 
-def _reach(mesh: Mesh, node: int, reach: float) -> float:
-    return max(reach, 2 * mesh.rounding_at(node))
-
-
 def _reduced(value: Fraction) -> int | Fraction:
     return value.numerator if value.denominator == 1 else value
-
-
-def _walked(graph: Graph, star: dict[int, list[int]], node: int, owner: int, limit: float) -> Loose:
-    """Follow the only way from a loose end, up to a distance or to the first junction."""
-    along: dict[int, float] = {}
-    length, here, edge = 0.0, node, star[node][0]
-    while True:
-        along[edge] = length
-        u, v = graph.edges[edge]
-        there = v if here == u else u
-        length += math.dist(graph.place(here), graph.place(there))
-        here = there
-        following = [other for other in star[here] if other != edge]
-        if len(following) != 1:
-            return Loose(node, owner, along, length, frozenset(following))
-        if length > limit or following[0] in along:
-            return Loose(node, owner, along)
-        edge = following[0]

@@ -97,10 +97,8 @@ class Mesh:
             Distance up to which a vertex is beside a curve.
         """
         self.first = self._snapped()
-        parts = [
-            (replace(piece, start=self.first[piece.start], end=self.first[piece.end]), segment)
-            for piece, segment in self._parts
-        ]
+        first = self.first
+        parts = [(Piece(piece.owner, first[piece.start], first[piece.end]), segment) for piece, segment in self._parts]
         pieces = [piece for piece, segment in parts if isinstance(segment, Line)]
         chords = [*self._chords([part for part in parts if not isinstance(part[1], Line)])]
         pieces += self._beside(chords, {self.first[vertex] for vertex in loose}, reach)

@@ -85,9 +85,9 @@ def layer_outlines(
     if hatched and source.reading.fills == "hatches":
         source.note("assumption", "outline beside hatches: it forbids nothing", "less", count=len(curves), where=layer)
         return []
-    rings = [curve.segments for curve in curves]
-    x0, y0, x1, y1 = box_of(rings)
-    size = size or max(x1 - x0, y1 - y0)
+    if size is None:
+        x0, y0, x1, y1 = box_of([curve.segments for curve in curves])
+        size = max(x1 - x0, y1 - y0)
     tolerance = tolerance or source.reading.tolerance or size / CURVE_SHARE
     try:
         return outlines_of(*enclosed(source, layer, curves, size, tolerance / FINER, workspace=workspace))
