@@ -20,6 +20,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from cfree.formats.drawings.content import Curve
+from cfree.formats.drawings.crossings import refuse_crossings
 from cfree.formats.drawings.joining import Ends, Join, square
 from cfree.formats.drawings.mesh import Mesh
 from cfree.formats.drawings.source import Source
@@ -29,6 +30,7 @@ from cfree.scene.reading import Item, Note
 
 DEFAULT_JOIN = 1e-6
 """Default joining distance, per size of the drawing."""
+SHORT = "line shorter than the joining distance"
 MOST_NESTED = 20_000_000
 """Maximum number of pairs of a face and a ring around it."""
 LINE, GUESS, RING = 1, 2, 4
@@ -102,6 +104,8 @@ def enclosed(
     layer.sort()
     faces = Faces(layer.mesh.graph)
     lines = layer.lines(guess=False)
+    if source.reading.repair is False:
+        refuse_crossings(layer.mesh, faces.edges, layer.closed)
     alone = faces if len(lines) == len(faces.edges) else Faces(layer.mesh.graph, lines)
     solid, inside = _plain(layer, faces, alone)
     if layer.guesses:
@@ -119,22 +123,20 @@ def enclosed(
 
 def _draw(layer: Layer) -> None:
     """Put the curves into the mesh."""
-    mesh = layer.mesh
+    mesh, source = layer.mesh, layer.source
     tips: dict[int, tuple[int, int]] = {}
     for k, curve in enumerate(layer.curves):
         if curve.segments:
             tips[k] = mesh.add(k, curve.segments, closed=curve.closed, rounding=curve.rounding)
-    reach = max(layer.source.reading.join or 0.0, DEFAULT_JOIN * layer.size)
+    reach = max(source.reading.join or 0.0, DEFAULT_JOIN * layer.size)
     mesh.build([end for k, ends in tips.items() if not layer.curves[k].closed for end in ends], reach)
     layer.closed = {k for k, (a, b) in tips.items() if mesh.node(a) == mesh.node(b)}
     drawn = {owner for edge in mesh.graph.alive() for owner, _ in mesh.owners(edge)}
     points = [k for k in tips if k not in drawn]
     layer.closed -= set(points)
     for k in points:
-        layer.source.note(
-            "lost", "line so short that it is a point", "less", where=layer.name, handle=layer.curves[k].handle,
-            at=mesh.graph.place(mesh.node(tips[k][0])),
-        )  # fmt: skip
+        place = mesh.graph.place(mesh.node(tips[k][0]))
+        source.note("near", SHORT, "near", where=layer.name, at=place, size=0.0, handle=_handle(layer, k))
 
 
 def _join(layer: Layer) -> None:
@@ -471,7 +473,7 @@ def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
         handle = _handle(layer, owner)
         if length <= max(DEFAULT_JOIN * layer.size, 4 * layer.curves[owner].rounding):
             place = graph.place(graph.edges[edges[0]][0])
-            layer.source.note("near", "end that sticks out", "near", where=layer.name, at=place, size=length)
+            layer.source.note("near", SHORT, "near", where=layer.name, at=place, size=length, handle=handle)
             continue
         is_open = any(not faces.is_between(edge) for edge in edges)
         nodes = ends[owner] or [graph.edges[edges[0]][0]]

@@ -133,9 +133,11 @@ class Mesh:
         self.graph.join((start, end, count + k) for k, (start, end, _) in enumerate(lines))
 
     def outline(self, faces: Faces, cycle: Cycle) -> Ring:
-        """Return a cycle of half-edges as lines and parts of curves."""
+        """Return a cycle of half-edges as lines and parts of curves, from the point that was drawn first."""
         runs = [self._run(half) for half in cycle]
-        begin = next((k for k, run in enumerate(runs) if not _goes_on(runs[k - 1], run)), 0)
+        corners = [k for k, run in enumerate(runs) if not _goes_on(runs[k - 1], run)]
+        drawn = self.node(self.pieces[self.first_piece(cycle)].start)
+        begin = min(corners, key=lambda k: (faces.origin(cycle[k]) != drawn, k), default=0)
         merged: list[tuple[Run, int, int]] = []
         for half, run in zip(cycle[begin:] + cycle[:begin], runs[begin:] + runs[:begin], strict=True):
             start, end = faces.origin(half), faces.origin(half ^ 1)
@@ -145,6 +147,10 @@ class Mesh:
             else:
                 merged.append((run, start, end))
         return [self._segment(*item) for item in merged]
+
+    def first_piece(self, cycle: Cycle) -> int:
+        """Return the first source of a cycle's edges."""
+        return min(source for half in cycle for source, _ in self.graph.uses[half >> 1])
 
     def _segment(self, run: Run, start: int, end: int) -> Segment:
         p, q = self.graph.point(start), self.graph.point(end)

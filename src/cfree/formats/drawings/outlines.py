@@ -13,7 +13,7 @@ from cfree.curves.hulls import Outline, box_of, in_range, polygon_of
 from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.formats.drawings.content import Curve, Drawn, Lines
+from cfree.formats.drawings.content import Drawn, Lines
 from cfree.formats.drawings.regions import filled_outlines, layer_outlines
 from cfree.formats.drawings.source import Source, role_of, shapes_of, tolerance_of
 from cfree.formats.drawings.strokes import walls
@@ -41,29 +41,13 @@ def shapes_of_drawing(
     size = _size(every)
     tolerance = tolerance_of(source, every)
     hatched = {item.names[:1] for item, _, _ in items if isinstance(item, Drawn)}
-    makers = _Makers(source, tolerance)
+    makers = _Makers(source, size, tolerance)
     for item, role, name in items:
         if role == IGNORE:
-            source.note("lost", f"{name}: ignored", "less")
+            source.note("hidden", "ignored shape", "less", count=len(rings[id(item)]), where=name or "")
             continue
         shift = translation(-pivot[0], -pivot[1]) if role == "robot" and pivot else IDENTITY
-        place = _Place(item.line, role, name)
-        if isinstance(item, Drawn):
-            moved = [carried(ring, shift) if shift != IDENTITY else ring for ring in item.rings]
-            makers.add(place, filled_outlines(source, moved, item.even_odd, tolerance))
-            continue
-        curves = [_moved(curve, shift) for curve in item.curves]
-        if source.reading.strokes != "ignore":
-            makers.walls(place, curves)
-            continue
-        layer = next(iter(item.names), "")
-        makers.add(
-            place,
-            layer_outlines(
-                source, layer, curves, item.names[:1] in hatched,
-                size=size, tolerance=tolerance, workspace=role == "workspace",
-            ),
-        )  # fmt: skip
+        makers.add(_Place(item.line, role, name), _moved(item, shift), hatched=item.names[:1] in hatched)
     shapes = makers.finish()
     completed = dict(settings)
     if pivot and "start" not in completed and any(shape.role == "robot" for shape in shapes):
@@ -82,45 +66,63 @@ class _Place:
 
 
 class _Makers:
-    """Shapes made of outlines, and the problems of those that cannot be made."""
+    """Shapes made of the content of a drawing, and the problems of those that cannot be made."""
 
-    def __init__(self, source: Source, tolerance: float) -> None:
+    def __init__(self, source: Source, size: float, tolerance: float) -> None:
         self.source = source
+        self.size = size
         self.tolerance = tolerance
         self.shapes: list[Shape] = []
         self.problems: list[Problem] = []
         self.curves = 0
 
-    def add(self, place: _Place, outlines: Sequence[Outline]) -> None:
-        """Make polygons of outlines."""
-        role, name = place.role, place.name
+    def add(self, place: _Place, item: Drawn | Lines, *, hatched: bool) -> None:
+        """Make shapes of an item; `hatched` if its layer has filled items, too."""
+        if isinstance(item, Lines) and self.source.reading.strokes != "ignore":
+            solids = walls(self.source, item.curves, place.name or place.role)
+            self.shapes += [Shape(place.role, place.name, solid) for solid in solids]
+            return
+        try:
+            outlines = self._outlines(place, item, hatched)
+        except InvalidPolygonError as error:
+            self._fail(place, explained(error))
+            return
         for outline in outlines:
             if outline.curved and self.source.reading.curves and (shape := _round_shape(outline)):
-                self.shapes.append(Shape(role, name, shape))
+                self.shapes.append(Shape(place.role, place.name, shape))
                 continue
             self.curves += outline.curved
             try:
-                polygon = polygon_of(outline, self.tolerance, role == "workspace", self.source.spend)
+                polygon = polygon_of(outline, self.tolerance, place.role == "workspace", self.source.spend)
             except InvalidPolygonError as error:
-                self.problems.append(Problem(place.line, 1, name or role, explained(error)))
+                self._fail(place, explained(error))
             except UndecidedError as error:
-                message = f"{error}; draw it wider, or leave it out"
-                self.problems.append(Problem(place.line, 1, name or role, message))
+                self._fail(place, f"{error}; draw it wider, or leave it out")
             else:
-                self.shapes.append(Shape(role, name, polygon))
+                self.shapes.append(Shape(place.role, place.name, polygon))
 
-    def walls(self, place: _Place, curves: Sequence[Curve]) -> None:
-        """Make walls of curves."""
-        polygons = walls(self.source, curves, place.name or place.role)
-        self.shapes += [Shape(place.role, place.name, polygon) for polygon in polygons]
+    def _outlines(self, place: _Place, item: Drawn | Lines, hatched: bool) -> list[Outline]:
+        if isinstance(item, Drawn):
+            return filled_outlines(self.source, item.rings, item.even_odd, self.tolerance)
+        return layer_outlines(
+            self.source,
+            next(iter(item.names), ""),
+            item.curves,
+            hatched,
+            size=self.size,
+            tolerance=self.tolerance,
+            workspace=place.role == "workspace",
+        )
+
+    def _fail(self, place: _Place, message: str) -> None:
+        self.problems.append(Problem(place.line, 1, place.name or place.role, message))
 
     def finish(self) -> list[Shape]:
         """Return the shapes; raise the problems."""
         if self.curves:
             self.source.note(
-                "near", f"outline with curves: a polygon around it (a workspace: inside) within {self.tolerance:g}",
-                "near", count=self.curves, size=self.tolerance,
-            )  # fmt: skip
+                "near", "outline with curves", "near", count=self.curves, size=self.tolerance, remedy="--tolerance"
+            )
         if self.problems:
             raise InvalidFileError(self.source.findings.file, self.problems)
         return self.shapes
@@ -138,8 +140,12 @@ def _rings_of(item: Drawn | Lines) -> list[Ring]:
     return item.rings if isinstance(item, Drawn) else [curve.segments for curve in item.curves]
 
 
-def _moved(curve: Curve, shift: Affine) -> Curve:
-    return curve if shift == IDENTITY else replace(curve, segments=carried(curve.segments, shift))
+def _moved(item: Drawn | Lines, shift: Affine) -> Drawn | Lines:
+    if shift == IDENTITY:
+        return item
+    if isinstance(item, Drawn):
+        return replace(item, rings=[carried(ring, shift) for ring in item.rings])
+    return replace(item, curves=[replace(curve, segments=carried(curve.segments, shift)) for curve in item.curves])
 
 
 def _size(rings: Sequence[Ring]) -> float:

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from cfree.curves.drawn import Ring, Segment
 from cfree.curves.hulls import Outline, area, box_of, rough
 from cfree.formats.drawings.content import Curve
+from cfree.formats.drawings.crossings import refuse_crossings
 from cfree.formats.drawings.enclosed import enclosed
 from cfree.formats.drawings.mesh import Mesh
 from cfree.formats.drawings.source import CURVE_SHARE, Source, tolerance_of
@@ -48,8 +49,10 @@ def filled_outlines(
         by_ring: dict[int, int] = defaultdict(int)
         for owner, sign in mesh.owners(edge):
             by_ring[owner] += sign
-        solid_rings |= {owner for owner, sum_ in by_ring.items() if sum_}
+        solid_rings |= {owner for owner, times in by_ring.items() if times}
         weights[edge] = sum(by_ring.values())
+    if source.reading.repair is False:
+        refuse_crossings(mesh, faces.edges, range(len(rings)))
     if flat := sum(1 for ring in rings if ring) - len(solid_rings):
         source.note("lost", "ring on a line: it forbids nothing; give it width", "less", count=flat)
     windings = faces.windings(weights)
@@ -127,10 +130,11 @@ def clipped(
 
 
 def outlines_of(mesh: Mesh, faces: Faces, solid: Sequence[bool]) -> list[Outline]:
-    """Return the outlines of solid faces."""
+    """Return the outlines of solid faces, in the order of what was drawn first."""
     outlines = []
-    for outer, *holes in faces.outlines(solid):
-        outlines.append(Outline(mesh.outline(faces, outer), tuple(mesh.outline(faces, hole) for hole in holes)))
+    for outer, *holes in sorted(faces.outlines(solid), key=lambda rings: mesh.first_piece(rings[0])):
+        inner = tuple(mesh.outline(faces, hole) for hole in sorted(holes, key=mesh.first_piece))
+        outlines.append(Outline(mesh.outline(faces, outer), inner))
     return outlines
 
 
