@@ -31,6 +31,7 @@ from cfree.collision.pose_checker import PoseChecker
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.planning.separation import known_scene
+from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, robot_radius
 
 MOST_HALVINGS = 30
@@ -193,7 +194,7 @@ def to_path(path: Any, scene: Scene) -> Path:
             half = (low + high) / 2
             middle = Pose(*(a + half * d for a, d in zip(*sweep, strict=True)))
             todo += [(half, high, middle, last), (low, half, first, middle)]
-    return Path(pose_of(states[0]), motions, units=scene.units, scene=scene)
+    return Path(pose_of(states[0]), motions, scene.units, frame_of(scene), scene)
 
 
 def sweep_of(start: Any, goal: Any) -> tuple[tuple[float, float, float], tuple[float, float, float]]:

@@ -56,7 +56,8 @@ NESTING = """{"name": "swim", "items": [
 """
 
 MOVINGAI = "type octile\nheight 3\nwidth 4\nmap\n..@S\nG.WO\n.T..\n"
-MONITOR = """collision_monitor: {ros__parameters: {polygons: ["Stop"], Stop: {type: polygon, points: [1, 1, 1, -1, 0, -1]}}}
+MONITOR = """collision_monitor: {ros__parameters: {polygons: ["Stop"],
+ Stop: {type: polygon, points: [1, 1, 1, -1, 0, -1]}}}
 FollowPath:
   footprint_model: {type: two_circles, front_offset: 0.2, front_radius: 0.2, rear_offset: 0.3, rear_radius: 0.25}
 costmap: {footprint: [[2, 0], [4, 0], [4, 1], [2, 1]], footprint_padding: 0.1}

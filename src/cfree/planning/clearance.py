@@ -29,6 +29,7 @@ from cfree.polygons.disc import around_disc, inside_disc
 from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import cores, grown_by
+from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Bounds, Scene, with_robot
 
@@ -128,7 +129,7 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
         """Convert to a path of the scene's robot; None if it has slides, which keep contacts of the larger robot."""
         if not isinstance(path, Path) or any(motion.contacts for motion in path.motions):
             return None
-        return replace(path, scene=scene, clearance=clearance, disc=tuple(disc))
+        return replace(path, scene=scene, frame=frame_of(scene), clearance=clearance, disc=tuple(disc))
 
     for sides in SIDES:
         disc, inside = around_disc(clearance, sides), inside_disc(clearance, sides)

@@ -32,6 +32,7 @@ from cfree.planning.caller import OutOfWork, Work
 from cfree.planning.goals import AllSeparated
 from cfree.planning.planner import Planner
 from cfree.planning.separation import Separated
+from cfree.scene.frame import frame_of
 
 Answer = Path | Separated | AllSeparated
 Ask = Callable[[Planner, float | None, Number | None], Answer]
@@ -204,9 +205,11 @@ class CurvedPlanner:
         return UndecidedError(message, error=error)
 
     def _for_curves(self, answer: Answer) -> Answer:
+        frame = frame_of(self.exact)
         if isinstance(answer, AllSeparated):
-            return replace(answer, proofs=tuple(replace(proof, curved=self.exact) for proof in answer.proofs))
-        return replace(answer, curved=self.exact)
+            proofs = (replace(proof, curved=self.exact, frame=frame) for proof in answer.proofs)
+            return replace(answer, proofs=tuple(proofs))
+        return replace(answer, curved=self.exact, frame=frame)
 
 
 def _for_both(inner: ForbiddenPoseError, outer: InvalidPoseError | None) -> ForbiddenPoseError:

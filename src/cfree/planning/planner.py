@@ -35,6 +35,7 @@ from cfree.planning.improving import Improver
 from cfree.planning.near_poles import near_poles
 from cfree.planning.separation import Separated, known_scene
 from cfree.scene.coordinate_range import LARGEST
+from cfree.scene.frame import frame_of
 from cfree.scene.goals import to_goals
 from cfree.scene.scene import Scene, robot_radius
 from cfree.value import Value
@@ -213,7 +214,7 @@ class Planner(Value):
         parts = self._without_slides(poses)
         poses = [q for part in parts for q in near_poles(self.scene, self.checker, part)]
         motions = [self._slide(a, b) or motion_between(a, b) for a, b in pairwise(poses) if a != b]
-        path = Path(poses[0], motions, self.scene.units, scene=self.scene)
+        path = Path(poses[0], motions, self.scene.units, frame_of(self.scene), scene=self.scene)
         if not path.is_free(self.checker):
             raise InvariantError("a path is not free", state=path)
         return path

@@ -29,6 +29,7 @@ from cfree.planning.core_ways import numbers_of
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.digest import Stamp, Whole
 from cfree.scene.features import SceneFeatures, unpacked
+from cfree.scene.frame import frame_of
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Bounds, Scene
 from cfree.value import Answer, Shown, Value
@@ -189,12 +190,12 @@ class Separated(Shown, Answer):
         """Wrap a proof of the core about a scene."""
         pieces = Pieces._of(core)
         if not core.is_closed:
-            return cls(start, goal, "interior", pieces, units=scene.units, scene=scene)
+            return cls(start, goal, "interior", pieces, units=scene.units, frame=frame_of(scene), scene=scene)
         robot, bounds = tuple(map(polygon_of, core.robot)), None
         if core.bounds is not None:
             x0, y0, x1, y1 = (Fraction(n, d) for n, d in core.bounds)
             bounds = x0, y0, x1, y1
-        return cls(start, goal, "closed", pieces, robot, bounds, scene.units, scene=scene)
+        return cls(start, goal, "closed", pieces, robot, bounds, scene.units, frame_of(scene), scene=scene)
 
     def reversed(self) -> Separated:
         """Return the same proof with start and goal swapped, without the requested ones."""

@@ -20,6 +20,7 @@ from cfree.formats.scene_file import scene_from_text
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
 from cfree.planning.separation import Separated
+from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, with_ends
 from cfree.viewer.page_text import hosted_page, poses_text, text_of_polygons, words
 from cfree.viewer.pictures import picture
@@ -103,7 +104,7 @@ class Widget(AnyWidget):
         poses = [Pose(x, y, {"tau": tau}) for x, y, tau in map(str.split, (self.poses or "").splitlines())]
         if not poses or (poses[0], poses[-1]) != (self.start, self.goal):
             return None
-        path = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)], scene.units, scene=scene)
+        path = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)], scene.units, frame_of(scene), scene)
         return path if path.is_free(MotionChecker(scene)) else None
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
