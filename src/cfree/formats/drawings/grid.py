@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Mask = NDArray[np.bool_]
+Runs = NDArray[np.intp]
 Point = tuple[int, int]
 
 
@@ -51,7 +52,7 @@ def outlines(mask: Mask, spend: Callable[[int], object] = lambda steps: None) ->
 
 def specks(
     mask: Mask, free: Mask, fewer_than: int, spend: Callable[[int], object] = lambda steps: None
-) -> Iterator[tuple[tuple[NDArray[np.intp], NDArray[np.intp]], int]]:
+) -> Iterator[tuple[tuple[Runs, Runs], int]]:
     """Yield rows and columns of the cells of each small part, and their number.
 
     A part is connected over sides and corners. All cells around it are free, and inside of the grid.
@@ -66,31 +67,16 @@ def specks(
     [1]
     """
     inside = np.pad(free | mask, 1)  # what is outside of the grid is not free
-    for members, rows, starts, stops in _parts(mask, spend, corners=True):
-        count = int((stops[members] - starts[members]).sum())
-        if count >= fewer_than:
-            continue
-        runs = [(int(rows[k]), int(starts[k]), int(stops[k])) for k in members]
-        if all(inside[row : row + 3, start : stop + 2].all() for row, start, stop in runs):
-            yield (
-                (
-                    np.concatenate([np.full(stop - start, row) for row, start, stop in runs]),
-                    np.concatenate([np.arange(start, stop) for _, start, stop in runs]),
-                ),
-                count,
-            )
+    for rows, starts, stops in _parts(mask, spend, corners=True):
+        count = int((stops - starts).sum())
+        runs = list(zip(rows.tolist(), starts.tolist(), stops.tolist(), strict=True))
+        if count < fewer_than and all(inside[row : row + 3, start : stop + 2].all() for row, start, stop in runs):
+            columns = np.concatenate([np.arange(start, stop) for _, start, stop in runs])
+            yield (np.repeat(rows, stops - starts), columns), count
 
 
-Runs = NDArray[np.intp]
-
-
-def _parts(
-    mask: Mask, spend: Callable[[int], object], corners: bool = False
-) -> Iterator[tuple[list[int], Runs, Runs, Runs]]:
-    """Yield the runs of each part of cells connected over sides, or also over corners.
-
-    These are indices into the rows, starts and stops of all runs.
-    """
+def _parts(mask: Mask, spend: Callable[[int], object], corners: bool = False) -> Iterator[tuple[Runs, Runs, Runs]]:
+    """Yield rows, starts and stops of the runs of each part of cells connected over sides, or also over corners."""
     rows, starts = np.nonzero(_steps(mask) > 0)
     _, stops = np.nonzero(_steps(mask) < 0)
     count = len(rows)
@@ -118,19 +104,19 @@ def _parts(
     for k in range(count):
         runs[root(k)].append(k)
     for members in runs.values():
-        yield members, rows, starts, stops
+        yield rows[members], starts[members], stops[members]
 
 
 def _connected(mask: Mask, spend: Callable[[int], object]) -> Iterator[tuple[Mask, Point]]:
     """Yield each part of cells connected over sides, cut to its box, and the box's corner."""
-    for members, rows, starts, stops in _parts(mask, spend):
-        left, right = starts[members].min(), stops[members].max()
-        top, bottom = rows[members[0]], rows[members[-1]] + 1
+    for rows, starts, stops in _parts(mask, spend):
+        left, right = int(starts.min()), int(stops.max())
+        top, bottom = int(rows[0]), int(rows[-1]) + 1
         spend(1 + (right - left) * (bottom - top) // 1024)
         piece = np.zeros((bottom - top, right - left), dtype=bool)
-        for k in members:
-            piece[rows[k] - top, starts[k] - left : stops[k] - left] = True
-        yield piece, (int(left), int(top))
+        for row, start, stop in zip(rows.tolist(), starts.tolist(), stops.tolist(), strict=True):
+            piece[row - top, start - left : stop - left] = True
+        yield piece, (left, top)
 
 
 def _steps(mask: Mask) -> NDArray[np.int8]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from io import BytesIO
 from typing import Any
 
@@ -16,8 +17,18 @@ FORMATS = ["PPM", "PNG", "BMP"]
 Pixels = NDArray[Any]
 
 
-def read_image(raw: bytes) -> tuple[Colours, Pixels, bool]:
-    """Return colours, the index of each pixel's colour by rows from the top, and whether the image has a palette.
+@dataclass(frozen=True)
+class MapImage:
+    """An image of a map: its colours, the index of each pixel's by rows from the top, and the pixels of each."""
+
+    colours: Colours
+    pixels: Pixels
+    counts: NDArray[np.int64]
+    has_palette: bool
+
+
+def read_image(raw: bytes) -> MapImage:
+    """Read a PGM, PNG or BMP image.
 
     Raises
     ------
@@ -32,8 +43,13 @@ def read_image(raw: bytes) -> tuple[Colours, Pixels, bool]:
             width, height = image.size
             if width * height > MOST_CELLS:
                 raise ValueError(f"{width} x {height} cells; give at most {MOST_CELLS:,}")
-            has_palette = image.mode == "P"
-            return *_colours(_plain(image)), has_palette
+            plain = _plain(image)
+            colours, pixels = _colours(plain)
+            if plain.mode == "L":
+                counts = np.array(plain.histogram())
+            else:
+                counts = np.bincount(pixels.ravel(), minlength=len(colours.rgb))
+            return MapImage(colours, pixels, counts, image.mode == "P")
 
 
 def _plain(image: Any) -> Any:
@@ -63,13 +79,22 @@ def _colours(image: Any) -> tuple[Colours, Pixels]:
         if image.mode == "RGB":
             return Colours(_greys(np.arange(256)), is_grey=False), red
         return _with_alpha(red, pixels[..., 3], is_grey=False)
-    packed = np.zeros(red.shape, dtype=np.uint32)
-    for channel in range(pixels.shape[2]):
-        packed = packed << 8 | pixels[..., channel]
-    keys, index = np.unique(packed, return_inverse=True)
-    table = np.stack([keys >> 8 * k & 255 for k in reversed(range(pixels.shape[2]))], axis=1).astype(np.int64) * 257
-    alpha = table[:, 3] if pixels.shape[2] == 4 else None
-    return Colours(table[:, :3], alpha, is_grey=False), index.reshape(red.shape)
+    packed = red.astype(np.uint32) << 16 | green.astype(np.uint32) << 8 | blue
+    alpha = pixels[..., 3] if image.mode == "RGBA" else None
+    if alpha is not None and not (alpha == 255).all():
+        keys, index = np.unique(packed | alpha.astype(np.uint32) << 24, return_inverse=True)
+        return Colours(_channels(keys), (keys >> 24).astype(np.int64) * 257, is_grey=False), index.reshape(red.shape)
+    present = np.zeros(1 << 24, dtype=bool)
+    present[packed] = True
+    keys = np.flatnonzero(present)
+    number = np.zeros(1 << 24, dtype=np.uint32)
+    number[keys] = np.arange(len(keys))
+    opaque = None if alpha is None else np.full(len(keys), 65535)
+    return Colours(_channels(keys), opaque, is_grey=False), number[packed]
+
+
+def _channels(keys: NDArray[Any]) -> NDArray[np.int64]:
+    return np.stack([keys >> shift & 255 for shift in (16, 8, 0)], axis=1).astype(np.int64) * 257
 
 
 def _with_alpha(grey: Pixels, alpha: Pixels, is_grey: bool) -> tuple[Colours, Pixels]:

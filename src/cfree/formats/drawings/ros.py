@@ -19,8 +19,8 @@ from cfree.errors import CfreeError
 from cfree.exact.number import to_fraction
 from cfree.exact.pose import Pose
 from cfree.formats.drawings.cells import BETWEEN, FREE, OCCUPIED, UNKNOWN, Place, States, cell_shapes
-from cfree.formats.drawings.map_image import Pixels, read_image
-from cfree.formats.drawings.map_rules import SAVED_UNKNOWN, SERVERS, Colours, Mode, Thresholds, Values, published
+from cfree.formats.drawings.map_image import MapImage, read_image
+from cfree.formats.drawings.map_rules import SAVED_UNKNOWN, SERVERS, Mode, Thresholds, Values, published
 from cfree.formats.drawings.nav2 import ROBOT, read_parameters
 from cfree.formats.drawings.source import Source, read_bytes, shapes_of
 from cfree.formats.drawings.yaml_nodes import above_zero, fault, members, read_nodes, written
@@ -56,27 +56,27 @@ def _map(source: Source, keys: dict[str, Any]) -> Shapes:
     for key in ("occupied_thresh", "free_thresh"):
         if key not in keys and limits.mode != "raw":
             source.note("info", "default threshold", where=key)
-    colours, pixels = _image(source, keys["image"])
-    cells = _Cells(source, colours, pixels, Place(resolution, origin))
+    image = _image(source, keys["image"])
+    cells = _Cells(source, image, Place(resolution, origin))
     values = cells.values(limits)
     states = _states(values)
     if (grey := source.reading.unknown_grey) is not None:
         states = cells.with_unknown_grey(states, grey)
     elif limits.mode != "raw":
-        is_trap = (colours.greys == SAVED_UNKNOWN) & (states == FREE)
+        is_trap = (image.colours.greys == SAVED_UNKNOWN) & (states == FREE)
         what, remedy = "free cell in map_saver's colour for unknown", "--free-thresh 0.196"
         cells.note("warning", what, "less", is_trap, f"grey {SAVED_UNKNOWN}", f"{remedy} or --unknown-grey 205")
     states = cells.with_occupied(states, values)
-    shapes = cell_shapes(source, states[pixels][::-1], resolution, origin, "unknown")  # the first row is the top
+    shapes = cell_shapes(source, states[image.pixels][::-1], resolution, origin, "unknown")  # the first row is the top
     return shapes_of(source, "ROS map", shapes, {"units": "m", "source": {"frame": "map"}}, ROBOT)
 
 
 class _Cells:
     """The cells of an image while it is read: decisions about colours, and notes about the cells that have them."""
 
-    def __init__(self, source: Source, colours: Colours, pixels: Pixels, place: Place) -> None:
-        self.source, self.colours, self.pixels, self.place = source, colours, pixels, place
-        self.counts = np.bincount(pixels.ravel(), minlength=len(colours.rgb))
+    def __init__(self, source: Source, image: MapImage, place: Place) -> None:
+        self.source, self.place = source, place
+        self.colours, self.pixels, self.counts = image.colours, image.pixels, image.counts
 
     def note(self, kind: Kind, what: str, effect: Effect, are: Flags, where: str = "", remedy: str = "") -> None:
         """Note the cells of some colours, with the place of the first."""
@@ -150,8 +150,8 @@ def _are_free(values: Values, unknown_is_free: bool) -> Flags:
     return np.isin(values, [FREE, UNKNOWN] if unknown_is_free else [FREE])
 
 
-def _image(source: Source, node: Any) -> tuple[Colours, Pixels]:
-    """Return the colours of the image and the index of each pixel's, by rows from the top."""
+def _image(source: Source, node: Any) -> MapImage:
+    """Read the image beside the file, or below."""
     name, folder = written(source, node), source.folder.resolve()
     try:
         file = (folder / name).resolve()
@@ -161,18 +161,20 @@ def _image(source: Source, node: Any) -> tuple[Colours, Pixels]:
     if not inside:
         fault(source, node, "image", f"{name[:60]!r} is outside of the map's folder; put it beside the map")
         source.findings.fail_if_any()
+    image = None
     try:
-        colours, pixels, has_palette = read_image(read_bytes(str(file)))
+        image = read_image(read_bytes(str(file)))
     except CfreeError as error:
         fault(source, node, "image", str(error))
     except Exception as error:  # Pillow's readers raise errors of many types
         reason = str(error).partition("<")[0].strip() or type(error).__name__
         fault(source, node, "image", f"{name[:60]}: {reason}; give a PGM, PNG or BMP image")
     source.findings.fail_if_any()
-    if has_palette:
+    assert image is not None
+    if image.has_palette:
         kind: Kind = "warning" if source.reading.map_rules == "ros1" else "info"
         source.note(kind, "image with a palette: ROS 1 takes numbers of colours for greys", "unknown")
-    return colours, pixels
+    return image
 
 
 # values
