@@ -11,6 +11,7 @@ import shapely
 
 import cfree
 import drawings
+from cfree.errors import FormatError
 from cfree.formats.drawings.grid import specks
 from cfree.formats.drawings.source import Reading
 from cfree.formats.readers import read_file
@@ -136,6 +137,17 @@ def test_specks_are_parts_connected_over_corners_among_free_cells(seed: int) -> 
 
 def test_a_map_without_an_obstacle_is_said(folder: Path) -> None:
     assert said(read(folder, [[254, 254]], unknown="free"), "without an obstacle")
+
+
+def test_an_image_may_have_its_absolute_path_in_the_maps_folder(folder: Path) -> None:
+    rows, mark = [[254, 0]], "image: m.png"
+    expected = read(folder, rows).polygons
+    (folder / "m.yaml").write_text(HEAD.replace(mark, f"image: {folder / 'm.png'}"))
+    assert cfree.load_polygons(folder / "m.yaml") == expected
+    (folder / "below").mkdir()
+    (folder / "below" / "m.yaml").write_text(HEAD.replace(mark, f"image: {folder / 'm.png'}"))
+    with pytest.raises(FormatError, match="is outside of the map's folder; put it beside the map"):
+        cfree.load_polygons(folder / "below" / "m.yaml")
 
 
 def test_a_map_names_its_frame(folder: Path) -> None:

@@ -83,12 +83,12 @@ def cell_shapes(
 def _despeckled(source: Source, states: States, place: Place) -> States:
     """Return the states with small parts of occupied cells freed; note each."""
     states = states.copy()
-    area = float(place.resolution) ** 2
+    area = place.resolution**2
     for cells, size in specks(states == OCCUPIED, states == FREE, source.reading.despeckle, source.spend):
         states[cells] = FREE
         middle = place.middle(int(cells[0][size // 2]), int(cells[1][size // 2]))
         where = f"fewer than {source.reading.despeckle} cells"
         remedy = "--despeckle 0"
-        source.note("assumption", "speck", "less", where=where, at=middle, size=size * area, remedy=remedy)
+        source.note("assumption", "speck", "less", where=where, at=middle, size=float(size * area), remedy=remedy)
         source.note("assumption", "occupied cell in a speck", "less", count=size, remedy=remedy)
     return states
