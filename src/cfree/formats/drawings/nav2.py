@@ -28,6 +28,7 @@ ROBOT_FRAME = "robot frame"
 """Key of a scene's source for the name of the robot's frame; "frame" has that of the world's."""
 _MODEL = "footprint_model"
 _FRAME = "robot_base_frame"
+_MOST_COMPARED = 50
 
 
 @dataclass(frozen=True)
@@ -65,8 +66,8 @@ def read_parameters(source: Source, root: Any) -> Shapes:
 
 
 def _add(parts: list[AnyShape], part: AnyShape) -> None:
-    """Add a part of the robot unless another one contains it, and drop those that it contains."""
-    if isinstance(part, Polygon):
+    """Add a part of the robot unless another one contains it, and drop those that it contains; of many keep all."""
+    if isinstance(part, Polygon) and len(parts) < _MOST_COMPARED:
         plain = [other for other in parts if isinstance(other, Polygon)]
         if any(contains(other, part) for other in plain):
             return

@@ -18,7 +18,7 @@ from cfree.scene.scene import AnyShape
 
 Ring = tuple[ExactPoint, ...]
 _ROOT_OF_TWO = Fraction(14142136, 10**7)  # rounded up
-_MOST_PAIRS = 20_000  # of edges, in the test whether one outline contains another
+_MOST_PAIRS = 5_000  # of edges, in the test whether one outline contains another
 
 
 def padded(source: Source, polygon: Polygon, by: Fraction, is_disc: bool = False) -> list[AnyShape]:
@@ -86,9 +86,12 @@ def contains(outer: Polygon, inner: Polygon) -> bool:
         return False
     ring = outer.exact_rings[0]
     edges = list(zip(ring, (*ring[1:], ring[0]), strict=True))
-    points: list[ExactPoint] = [*inner.exact_rings[0]]
+    corners = inner.exact_rings[0]
+    if any(locate(point, edges) is Location.OUTSIDE for point in corners):
+        return False
+    points: list[ExactPoint] = []
     if not outer.is_convex:
-        for p, q in zip(inner.exact_rings[0], (*points[1:], points[0]), strict=True):
+        for p, q in zip(corners, (*corners[1:], corners[0]), strict=True):
             stops = sorted({Fraction(0), Fraction(1), *(t for r, s in edges for t in _meetings(p, q, r, s))})
             middles = ((a + b) / 2 for a, b in pairwise(stops))
             points += [(p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])) for t in middles]
@@ -96,13 +99,16 @@ def contains(outer: Polygon, inner: Polygon) -> bool:
 
 
 def _meetings(p: ExactPoint, q: ExactPoint, r: ExactPoint, s: ExactPoint) -> list[Fraction]:
-    """Return the parameters in (0, 1) at which the line from p to q meets the line through r and s."""
-    ux, uy, vx, vy = q[0] - p[0], q[1] - p[1], s[0] - r[0], s[1] - r[1]
+    """Return the parameters in (0, 1) at which the segment from p to q meets the segment from r to s."""
+    ux, uy, vx, vy, wx, wy = q[0] - p[0], q[1] - p[1], s[0] - r[0], s[1] - r[1], r[0] - p[0], r[1] - p[1]
+    side = wx * uy - wy * ux
     if cross := ux * vy - uy * vx:
-        parameters = [((r[0] - p[0]) * vy - (r[1] - p[1]) * vx) / cross]
+        parameters = [(wx * vy - wy * vx) / cross] if 0 <= side / cross <= 1 else []
+    elif side:
+        parameters = []
     else:
         length = ux * ux + uy * uy
-        parameters = [((e[0] - p[0]) * ux + (e[1] - p[1]) * uy) / length for e in (r, s)]
+        parameters = [(x * ux + y * uy) / length for x, y in ((wx, wy), (wx + vx, wy + vy))]
     return [t for t in parameters if 0 < t < 1]
 
 
