@@ -51,7 +51,7 @@ def padded(source: Source, polygon: Polygon, by: Fraction, is_disc: bool = False
         what = "padded outline with crossings: the drawn one is grown by a disc"
         source.note("guess", what, "more", size=size)
         return [Curved(ring, holes, grown=by * _ROOT_OF_TWO)]
-    if contains(larger, polygon):
+    if is_disc or contains(larger, polygon):
         source.note("info", "footprint_padding, as nav2 adds it", "more", size=size)
         return [larger]
     what = "padded outline beside the drawn one: both are the robot"
@@ -82,7 +82,7 @@ def contains(outer: Polygon, inner: Polygon) -> bool:
     >>> contains(angle, Polygon([(0, 0), (1, 0), (1, 3)])), contains(angle, Polygon([(0, 0), (4, 0), (0, 4)]))
     (True, False)
     """
-    if len(outer.exact_rings) > 1 or len(outer) * len(inner) > _MOST_PAIRS:
+    if len(outer.exact_rings) > 1 or len(outer) * len(inner) > _MOST_PAIRS * (20 if outer.is_convex else 1):
         return False
     ring = outer.exact_rings[0]
     edges = list(zip(ring, (*ring[1:], ring[0]), strict=True))
