@@ -25,7 +25,7 @@ def counted(count: int, noun: str, plural: str | None = None) -> str:
 
 
 _AFTER_THE_NOUN = re.compile(
-    r"(?<=.)(?=[,:(]|\s+(?:in|of|on|at|by|with|without|within|from|to|for|that|which|whose|so|as|after|before|beyond|outside|"
+    r"(?<=.)(?=[,:(]|\s+(?:around|in|of|on|at|by|with|without|within|from|to|for|that|which|whose|so|as|after|before|beyond|outside|"
     r"inside|between|under|over|through|not|and|or|drawn|closed|read|made|left|joined|painted|used|than|is|are|forbids?)\b)"
 )
 

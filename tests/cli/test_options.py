@@ -145,7 +145,6 @@ IDLE = [
     ("convert {hall.json} {a.json} --role a=robot", "--role"),
     ("convert {hall.json} {a.json} --outer 1", "--outer"),
     ("convert {hall.json} {a.json} --inner 1", "--inner"),
-    (f"convert {ROUND} {{a.json}} --tolerance 1", "--tolerance"),
 ]
 
 

@@ -210,7 +210,7 @@ def test_losses_are_reported_also_if_there_is_no_robot(folder: Path, monkeypatch
     source = Source("walls.dxf")
     source.note("lost", "open line", "less", count=39, where="A-WALL", at=(6, 4), size=2)
     shapes = shapes_of(source, "DXF", [Shape("obstacle", None, cfree.Polygon(SQUARE))], {}, "draw it")
-    monkeypatch.setattr("cfree.formats.readers.read_file", lambda *_: shapes)
+    monkeypatch.setattr("cfree.formats.scene_file.read_shapes", lambda *_: shapes)
     result = run("plan", "walls.dxf")
     assert result.exit_code == 2 and FIRST in result.stderr and "there is no robot" in result.stderr
 

@@ -47,7 +47,7 @@ def test_notes_about_writing_are_returned(tmp_path: Path) -> None:
     straight = cfree.convert(ROUND, tmp_path / "round.svg", tolerance=0.01)
     (note,) = straight.reading
     assert (note.kind, note.effect, note.size) == ("near", "near", 0.01)
-    assert cfree.load_scene(tmp_path / "round.svg").reading[0].what == "round shape replaced by a polygon around it"
+    assert cfree.load_scene(tmp_path / "round.svg").reading[0].what == "polygon around a round shape"
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,7 @@ def test_notes_about_writing_are_returned(tmp_path: Path) -> None:
     [
         ({"outer": 1.0, "inner": 1.0}, "outer and inner: give one of them"),
         ({"outer": 0.0}, "outer: 0.0; give a length above 0"),
-        ({"tolerance": -1.0}, "tolerance: -1.0 is no length"),
+        ({"tolerance": -1.0}, "tolerance: -1.0; give a length above 0"),
         ({"robot": 3}, "robot"),
     ],
 )
@@ -72,4 +72,4 @@ def test_polygons_around_and_inside_are_written(tmp_path: Path) -> None:
     inside = cfree.convert(ROUND, tmp_path / "b.json", inner=0.01)
     assert not around.curved and not inside.curved and around != inside
     record = json.loads((tmp_path / "b.json").read_text())["reading"][0]
-    assert (record["what"], record["size"]) == ("round shape replaced by a polygon inside it", 0.01)
+    assert (record["what"], record["size"]) == ("polygon inside a round shape", 0.01)

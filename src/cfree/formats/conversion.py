@@ -93,9 +93,10 @@ def _straight(
     """Replace round shapes by polygons if wanted, or if the file format has no round shapes."""
     if outer is not None and inner is not None:
         raise ValueError("outer and inner: give one of them")
+    for name, length in (("outer", outer), ("inner", inner), ("tolerance", tolerance)):
+        if length is not None and not 0 < length < math.inf:
+            raise ValueError(f"{name}: {length}; give a length above 0")
     error = outer if inner is None else inner
-    if error is not None and not 0 < error < math.inf:
-        raise ValueError(f"{'outer' if inner is None else 'inner'}: {error}; give a length above 0")
     if not scene.curved or (error is None and tolerance is None and not is_without_curves(target)):
         return scene, ()
     if error is None:

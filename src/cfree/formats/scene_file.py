@@ -213,7 +213,7 @@ def load_polygons(path: str | PathLike[str]) -> tuple[Polygon, ...]:
     FormatError
         If the file cannot be read, see `load_scene`.
     """
-    return load_shapes(path).polygons
+    return read_shapes(path, Reading()).polygons
 
 
 def shapes_in(scene: Scene, file: str) -> Shapes:

@@ -28,13 +28,13 @@ def of(shapes: cfree.formats.Shapes, name: str) -> list[cfree.Polygon]:
 
 
 def test_svg_is_read_as_it_is_drawn(folder: Path) -> None:
-    shapes = cfree.load_shapes(folder / "a.svg")
+    shapes = cfree.load_shapes(folder / "a.svg", tolerance=0.4)
     wall, *ellipses = of(shapes, "walls")
     x, y = Fraction("10.2"), Fraction("-10.4")  # exactly: the transform's decimals are added as decimals
     corners = [(2 * x, 2 * y - 4), (2 * x + 200, 2 * y - 4), (2 * x + 200, 2 * y), (2 * x, 2 * y)]
     assert set(wall.exact_vertices) == set(corners)
     assert [round(float(e.exact_area) / 4 / math.pi, 1) for e in ellipses] == [
-        96.6,
+        96.7,
         87.4,
     ]  # 4 times 24; grown to reach its ends, 86.7
     (lake,) = of(shapes, "lake")
@@ -98,9 +98,9 @@ def test_lines_that_are_drawn_twice_or_are_points_count_once(tmp_path: Path) -> 
     for first in (0, 180, 180):  # two half circles have the same ends
         space.add_arc((20, 0), 2, first, first + 180)
     document.saveas(tmp_path / "a.dxf")
-    shapes = cfree.load_shapes(tmp_path / "a.dxf")
+    shapes = cfree.load_shapes(tmp_path / "a.dxf", tolerance=0.02)
     assert [round(float(shape.polygon.exact_area)) for shape in shapes.shapes] == [12, 13]
-    assert {note.what: note.count for note in shapes.reading if note.kind == "lost"} == {"open line": 1}
+    assert {note.what: note.count for note in shapes.reading if note.kind == "lost"} == {"open line": 2}
 
 
 @pytest.mark.parametrize("path", ["M0 0 L4 0 L2 0 Z", "M0 0 L4 0 L2 0 Z M0 0 L4 4 L4 4 Z"])
@@ -244,9 +244,9 @@ def test_a_thin_ellipse_in_a_drawing_does_not_turn_inside_out(tmp_path: Path) ->
     for ry in ("0.2", "0.0002", "0.0000002"):
         text = f'<svg><ellipse id="workspace" cx="5" cy="3" rx="4" ry="{ry}" transform="rotate(30)"/></svg>'
         (tmp_path / "thin.svg").write_text(text)
-        (room,) = cfree.load_shapes(tmp_path / "thin.svg").shapes
+        (room,) = cfree.load_shapes(tmp_path / "thin.svg", tolerance=0.007).shapes
         share = float(room.polygon.exact_area) / (math.pi * 4 * float(ry))
         assert room.role == "workspace" and 0.9 < share < 1, ry
         (tmp_path / "thin.svg").write_text(text.replace("workspace", "obstacle"))
-        (wall,) = cfree.load_shapes(tmp_path / "thin.svg").shapes
+        (wall,) = cfree.load_shapes(tmp_path / "thin.svg", tolerance=0.007).shapes
         assert 1 < float(wall.polygon.exact_area) / (math.pi * 4 * float(ry)) < 1.1, ry

@@ -321,7 +321,7 @@ def test_strokes_have_the_width_and_the_form_that_is_drawn(tmp_path: Path) -> No
     )
     (item,) = lines_of(tmp_path, body, strokes="drawn")
     assert [curve.width for curve in item.curves] == [4.5, 30, 0, 1]
-    assert {curve.corner for curve in item.curves} == {"round"}
+    assert {curve.join for curve in item.curves} == {"round"}
     assert [curve.cap for curve in item.curves] == ["butt", "square", "butt", "butt"]
     filled = lines_of(tmp_path, '<rect stroke="red" width="3" height="3"/>', strokes="drawn")
     assert [type(item).__name__ for item in filled] == ["Drawn", "Lines"]

@@ -113,7 +113,8 @@ if TYPE_CHECKING:
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: Form | None, step: str | None,
     turn: str | None, speed: str | None, clearance: str | None, nearest_free: bool, improve: str | None,
-    objective: Objective, prefer: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool, part: Path | None, max_seconds: float | None, as_json: bool,
+    objective: Objective, prefer: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
+    part: Path | None, max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
