@@ -56,8 +56,8 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> None:
         f"{ratio:.0f}", str(differ),
     ))  # fmt: skip
     report.figure("locate, one pose", name, 1e6 * one.best / len(free), "<=", 1000, " µs")
-    rows, core = table[:SINGLE].tolist(), space.boundary.checker.core
-    above = each(space.locate, rows) - each(lambda row: space.core.locate_one(core, row), rows)
+    rows, core = table[:SINGLE].tolist(), space.boundary.checker._handle
+    above = each(space.locate, rows) - each(lambda row: space._handle.locate_one(core, row), rows)
     report.figure("locate, one pose, above the core", name, above, "<=", 2, "µs")
 
 

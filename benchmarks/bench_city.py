@@ -49,7 +49,7 @@ def child(size: int) -> dict[str, Any]:
     times.append(time.perf_counter())
     boundary = cfree.boundary(scene)
     times.append(time.perf_counter())
-    cells = boundary.core_complex
+    cells = boundary._complex_handle
     times.append(time.perf_counter())
     cfree.free_space(boundary)
     times.append(time.perf_counter())

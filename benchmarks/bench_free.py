@@ -72,12 +72,12 @@ def alone(name: str, scene: cfree.Scene, report: Report) -> None:
         each(lambda table: cfree.is_free(scene, table), tables),
     )
     moved = each(lambda row: cfree.is_free_motion(scene, row, motion), rows)
-    moved_in_core = each(lambda row: motions.core.is_free(row, motion, False), rows)
+    moved_in_core = each(lambda row: motions._handle.is_free(row, motion, False), rows)
     cleared = each(lambda path: cfree.clearance(path, scene), same)
-    cleared_in_core = each(lambda path: distances.core.least(*least), same)
-    free_in_core = each(lambda path: checker.core.is_free(path.start), same)
+    cleared_in_core = each(lambda path: distances._handle.least(*least), same)
+    free_in_core = each(lambda path: checker._handle.is_free(path.start), same)
     report.figure("is_free, one pose a call", name, asked, "<=", 3, "µs")
-    report.figure("of that the core", name, each(checker.core.is_free, rows), "<=", 3, "µs")
+    report.figure("of that the core", name, each(checker._handle.is_free, rows), "<=", 3, "µs")
     report.figure("is_free_motion, above the core", name, moved - moved_in_core, "<=", 2, "µs")
     above = cleared - cleared_in_core - free_in_core
     report.figure("clearance of one pose, above the core", name, above, "<=", 2, "µs")
@@ -105,7 +105,7 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> tuple[float, float
     )
     free = checker.is_free(poses)
     verdicts = np.empty(len(poses), np.uint8)
-    checker.core.check(poses, 1, verdicts)
+    checker._handle.check(poses, 1, verdicts)
     differ = [int((rival(poses[:n]) != free[:n]).sum()) for rival, n in ((by_numba, NUMBA_COUNT), (by_fcl, FCL_COUNT))]
     best = ours.best / (CALLS * COUNT)
     ratios = numbas.best / NUMBA_COUNT / best, fcls.best / FCL_COUNT / best

@@ -84,7 +84,7 @@ def compare(case: Case, boundary: cfree.Boundary, whole: Report, single: Report)
     one, all_cores, look_up, segments, forbidden, hulls, merged = timed(
         lambda: cfree.boundary(case.scene, threads=1),
         lambda: cfree.boundary(case.scene),
-        lambda: type(boundary).slicer.func(boundary),
+        lambda: type(boundary)._slicer.func(boundary),
         lambda: [boundary.slice(theta).segments for theta in many],
         lambda: [boundary.slice(theta).forbidden for theta in few],
         lambda: case.shapely_slices(sums_by_hull, k),

@@ -218,7 +218,7 @@ def test_a_pose_is_what_a_scene_takes_for_one() -> None:
     assert checker.first_contact(start, motion) == cfree.first_contact(scene, same[0], motion)
     assert cfree.Path(start, [motion]) == cfree.Path(same[0], [motion])
     assert cfree.turn_in_place(scene, start) == cfree.turn_in_place(scene, same[0])
-    assert cfree.free_nearby(scene, goal) == cfree.free_nearby(scene, same[1])
+    assert cfree.collision.free_nearby(scene, goal) == cfree.collision.free_nearby(scene, same[1])
     cfree.require_free(scene, start)
     assert cfree.contact.is_contact(scene.robot[0], scene.obstacles[0], (2, 0, 0))
     assert cfree.max_margin(scene, tolerance=0.5) == cfree.max_margin(scene, start, goal, tolerance=0.5)

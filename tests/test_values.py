@@ -85,7 +85,7 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "LocalGeometry": cfree.geometry.local_geometry(ruled, [0.5], [0.1]),
         "Mesh": boundary.mesh(1.0),
         "MotionChecker": cfree.MotionChecker(scene),
-        "Moved": cfree.Moved(Pose(x, 0), (step, step)),
+        "Moved": cfree.planning.Moved(Pose(x, 0), (step, step)),
         "NearestMiss": cfree.analysis.NearestMiss(0.0, float(x), (cfree.analysis.Bottleneck(None, (0, x)),)),
         "Path": path,
         "Pieces": separated.pieces,
@@ -199,6 +199,16 @@ def test_values_are_copied_and_pickled_whatever_was_asked_before(
         for copied in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
             assert type(copied) is type(value) and copied == value == values[name]
             assert repr(copied) == repr(value)
+
+
+@pytest.mark.parametrize("name", [*CLASSES, *MORE])
+def test_public_attributes_hold_no_handles_of_the_core(name: str, again: dict[str, Any]) -> None:
+    value = again[name]
+    public = {name: getattr(value, name) for name in dir(value) if not name.startswith("_")}
+    parts = [
+        (name, part) for name, held in public.items() for part in (held if type(held) in (list, tuple) else [held])
+    ]
+    assert [name for name, part in parts if type(part).__module__.startswith("cfree._core")] == []
 
 
 def test_what_was_pickled_answers_as_before(values: dict[str, Any]) -> None:

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from cfree.collision.motion_checker import first_contact as first_contact
     from cfree.collision.motion_checker import is_free_motion as is_free_motion
     from cfree.collision.nearest_free import ForbiddenPoseError as ForbiddenPoseError
-    from cfree.collision.nearest_free import free_nearby as free_nearby
     from cfree.collision.nearest_free import nearest_free as nearest_free
     from cfree.collision.nearest_free import require_free as require_free
     from cfree.collision.pose_checker import PoseChecker as PoseChecker
@@ -44,7 +43,6 @@ if TYPE_CHECKING:
     from cfree.formats.scene_file import load_scene as load_scene
     from cfree.formats.scene_file import load_shapes as load_shapes
     from cfree.free.largest_disc import largest_disc as largest_disc
-    from cfree.free.space import Cell as Cell
     from cfree.free.space import FreeSpace as FreeSpace
     from cfree.free.space import free_space as free_space
     from cfree.free.turn_in_place import turn_in_place as turn_in_place
@@ -60,7 +58,6 @@ if TYPE_CHECKING:
     from cfree.planning.separation import Separated as Separated
     from cfree.planning.separation import separation as separation
     from cfree.polygons.polygon import Polygon as Polygon
-    from cfree.scene.goals import Moved as Moved
     from cfree.scene.scene import Scene as Scene
     from cfree.viewer.browser import view as view
     from cfree.viewer.notebook import widget as widget
@@ -74,14 +71,13 @@ _HOMES = {
     "exact.pose": "Pose Poses",
     "polygons.polygon": "Polygon",
     "scene.scene": "Scene",
-    "scene.goals": "Moved",
     "collision.motion": "Rotation Translation motion_between",
     "collision.slide": "Slide",
     "collision.pose_checker": "PoseChecker is_free",
     "collision.motion_checker": "MotionChecker first_contact is_free_motion",
-    "collision.nearest_free": "ForbiddenPoseError free_nearby nearest_free require_free",
+    "collision.nearest_free": "ForbiddenPoseError nearest_free require_free",
     "forbidden.boundary": "Boundary boundary",
-    "free.space": "Cell FreeSpace free_space",
+    "free.space": "FreeSpace free_space",
     "free.largest_disc": "largest_disc",
     "free.turn_in_place": "turn_in_place",
     "paths.path": "Path",
@@ -103,14 +99,17 @@ _HOMES = {
     "viewer.notebook": "widget",
 }
 _PACKAGES = (
-    "analysis arrangements collision contact curves distributed exact figures film forbidden formats geometry "
+    "analysis arrangements collision contact curves distributed exact figures film forbidden formats free geometry "
     "ompl paths planning plot rational verify viewer"
 )
 _MOVED = {
     "analysis": "Blocker Fit Interval NearestMiss",
+    "collision": "free_nearby",
     "forbidden": "CellComplex Mesh Slice",
     "formats": "Shapes",
+    "free": "Cell",
     "paths": "Clearance Unwanted",
+    "planning": "Moved",
 }
 register("page", "cfree.viewer.notebook", "live")
 register("picture", "cfree.viewer.pictures", "picture")

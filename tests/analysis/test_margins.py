@@ -136,7 +136,7 @@ def test_a_polygon_is_inside_another_only_without_its_holes() -> None:
     shapes = [square(half, *holes) for half in (2, 4, 6, 9) for holes in many if all(x + h < half for x, h in holes)]
     for inner, outer in product(shapes, shapes):
         expected = outer.to_shapely().contains_properly(inner.to_shapely())
-        assert inner.core.is_inside(outer.core) == expected, (inner, outer)
+        assert inner._handle.is_inside(outer._handle) == expected, (inner, outer)
 
 
 @pytest.mark.slow

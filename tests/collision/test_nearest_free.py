@@ -17,7 +17,6 @@ from cfree import (
     Poses,
     Scene,
     boundary,
-    free_nearby,
     free_space,
     is_free,
     largest_disc,
@@ -25,6 +24,7 @@ from cfree import (
     nearest_free,
     require_free,
 )
+from cfree.collision import free_nearby
 from compared import plain_of, scene_of
 from shapes import KINDS, box, random_scene
 

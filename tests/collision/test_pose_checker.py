@@ -170,7 +170,7 @@ def test_what_doubles_are_certain_of_is_true() -> None:
             off = 10.0 ** -rng.uniform(9, 18)
             row = Poses([[float(pose.x) + off * rng.uniform(-1, 1), float(pose.y) + off]], [pose.theta])
             verdict = np.empty(1, np.uint8)
-            checker.core.check(np.column_stack([row.xy, row.theta]), 1, verdict)
+            checker._handle.check(np.column_stack([row.xy, row.theta]), 1, verdict)
             expected = oracle(plain, row[0])
             assert checker.is_free(row).tolist() == [expected]
             if verdict[0] == UNCERTAIN:
@@ -390,10 +390,13 @@ def test_a_scene_keeps_its_checker_and_is_the_same_value() -> None:
     asked, other = (Scene(SQUARE, TRIANGLE, bounds=(-5, -5, 5, 5), start=(2, 2, 0)) for _ in range(2))
     for ask in (lambda: is_free(asked, (3, 3, 0)), lambda: is_free_motion(asked, (3, 3, 0), Translation((1, 0)))):
         assert ask() and values(asked) == values(other)
-    assert PoseChecker(asked).core is PoseChecker(asked).core and MotionChecker(asked).core is MotionChecker(asked).core
+    assert (
+        PoseChecker(asked)._handle is PoseChecker(asked)._handle
+        and MotionChecker(asked)._handle is MotionChecker(asked)._handle
+    )
     for same in (copy(asked), deepcopy(asked), pickle.loads(pickle.dumps(asked)), replace_start(asked)):
         assert same == asked and not hasattr(same, "_kept")
-        assert PoseChecker(same).core is not PoseChecker(asked).core
+        assert PoseChecker(same)._handle is not PoseChecker(asked)._handle
     larger = asked.grown(1)  # made of a copy
     assert is_free(asked, (3, 0, 0)) and is_free(larger, (2.5, 0, 0)) is False
 

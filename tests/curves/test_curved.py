@@ -119,7 +119,7 @@ def test_what_takes_polygons_says_so() -> None:
         lambda: cfree.blockers(scene), lambda: cfree.MotionChecker(scene), lambda: cfree.PoseChecker(scene),
         lambda: cfree.plan_many(scene, [(pose, pose)]), lambda: cfree.view(scene),
         lambda: cfree.require_free(scene, pose),
-        lambda: cfree.arrangements.arrangement(scene), lambda: cfree.free_nearby(scene, pose),
+        lambda: cfree.arrangements.arrangement(scene), lambda: cfree.collision.free_nearby(scene, pose),
         lambda: cfree.save(scene, "round.svg"), lambda: cfree.save(scene, "round.geojson"),
         lambda: cfree.first_contact(scene, pose, cfree.Translation((1, 0))),
     ):  # fmt: skip

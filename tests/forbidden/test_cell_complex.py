@@ -169,7 +169,7 @@ def test_a_lost_trapezoid_is_noticed() -> None:
         rest = Trapezoids(*(np.delete(getattr(result.trapezoids, name), lost) for name in COLUMNS))
         part = Boundary(result.scene, result.features, *contacts, rest, result.isolated, result.stats, result.trimmed)
         with pytest.raises(RuntimeError, match=r"partner|alternate"):
-            _core.glue(part.core, 1)
+            _core.glue(part._handle, 1)
 
 
 def test_any_number_of_threads_gives_the_same_complex() -> None:

@@ -16,7 +16,6 @@ from cfree import (
     Curved,
     FormatError,
     InvalidPoseError,
-    Moved,
     Path,
     Pose,
     Scene,
@@ -25,6 +24,7 @@ from cfree import (
     plan,
     save,
 )
+from cfree.planning import Moved
 from second_opinion import check_answer, verified_in_a_file
 from shapes import box
 

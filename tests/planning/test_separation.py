@@ -146,9 +146,9 @@ def test_the_second_proof_is_quick() -> None:
     space = room("1/9")
     insets = Insets(space.boundary.scene)
     separation(space, INSIDE, OUTSIDE, insets=insets)
-    assert insets.core.known == 1
+    assert insets._handle.known == 1
     separation(space, INSIDE, Pose(-9, 0), insets=insets)
-    assert insets.core.known == 1
+    assert insets._handle.known == 1
 
 
 @pytest.mark.slow

@@ -42,7 +42,7 @@ def columns_of(scene: cfree.Scene) -> dict[str, np.ndarray[Any, Any]]:
     """The same columns as in `show_columns`, from Python."""
     boundary = cfree.boundary(scene, threads=1)
     space = cfree.free_space(boundary)
-    core, cells, surfaces = boundary.core, boundary.core_complex, space.core.surfaces
+    core, cells, surfaces = boundary._handle, boundary._complex_handle, space._handle.surfaces
     tables = (
         (core.trapezoids, "patch chart lower upper from_first from_second to_first to_second"),
         (core.trapezoids, "from_lo from_hi to_lo to_hi from_place to_place"),
@@ -52,7 +52,7 @@ def columns_of(scene: cfree.Scene) -> dict[str, np.ndarray[Any, Any]]:
     return (
         {f"patches.{name}": getattr(core.patches, name) for name in ("kind", "robot", "obstacle")}
         | {name: getattr(table, name) for table, names in tables for name in names.split()}
-        | {"trimmed": core.trimmed, "cell_of": space.core.cell_of, "depth": space.core.depth}
+        | {"trimmed": core.trimmed, "cell_of": space._handle.cell_of, "depth": space._handle.depth}
     )
 
 

@@ -100,7 +100,7 @@ class Orientations:
     def __init__(self, boundary: Boundary) -> None:
         boundary.require_complete()
         self.boundary = boundary
-        self._from, self._to, _, self._last = boundary.core.angle_ranks()
+        self._from, self._to, _, self._last = boundary._handle.angle_ranks()
 
     def fits(self) -> tuple[Fit, ...]:
         result = [Fit(self._interval(run), *self._place(run.widest)) for run in self._runs()]
@@ -155,7 +155,7 @@ class Orientations:
 
     def _pose(self, table: Trapezoids, row: int, k: int) -> Pose | None:
         """Return a pose on a trapezoid or isolated part; None if its only orientation has an irrational tangent."""
-        core, is_isolated = self.boundary.core, table is self.boundary.isolated
+        core, is_isolated = self.boundary._handle, table is self.boundary.isolated
         if self._from[k] == self._to[k]:
             end = _core.isolated_end(core, row)
             return None if end is None else from_numbers(end)

@@ -154,7 +154,7 @@ class Arrangement(Value):
     """
 
     def __init__(self, scene: Scene, core: _core.Arrangement) -> None:
-        self.scene, self.core = scene, core
+        self.scene, self._handle = scene, core
         self.features = scene_features(scene)
         stats = Stats(len(core.boundary.patches.kind), 0, len(core.face_of), 0, 0, 0, 0, 0, {})
         self.sheets = BoundaryRecord._of(scene, self.features, core.boundary, stats)
@@ -204,7 +204,7 @@ class Arrangement(Value):
             robot, obstacle = divmod(number, obstacles + 2)
             return robot, obstacle if obstacle < obstacles else WORKSPACE if obstacle == obstacles else BOUNDS
 
-        start, member = self.core.set_start.tolist(), self.core.set_member.tolist()
+        start, member = self._handle.set_start.tolist(), self._handle.set_member.tolist()
         return tuple(tuple(map(pair, member[i:j])) for i, j in pairwise(start))
 
     @property
@@ -219,15 +219,18 @@ class Arrangement(Value):
 
     @cached_property
     def _volumes(self) -> tuple[Floats, Floats]:
-        return self.core.volumes()
+        return self._handle.volumes()
 
     @cached_property
     def cells(self) -> tuple[DepthCell, ...]:
         """All cells; the unbounded one comes first."""
         rows = zip(
-            self.cell_set.tolist(), self.cell_euler.tolist(), self.core.cell_surfaces.tolist(), self.volumes.tolist(),
+            self.cell_set.tolist(),
+            self.cell_euler.tolist(),
+            self._handle.cell_surfaces.tolist(),
+            self.volumes.tolist(),
             strict=True,
-        )  # fmt: skip
+        )
         return tuple(DepthCell(k, self.sets[pairs], *row) for k, (pairs, *row) in enumerate(rows))
 
     @cached_property
@@ -252,19 +255,19 @@ class Arrangement(Value):
     @property
     def face_depth(self) -> NDArray[np.int64]:
         """Depth on each face, (F,): the number of pairs that overlap there, without the face's owners."""
-        return self.depth_of_pieces[self.core.face_first]
+        return self.depth_of_pieces[self._handle.face_first]
 
     @cached_property
     def depth_of_pieces(self) -> NDArray[np.int64]:
         """Depth on each piece, (T,); see `face_depth`."""
         size = self._set_sizes
-        outer, inner, owners = size[self.core.outer], size[self.core.inner], size[self.core.owners]
+        outer, inner, owners = size[self._handle.outer], size[self._handle.inner], size[self._handle.owners]
         depths: NDArray[np.int64] = (outer + inner - owners) // 2
         return depths
 
     @property
     def _set_sizes(self) -> NDArray[np.int64]:
-        start = self.core.set_start.astype(np.int64)
+        start = self._handle.set_start.astype(np.int64)
         sizes: NDArray[np.int64] = start[1:] - start[:-1]
         return sizes
 
@@ -279,11 +282,11 @@ class Arrangement(Value):
         cell, on = self._place(pose)
         if cell != ON_SURFACE:
             return int(self.cell_depth[cell])
-        sets = [set(self.sets[k]) for piece in on for k in (self.core.outer[piece], self.core.inner[piece])]
+        sets = [set(self.sets[k]) for piece in on for k in (self._handle.outer[piece], self._handle.inner[piece])]
         return len(set.intersection(*sets))
 
     def _place(self, pose: PoseLike) -> tuple[int, list[int]]:
-        return self.core.locate(*self.features.in_chart(to_pose(pose, "pose")))
+        return self._handle.locate(*self.features.in_chart(to_pose(pose, "pose")))
 
     @checked
     def slice(self, theta: Angle) -> Slice:

@@ -48,7 +48,7 @@ class EdgeDistances:
         self._unit = 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])
 
     @cached_property
-    def core(self) -> _core.EdgeDistances:
+    def _handle(self) -> _core.EdgeDistances:
         """The same edges, for distances along motions."""
         return _core.EdgeDistances(self.robot.reshape(-1, 4), self.segments.reshape(-1, 4))
 

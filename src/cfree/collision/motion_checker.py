@@ -83,7 +83,7 @@ class MotionChecker(Value):
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
         self.features: SceneFeatures = scene_features(scene)
-        self.core = kept(scene, _prepared)
+        self._handle = kept(scene, _prepared)
         self._rim = None if scene.workspace is None else _extent(self.features.obstacles)
 
     @property
@@ -110,7 +110,7 @@ class MotionChecker(Value):
         False
         """
         if type(pose) in PLAIN and type(motion) in PLAIN_MOTIONS:
-            free = _of_one(self.core, pose, motion)
+            free = _of_one(self._handle, pose, motion)
             if free is not None:
                 return free
         return self._is_free(pose, motion)
@@ -119,8 +119,8 @@ class MotionChecker(Value):
     def _is_free(self, pose: PoseLike, motion: Motion) -> bool:
         pose = to_pose(pose, "pose")
         if isinstance(motion, Slide):
-            return self._outside(pose) is None and self.core.is_slide_free(self._slide_integers(pose, motion))
-        return bool(self.core.is_free(pose, motion, motion.kind == "rotation"))
+            return self._outside(pose) is None and self._handle.is_slide_free(self._slide_integers(pose, motion))
+        return bool(self._handle.is_free(pose, motion, motion.kind == "rotation"))
 
     @checked
     def joins(self, poses: Sequence[Pose]) -> bool:
@@ -146,7 +146,7 @@ class MotionChecker(Value):
             raise UnsupportedError("a slide has no first contact; call is_free for parts of it, from Slide.between")
         if (outside := self._outside(pose)) is not None:
             return FirstContact(Surd(0), outside[0], outside[1], None)
-        collision = self.core.first_collision(*self._integers(pose, motion))
+        collision = self._handle.first_collision(*self._integers(pose, motion))
         if collision is None:
             return None
         polynomial, robot_piece, obstacle_piece, kind, i, j = collision

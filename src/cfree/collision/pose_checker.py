@@ -180,7 +180,7 @@ class PoseChecker(Value):
 
     def __init__(self, scene: Scene, features: SceneFeatures | None = None) -> None:
         self.scene = scene
-        self.core, self.limits = kept(scene, _prepared) if features is None else _prepared_with(scene, features)
+        self._handle, self.limits = kept(scene, _prepared) if features is None else _prepared_with(scene, features)
 
     @property
     def _content(self) -> tuple[Scene]:
@@ -197,7 +197,7 @@ class PoseChecker(Value):
     ) -> bool | NDArray[np.bool_]:
         """See `cfree.is_free`."""
         if type(poses) in PLAIN and _is_count(threads):
-            free = _of_one(self.core, poses)
+            free = _of_one(self._handle, poses)
             if free is not None:
                 return free
         return self._is_free(poses, threads=threads)
@@ -215,7 +215,7 @@ class PoseChecker(Value):
             return np.array([self._is_free_exactly(pose) for pose in table], bool)
         verdicts = self.verdicts(table, threads)
         for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
-            verdicts[k] = FREE if self.core.is_free(table[k].tolist()) else FORBIDDEN
+            verdicts[k] = FREE if self._handle.is_free(table[k].tolist()) else FORBIDDEN
         free: NDArray[np.bool_] = verdicts == FREE
         return free
 
@@ -225,7 +225,7 @@ class PoseChecker(Value):
         verdicts = np.empty(len(table), np.uint8)
         for k in range(0, len(table), BLOCK):
             rows = slice(k, k + BLOCK)
-            self.core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+            self._handle.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
         return verdicts
 
     @checked
@@ -253,14 +253,14 @@ class PoseChecker(Value):
         (True, False)
         """
         first, change = (np.asarray(each, float).tolist() for each in (start, by))
-        return self.core.sweep_is_free(first, change)
+        return self._handle.sweep_is_free(first, change)
 
     def _is_free_exactly(self, pose: Pose) -> bool:
-        free: Any = self.core.is_free(pose)
+        free: Any = self._handle.is_free(pose)
         if free is None:  # on a limit, or nearly so
             x0, y0, x1, y1 = self.limits
             is_within = x0 <= pose.x <= x1 and y0 <= pose.y <= y1
-            free = is_within and self.core.is_free(pose, is_within)
+            free = is_within and self._handle.is_free(pose, is_within)
         return bool(free)
 
 

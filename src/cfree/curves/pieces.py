@@ -268,7 +268,7 @@ def spans(arc: drawn.Arc, start: ExactPoint, end: ExactPoint) -> Iterator[Span]:
 
 def is_proved(ring: Polygon, number: int, curve: Curve, *, within: bool) -> bool:
     """True if a ring of a polygon is proved to be within a curve, or else around it; decided exactly by the core."""
-    check: Callable[[int, list[object]], bool] = ring.core.is_within if within else ring.core.is_around
+    check: Callable[[int, list[object]], bool] = ring._handle.is_within if within else ring._handle.is_around
     return check(number, [*_for_core(curve)])
 
 

@@ -161,7 +161,7 @@ def store_scene(
         with (folder / "polygons.jsonl").open("wb") as lines:
             for block in _blocks(chain(head.obstacles, obstacles)):
                 for polygon in block:
-                    whole.add(polygon.core)
+                    whole.add(polygon._handle)
                     digest.add(polygon)
                 texts = [_line(polygon) for polygon in block]
                 begins = lines.tell() + _sums(map(len, texts))

@@ -153,7 +153,7 @@ def glue(boundary: BoundaryRecord) -> CellComplex:
     -----
     Time is about linear in the trapezoids.
     """
-    core, features = boundary.core_complex, boundary.features
+    core, features = boundary._complex_handle, boundary.features
     x, y = (core.xy + features.moved(core.theta)).T.copy()
     x.flags.writeable = y.flags.writeable = False
     loops = core.first, core.face, core.side, core.twin, core.edge, core.vertex, core.component

@@ -22,6 +22,6 @@ def critical_angle(boundary: BoundaryRecord, table: Trapezoids, k: int, last: bo
     patch = getattr(table, f"{end}_patch", table.patch)[k]
     columns = boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle
     contact = [int(column[patch]) for column in columns]
-    terms, (low, p), (high, q) = boundary.core.root(contact, int(table.chart[k]), first, second, lo, hi, place)
+    terms, (low, p), (high, q) = boundary._handle.root(contact, int(table.chart[k]), first, second, lo, hi, place)
     ((root, _),) = roots(fmpz_poly(terms), Fraction(low, 1 << p), Fraction(high, 1 << q))
     return root

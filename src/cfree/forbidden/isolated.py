@@ -57,7 +57,7 @@ def isolated_at(boundary: BoundaryRecord, theta: float) -> list[Floats]:
 def _on_curve(boundary: BoundaryRecord, k: int, theta: Floats) -> Floats:
     """Return points of the isolated curve k, (n, 2), where the curve that names it meets its patch's line."""
     chart = np.full(len(theta), boundary.isolated.chart[k])
-    t = boundary.slicer.isolated_curve(k, np.ascontiguousarray(tau_in(chart, theta)))
+    t = boundary._slicer.isolated_curve(k, np.ascontiguousarray(tau_in(chart, theta)))
     return boundary.evaluate(np.full(len(theta), boundary.isolated.lower_patch[k]), t, theta)
 
 

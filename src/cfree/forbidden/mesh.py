@@ -122,11 +122,11 @@ def triangulated(
     size, away = float(np.abs(near).max(initial=0.0)), float(max(np.abs(x).max(initial=0.0) for x in (c.x, c.y)))
     if error < (finest := max(ROUNDING * size, FINEST * away)):
         raise UnsupportedError(f"mesh error {error:g}: doubles of {away:g} allow for no less than {finest:g}")
-    coarsest, expected = _core.estimate_mesh(boundary.core_complex, error, scale)
+    coarsest, expected = _core.estimate_mesh(boundary._complex_handle, error, scale)
     if expected > MOST_TRIANGLES:
         raise UnsupportedError(_too_many(error, coarsest, expected))
     try:
-        mesh = _core.mesh(boundary.core_complex, error, scale, off_surface)
+        mesh = _core.mesh(boundary._complex_handle, error, scale, off_surface)
     except RuntimeError as fault:
         raise InvariantError(f"mesh with error {error}: {fault}", state=boundary.scene) from fault
     patch = boundary.trapezoids.patch[mesh.face]

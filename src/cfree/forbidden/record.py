@@ -109,11 +109,11 @@ class BoundaryRecord(Value):
             *(getattr(parts.parts if name in COLUMNS else parts, name) for name in ISOLATED_COLUMNS)
         )
         boundary = cls(scene, features, *contacts, trapezoids, isolated, stats, core.trimmed.view(np.bool_))
-        boundary.core = core
+        boundary._handle = core
         return boundary
 
     @cached_property
-    def core(self) -> _core.Boundary:
+    def _handle(self) -> _core.Boundary:
         """The core's own boundary, shared by slices, surfaces and cells."""
         patches = _core.Patches(self.contact_kind, self.contact_robot, self.contact_obstacle)
         trapezoids = _core.Trapezoids(*(getattr(self.trapezoids, name) for name in COLUMNS))
@@ -126,10 +126,10 @@ class BoundaryRecord(Value):
     @property
     def shared(self) -> Self:
         """The same boundary with arrays that are views of the core's memory."""
-        return self._of(self.scene, self.features, self.core, self.stats)
+        return self._of(self.scene, self.features, self._handle, self.stats)
 
     @cached_property
-    def core_complex(self) -> _core.CellComplex:
+    def _complex_handle(self) -> _core.CellComplex:
         """The trapezoids glued in the core; see `cfree.forbidden.cell_complex`."""
         return _glued(self, os.cpu_count() or 1)
 
@@ -261,22 +261,22 @@ class BoundaryRecord(Value):
         lower, upper : (k,) float64
         """
         chosen = np.ascontiguousarray(trapezoid, np.int32)
-        return self.slicer.limits(chosen, np.ascontiguousarray(tau_in(self.trapezoids.chart[chosen], theta)))
+        return self._slicer.limits(chosen, np.ascontiguousarray(tau_in(self.trapezoids.chart[chosen], theta)))
 
     @cached_property
-    def slicer(self) -> _core.Slicer:
+    def _slicer(self) -> _core.Slicer:
         """The core's object that computes slices and limits."""
-        return _core.Slicer(self.core)
+        return _core.Slicer(self._handle)
 
 
 def glue_by(threads: int, boundary: BoundaryRecord) -> None:
-    """Compute `core_complex` with a number of threads, unless it is there."""
-    if "core_complex" not in boundary.__dict__:
-        boundary.core_complex = _glued(boundary, threads)
+    """Compute `_complex_handle` with a number of threads, unless it is there."""
+    if "_complex_handle" not in boundary.__dict__:
+        boundary._complex_handle = _glued(boundary, threads)
 
 
 def _glued(boundary: BoundaryRecord, threads: int) -> _core.CellComplex:
     try:
-        return _core.glue(boundary.core, threads)
+        return _core.glue(boundary._handle, threads)
     except RuntimeError as error:
         raise InvariantError(f"the boundary is not closed: {error}", state=boundary.scene) from error

@@ -39,7 +39,7 @@ class Slice(Value, Shown):
         self._place = chart, tau
         self.segments: NDArray[np.float64]
         self.trapezoids: NDArray[np.int32]
-        xy, self.trapezoids = boundary.slicer.segments(chart, tau)
+        xy, self.trapezoids = boundary._slicer.segments(chart, tau)
         self.segments = xy.reshape(-1, 2, 2)
 
     @property
@@ -71,7 +71,7 @@ class Slice(Value, Shown):
         """
         import shapely
 
-        xy, start, shell = self.boundary.slicer.rings(*self._place)
+        xy, start, shell = self.boundary._slicer.rings(*self._place)
         points = xy.reshape(-1, 2)
         rings = [points[i:j] for i, j in pairwise(start)]
         rim = self.boundary.features.rim

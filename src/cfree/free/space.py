@@ -137,13 +137,13 @@ class FreeSpace(Value, Shown):
     ) -> None:
         self.boundary = boundary
         self.surfaces = bounding_surfaces(boundary)
-        self.core = core or _in_core(self.surfaces, component, parent, free_inside, turns, lift)
-        surfaces = self.core.surfaces
+        self._handle = core or _in_core(self.surfaces, component, parent, free_inside, turns, lift)
+        surfaces = self._handle.surfaces
         self.component, self.parent, self.turns, self.lift = (
             getattr(surfaces, name) for name in ("component", "parent", "turns", "lift")
         )
         self.free_inside = surfaces.free_inside.view(np.bool_)
-        self.cell_of, self.depth = self.core.cell_of, self.core.depth
+        self.cell_of, self.depth = self._handle.cell_of, self._handle.depth
         self.outside = 0 if boundary.features.rim is None else FORBIDDEN
 
     @property
@@ -169,7 +169,7 @@ class FreeSpace(Value, Shown):
         members: list[list[int]] = [[] for _ in range(count)]
         for k in np.lexsort((np.arange(len(self.parent)), ~self.free_inside)).tolist():
             members[self.cell_of[k]].append(k)
-        caged = self.core.caged(self.surfaces.features.obstacles.owner_polygon).view(np.bool_)
+        caged = self._handle.caged(self.surfaces.features.obstacles.owner_polygon).view(np.bool_)
         ranges = self._theta_ranges()
         cells = []
         for k, components in enumerate(members):
@@ -225,7 +225,7 @@ class FreeSpace(Value, Shown):
 
     @cached_property
     def _volumes(self) -> tuple[Floats, Floats]:
-        return self.core.volumes()
+        return self._handle.volumes()
 
     @checked
     def areas(self, *, angle_scale: float = 1.0) -> Floats:
@@ -271,7 +271,7 @@ class FreeSpace(Value, Shown):
         Forbidden poses are mostly recognised as by `is_free`. Each pose takes some microseconds.
         """
         if type(poses) in PLAIN and (threads is None or (type(threads) is int and threads > 0)):
-            cell = self.core.locate_one(self.boundary.checker.core, for_core(poses))
+            cell = self._handle.locate_one(self.boundary.checker._handle, for_core(poses))
             if cell is not None:
                 return cell
         return self._located(poses, threads=threads)
@@ -292,7 +292,7 @@ class FreeSpace(Value, Shown):
             verdicts = self.boundary.checker.verdicts(np.column_stack([xy, theta]), threads)
             possible = np.flatnonzero(verdicts != CERTAINLY_FORBIDDEN)
             chart, tau = chart_of(theta[possible])
-            cell = self.core.locate(xy[possible], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
+            cell = self._handle.locate(xy[possible], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
             for m in np.flatnonzero(cell == FORBIDDEN).tolist():
                 x, y = xy[possible[m]].tolist()
                 if self.boundary.checker.is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
@@ -303,14 +303,14 @@ class FreeSpace(Value, Shown):
     def _locate(self, pose: Pose) -> int:
         if not self.boundary.checker.is_free(pose):
             return FORBIDDEN
-        cell = self.core.locate_exactly(*self.boundary.features.in_chart(pose))
+        cell = self._handle.locate_exactly(*self.boundary.features.in_chart(pose))
         return NO_CELL if cell == FORBIDDEN else cell
 
     @checked
     def nearby(self, pose: PoseLike) -> Nearby:
         """Return the trapezoids of `surfaces` that contain a pose, and those that a ray from it crosses; exactly."""
         pose = to_pose(pose, "pose")
-        return Nearby(*self.core.nearby(*self.boundary.features.in_chart(pose)))
+        return Nearby(*self._handle.nearby(*self.boundary.features.in_chart(pose)))
 
     @checked
     def common_cell(self, start: PoseLike, goal: PoseLike) -> int | None:
@@ -322,12 +322,12 @@ class FreeSpace(Value, Shown):
         """Return the cells whose closure contains a pose."""
         if not self.boundary.checker.is_free(pose):
             return set()
-        return set(self.core.cells_at(*self.boundary.features.in_chart(pose))) - {FORBIDDEN}
+        return set(self._handle.cells_at(*self.boundary.features.in_chart(pose))) - {FORBIDDEN}
 
     @checked
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:
         """Return an interval of tau, in its chart, at most 2**-bits wide, around an end angle of a trapezoid."""
-        low, p, high, q = self.core.angle(face, last, bits)
+        low, p, high, q = self._handle.angle(face, last, bits)
         return Fraction(low, 1 << p), Fraction(high, 1 << q)
 
     @checked
@@ -405,7 +405,7 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
     bounding = bounding_surfaces(boundary, threads)
     glue_by(threads or os.cpu_count() or 1, bounding)
     try:
-        core = _core.free_space(bounding.core_complex)
+        core = _core.free_space(bounding._complex_handle)
     except RuntimeError as error:
         raise InvariantError(str(error), state=boundary.scene) from error
     return _of_core(boundary, core)
@@ -418,7 +418,7 @@ def built_space(
     boundary = boundary_of(scene, features, core)
     if _core.may_have_slits(features.core):
         boundary.regularized = boundary_of(scene, features, surfaces.boundary)
-    bounding_surfaces(boundary).core_complex = surfaces
+    bounding_surfaces(boundary)._complex_handle = surfaces
     return _of_core(boundary, cells)
 
 
@@ -440,4 +440,4 @@ def _in_core(
     boundary: Boundary, component: Ints, parent: Ints, free_inside: NDArray[np.bool_], turns: Ints, lift: Ints
 ) -> _core.FreeSpace:
     surfaces = _core.Surfaces(component, parent, free_inside.view(np.uint8), turns, lift)
-    return _core.FreeSpace(boundary.core, surfaces)
+    return _core.FreeSpace(boundary._handle, surfaces)

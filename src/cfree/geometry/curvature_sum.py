@@ -101,8 +101,8 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
     (True, True)
     """
     w, cells = check_scale(angle_scale), boundary.complex
-    faces, faces_off = _core.trapezoid_curvatures(boundary.core, w)
-    sides, sides_error, turns, starts = _core.side_curvatures(boundary.core_complex, w)
+    faces, faces_off = _core.trapezoid_curvatures(boundary._handle, w)
+    sides, sides_error, turns, starts = _core.side_curvatures(boundary._complex_handle, w)
     angles = math.pi - turns
     vertices = math.tau - np.bincount(cells.vertex, angles, cells.vertices).astype(np.float64)
     surface, component = cells.component[cells.face], np.zeros(cells.vertices, np.int32)

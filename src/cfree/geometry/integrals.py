@@ -171,4 +171,4 @@ def _over_trapezoids(
     """Return the integrals that the core computes, without their measured errors."""
     w = check_scale(angle_scale)
     boundary.require_complete()
-    return integrals(boundary.core, w)[0]
+    return integrals(boundary._handle, w)[0]

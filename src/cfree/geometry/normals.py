@@ -116,7 +116,7 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
     """
     w, cells = check_scale(angle_scale), boundary.complex
     sides = _Sides(boundary, cells, w)
-    faces, faces_off = _core.trapezoid_curvatures(boundary.core, w)
+    faces, faces_off = _core.trapezoid_curvatures(boundary._handle, w)
     edges, edges_off, arriving = _along_edges(sides)
     vertex, vertices = _at_vertices(sides, arriving)
     component = np.zeros(len(vertices), np.int64)
@@ -153,7 +153,7 @@ class _Sides:
     def _starts(self) -> tuple[Floats, Floats, Floats]:
         """Theta and t of the starts of coedges on the surface of their face; and their place, NaN inside a wall."""
         cells = self.cells
-        start = _core.side_curvatures(self.boundary.core_complex, self.w)[3].reshape(-1, 3).copy()
+        start = _core.side_curvatures(self.boundary._complex_handle, self.w)[3].reshape(-1, 3).copy()
         place = start[:, :2].copy()
         within = ~np.isfinite(start[:, 0])  # inside a wall: only the vertex has a place
         start[within, :2] = cells.near[cells.vertex[within]]

@@ -124,7 +124,7 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
     if tolerance is not None and not tolerance > 0:
         raise ValueError(f"tolerance {tolerance}: give a positive one")
     motions, poses = (path.motions, path.poses) if path.motions else ((STILL,), 2 * path.poses)
-    core, robot = distances.core, distances.robot
+    core, robot = distances._handle, distances.robot
     result = core.least(poses, motions, robot, 1e-3 * distances.radius if tolerance is None else float(tolerance))
     if tolerance is None and result[0] == 0 < result[1]:
         result = core.least(poses, motions, robot, result[1] / 4)

@@ -10,10 +10,12 @@ from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
     from cfree.planning.separation import Pieces as Pieces
+    from cfree.scene.goals import Moved as Moved
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
+        "moved_ends": "Moved",
         "separation": "Pieces",
     },
 )

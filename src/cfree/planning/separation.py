@@ -219,8 +219,8 @@ class Insets:
 
     def __init__(self, scene: Scene) -> None:
         self.checker = MotionChecker(scene)
-        self.core = _core.Insets(self.checker.features.made)
-        self.powers, self.size = self.core.powers, self.core.size
+        self._handle = _core.Insets(self.checker.features.made)
+        self.powers, self.size = self._handle.powers, self._handle.size
 
 
 @checked
@@ -280,13 +280,13 @@ def separation(
     insets = insets or Insets(scene)
     known = known_scene(insets.checker, space)
     chosen = insets.powers if powers is None else list(powers)
-    proof = _core.separation(known, insets.core, numbers_of(start), numbers_of(goal), chosen, Caller())
+    proof = _core.separation(known, insets._handle, numbers_of(start), numbers_of(goal), chosen, Caller())
     return Separated._of(proof, scene, start, goal)
 
 
 def known_scene(checker: MotionChecker, space: FreeSpace | None = None) -> _core.KnownScene:
     """Return the core's cache of results about a checker's scene, with its free space if that is known."""
-    known = _core.KnownScene(checker.features.made, checker.core)
+    known = _core.KnownScene(checker.features.made, checker._handle)
     if space is not None:
-        known.keep(space.boundary.core, space.surfaces.core_complex, space.core)
+        known.keep(space.boundary._handle, space.surfaces._complex_handle, space._handle)
     return known

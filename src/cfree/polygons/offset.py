@@ -29,7 +29,7 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
     >>> [part.exact_area for part in inset(square, Fraction(1, 4))], inset(square, Fraction(1, 2))
     ([Fraction(1, 4)], [])
     """
-    if mitred := _core.inset(polygon.core, by.numerator, by.denominator):
+    if mitred := _core.inset(polygon._handle, by.numerator, by.denominator):
         return [polygon_of(mitred)]
     import shapely  # imported late: most insets are mitred
 
@@ -44,6 +44,6 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
             smaller = Polygon(snapped(part.exterior.coords), [snapped(ring.coords) for ring in part.interiors])
         except ValueError:  # not simple, or too thin for the grid
             continue
-        if smaller.core.is_inside(polygon.core):
+        if smaller._handle.is_inside(polygon._handle):
             parts.append(smaller)
     return parts

@@ -72,13 +72,13 @@ class Polygon(Shown):
     cfree.errors.InvalidPolygonError: outer ring: edges 0 and 2 cross at (6/5, 6/5); split it into simple ...
     """
 
-    core: _core.Polygon
+    _handle: _core.Polygon
 
     def __init__(self, outer: Points, holes: Sequence[Points] = ()) -> None:
-        object.__setattr__(self, "core", read_rings(outer, holes))
+        object.__setattr__(self, "_handle", read_rings(outer, holes))
 
     def __len__(self) -> int:
-        return len(self.core)
+        return len(self._handle)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Polygon):
@@ -104,29 +104,28 @@ class Polygon(Shown):
     @cached_property
     def numerators(self) -> tuple[IntPoint, ...]:
         """Vertices of all rings: their exact coordinates are numerators / denominator."""
-        return self.core.numerators
+        return self._handle.numerators
 
     @cached_property
     def denominator(self) -> int:
         """Least common denominator of all coordinates."""
-        return self.core.denominator
+        return self._handle.denominator
 
     @cached_property
     def ring_offsets(self) -> tuple[int, ...]:
         """Ring r holds the vertices ring_offsets[r] to ring_offsets[r + 1] - 1."""
-        return tuple(self.core.ring_offsets)
+        return tuple(self._handle.ring_offsets)
 
     @cached_property
     def removed(self) -> tuple[Removed, ...]:
         """Points of the input that are exactly repeated or collinear."""
-        return tuple(
-            Removed(ring, index, "repeated" if repeated else "collinear") for ring, index, repeated in self.core.removed
-        )
+        removed = self._handle.removed
+        return tuple(Removed(ring, index, "repeated" if twice else "collinear") for ring, index, twice in removed)
 
     @cached_property
     def vertices(self) -> Floats:
         """Vertices rounded to the nearest doubles, (n, 2)."""
-        return self.core.vertices
+        return self._handle.vertices
 
     @property
     def rings(self) -> list[Floats]:
@@ -213,12 +212,12 @@ class Polygon(Shown):
     @cached_property
     def convex(self) -> NDArray[np.bool_]:
         """True for each vertex with an interior angle below pi, exactly, (n,); False for a reflex vertex."""
-        return self.core.convex
+        return self._handle.convex
 
     @property
     def is_convex(self) -> bool:
         """True if there is no hole and no reflex vertex."""
-        return self.core.is_convex
+        return self._handle.is_convex
 
     @cached_property
     def interior_angles(self) -> Floats:
@@ -260,7 +259,7 @@ class Polygon(Shown):
     @cached_property
     def pieces(self) -> tuple[tuple[int, ...], ...]:
         """Convex pieces that cover the polygon, counter-clockwise, as indices of vertices."""
-        return tuple(map(tuple, self.core.pieces))
+        return tuple(map(tuple, self._handle.pieces))
 
     # other libraries
 
@@ -296,7 +295,7 @@ class Polygon(Shown):
 def polygon_of(core: _core.Polygon) -> Polygon:
     """Wrap a polygon of the core."""
     polygon = Polygon.__new__(Polygon)
-    object.__setattr__(polygon, "core", core)
+    object.__setattr__(polygon, "_handle", core)
     return polygon
 
 

@@ -19,8 +19,8 @@ def core_shapes(
 ) -> tuple[Any, ...]:
     """Return polygons and bounds in the core's form."""
     return (
-        [part.core for part in robot],
-        [obstacle.core for obstacle in obstacles],
-        workspace and workspace.core,
+        [part._handle for part in robot],
+        [obstacle._handle for obstacle in obstacles],
+        workspace and workspace._handle,
         bounds and list(bounds),
     )

@@ -201,7 +201,7 @@ def _apart(proof: Separated | AllSeparated) -> str | None:
 
 def _draw_slice(panel: Panel, cut: Slice, colour_of: NDArray[np.int64] | None = None) -> None:
     """Draw forbidden positions and the contacts around them, coloured by kind, or by the number of each trapezoid."""
-    xy, start, shell = cut.boundary.slicer.rings(*cut._place)
+    xy, start, shell = cut.boundary._slicer.rings(*cut._place)
     points = xy.reshape(-1, 2)
     rings = [points[i:j] for i, j in pairwise(start)]
     panel.shapes(rings, FORBIDDEN, frame=bool((shell == -1).any()))

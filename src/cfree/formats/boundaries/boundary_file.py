@@ -249,4 +249,4 @@ def misfit(
 
 def _inconsistent(boundary: Boundary) -> str:
     """Return the name of a column that contradicts the scene or the other columns, exactly, or an empty text."""
-    return _core.misfit(boundary.core, os.cpu_count() or 1)
+    return _core.misfit(boundary._handle, os.cpu_count() or 1)
