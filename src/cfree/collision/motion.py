@@ -41,6 +41,7 @@ from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 
 Floats = NDArray[np.float64]
 MOST_HALVES = 1000
+ROTATION = ("pole", "tau", "clockwise", "angle_error")  # attributes of a rotation
 
 
 @dataclass(frozen=True, init=False)
@@ -193,7 +194,7 @@ class Rotation:
                     f"angle {angle!r} is more than half a turn; divide it, as cfree.collision.rotations does"
                 )
         values = (_point("pole", pole), turned.tau, clockwise, turned.theta_error)
-        for name, value in zip(("pole", "tau", "clockwise", "angle_error"), values, strict=True):
+        for name, value in zip(ROTATION, values, strict=True):
             object.__setattr__(self, name, value)
 
     @property
@@ -319,16 +320,33 @@ def motion_between(a: PoseLike, b: PoseLike) -> Translation | Rotation:
     >>> motion_between(Pose(1, 0), Pose(0, 1, "90deg"))
     Rotation(pole=(Fraction(0, 1), Fraction(0, 1)), tau=Fraction(1, 1), clockwise=False, angle_error=0.0)
     """
-    a = to_pose(a, "a")
-    b = to_pose(b, "b")
+    return joining(to_pose(a, "a"), to_pose(b, "b"))
+
+
+def joining(a: Pose, b: Pose) -> Translation | Rotation:
+    """Return the motion of `motion_between`; the poses are not checked."""
     dx, dy = b.x - a.x, b.y - a.y
     if a.tau == b.tau:
-        return Translation((dx, dy))
+        return _translation((dx, dy))
     (q, p), (r, s) = ((0, 1) if tau is None else (tau.denominator, tau.numerator) for tau in (a.tau, b.tau))
     cosine, sine = q * r + p * s, q * s - p * r  # of half the angle between them, times the same
     cotangent = Fraction(cosine, sine)
     pole = (a.x + b.x - cotangent * dy) / 2, (a.y + b.y + cotangent * dx) / 2
-    return Rotation(pole, {"tau": Fraction(sine, cosine) if cosine else None})
+    return _rotation(pole, Fraction(sine, cosine) if cosine else None)
+
+
+def _translation(vector: ExactPoint) -> Translation:
+    motion = object.__new__(Translation)
+    object.__setattr__(motion, "vector", vector)
+    return motion
+
+
+def _rotation(pole: ExactPoint, tau: Fraction | None) -> Rotation:
+    """Return a rotation by 2 atan(tau), or half a turn counter-clockwise; the numbers are not checked."""
+    motion = object.__new__(Rotation)
+    for name, value in zip(ROTATION, (pole, tau, tau is not None and tau < 0, 0.0), strict=True):
+        object.__setattr__(motion, name, value)
+    return motion
 
 
 @checked

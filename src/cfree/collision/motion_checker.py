@@ -14,7 +14,7 @@ from typing import Any
 
 import cfree._core as _core
 from cfree.arguments import checked
-from cfree.collision.motion import Motion, Rotation, Translation, motion_between
+from cfree.collision.motion import Motion, Rotation, Translation, joining
 from cfree.collision.slide import Slide
 from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.kind import Kind
@@ -117,7 +117,9 @@ class MotionChecker(Value):
 
     @checked
     def _is_free(self, pose: PoseLike, motion: Motion) -> bool:
-        pose = to_pose(pose, "pose")
+        return self._decided(to_pose(pose, "pose"), motion)
+
+    def _decided(self, pose: Pose, motion: Motion) -> bool:
         if isinstance(motion, Slide):
             return self._outside(pose) is None and self._handle.is_slide_free(self._slide_integers(pose, motion))
         return bool(self._handle.is_free(pose, motion, motion.kind == "rotation"))
@@ -125,7 +127,7 @@ class MotionChecker(Value):
     @checked
     def joins(self, poses: Sequence[Pose]) -> bool:
         """True if the motions of `motion_between` from each of these poses to the next are free."""
-        return all(self.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
+        return all(self.is_free(a, joining(a, b)) for a, b in pairwise(poses))
 
     @checked
     def first_free(self, ways: Iterable[Sequence[Pose]]) -> Sequence[Pose] | None:
@@ -141,7 +143,9 @@ class MotionChecker(Value):
         UnsupportedError
             If the motion is a slide: call `is_free` for parts of it.
         """
-        pose = to_pose(pose, "pose")
+        return self._first_contact(to_pose(pose, "pose"), motion)
+
+    def _first_contact(self, pose: Pose, motion: Motion) -> FirstContact | None:
         if isinstance(motion, Slide):
             raise UnsupportedError("a slide has no first contact; call is_free for parts of it, from Slide.between")
         if (outside := self._outside(pose)) is not None:
@@ -220,8 +224,7 @@ def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
 
 @checked
 def _is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
-    pose = to_pose(pose, "pose")
-    return MotionChecker(scene).is_free(pose, motion)
+    return MotionChecker(scene)._decided(to_pose(pose, "pose"), motion)
 
 
 def _of_one(core: _core.MotionChecker, pose: Any, motion: Motion) -> bool | None:
@@ -247,8 +250,7 @@ def first_contact(scene: Scene, pose: PoseLike, motion: Motion) -> FirstContact 
     >>> print(found.at, found.contact)
     1/3 VertexEdge(i=2, j=0)
     """
-    pose = to_pose(pose, "pose")
-    return MotionChecker(scene).first_contact(pose, motion)
+    return MotionChecker(scene)._first_contact(to_pose(pose, "pose"), motion)
 
 
 def _crossing(polynomial: list[int]) -> Surd:

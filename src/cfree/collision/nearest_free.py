@@ -12,9 +12,10 @@ import numpy as np
 from cfree.arguments import checked
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.collision.pose_checker import PoseChecker
+from cfree.collision.pose_checker import PoseChecker, is_free_at
 from cfree.errors import InvalidPoseError
-from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
+from cfree.exact.half_angle import sum_of_angles
+from cfree.exact.pose import Pose, PoseLike, Poses, pose_at, to_pose
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.naming import placed
 from cfree.scene.scene import Scene, box_of, robot_radius
@@ -28,6 +29,7 @@ ROUNDS, TRIES, CLOSER, HALVINGS = 60, 64, 0.85, 45  # of the search for a nearer
 SAMPLES, MISSES, ENOUGH = 40_000, 3, 0.99  # random poses in each round before that; rounds without a gain that end it
 DIGITS, ROUGHLY = 18, 0.01  # most digits of its numbers; how much farther it may be to have fewer
 NOTHING = 1e-9  # smaller parts of an offset count as 0
+STILL = Translation((0, 0))
 TURNS = (0.0, 1.0, -1.0, 5.0, -5.0, 15.0, -15.0, 45.0, -45.0, 90.0, -90.0, 180.0)  # degrees
 
 
@@ -66,11 +68,14 @@ def require_free(scene: Scene | PoseChecker, pose: PoseLike, name: str = "pose")
     cfree.collision.nearest_free.ForbiddenPoseError: start (1.25, 2, 0 deg) is forbidden: \
 robot part 0 overlaps obstacle 0, 1 x 9 at (2.5, 4.5); (0.96, 2, 0 deg) is free and near by
     """
-    pose = to_pose(pose, "pose")
-    checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
-    if checker.is_free(pose):
+    refuse_forbidden(_checker_of(scene), to_pose(pose, "pose"), name)
+
+
+def refuse_forbidden(checker: PoseChecker, pose: Pose, name: str) -> None:
+    """Raise the error of `require_free` if a pose is forbidden; the arguments are not checked."""
+    if is_free_at(checker, pose):
         return
-    free = free_nearby(checker, pose)
+    free = _on_circles(checker, pose, FARTHEST)
     advice = "no free pose was found near by; give another" if free is None else f"{_shown(free)} is free and near by"
     fault = _overlap(checker.scene, pose)
     raise ForbiddenPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
@@ -93,8 +98,7 @@ def free_nearby(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
     >>> float(found.x), float(found.y), found.tau
     (0.96, 2.0, Fraction(0, 1))
     """
-    checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
-    return _on_circles(checker, to_pose(pose, "pose"), FARTHEST)
+    return _on_circles(_checker_of(scene), to_pose(pose, "pose"), FARTHEST)
 
 
 @checked
@@ -124,14 +128,19 @@ def nearest_free(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
     >>> nearest_free(scene, Pose("1.25", 2)) == Pose(1, 2)
     True
     """
-    pose = to_pose(pose, "pose")
-    checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
-    if checker.is_free(pose):
+    return search_nearest(_checker_of(scene), to_pose(pose, "pose"))
+
+
+def search_nearest(checker: PoseChecker, pose: Pose) -> Pose | None:
+    """Return the pose of `nearest_free`; the arguments are not checked."""
+    if is_free_at(checker, pose):
         return pose
     length, (low, high) = _length(checker), _extent(checker.scene)
     x, y = np.clip((float(pose.x), float(pose.y)), low, high).tolist()
-    inside = Pose(x, y, {"tau": pose.tau})
-    near = inside if checker.is_free(inside) else _on_circles(checker, inside, _reach(checker.scene, inside) / length)
+    inside = pose_at(Fraction(x), Fraction(y), pose.tau)
+    near = (
+        inside if is_free_at(checker, inside) else _on_circles(checker, inside, _reach(checker.scene, inside) / length)
+    )
     if near is None:
         return None
     here = np.array([float(pose.x), float(pose.y), pose.theta])
@@ -141,9 +150,13 @@ def nearest_free(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
         places = [place for turn in (0.0, offset[2]) for place in _rounded(pose, (*offset[:2], turn), length, digits)]
         ways = [(_way(_offset(pose, place, length)), k) for k, place in enumerate(places)]
         for way, k in sorted(ways):
-            if way <= most and checker.is_free(places[k]):
+            if way <= most and is_free_at(checker, places[k]):
                 return places[k]
     return near
+
+
+def _checker_of(scene: Scene | PoseChecker) -> PoseChecker:
+    return scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
 
 
 def _closer(checker: PoseChecker, here: Floats, first: Floats, length: float) -> Floats:
@@ -185,12 +198,12 @@ def _rounded(pose: Pose, offset: Sequence[float], length: float, digits: int) ->
     unit = Fraction(10) ** (math.floor(math.log10(size)) - digits)
     degrees = math.degrees(offset[2] / length)
     rounded = round(degrees, digits - math.floor(math.log10(abs(degrees)))) if degrees else 0.0
-    tau = (Pose(0, 0, f"{rounded:.12f}deg") @ Pose(0, 0, {"tau": pose.tau})).tau
+    tau = sum_of_angles(Pose(0, 0, f"{rounded:.12f}deg").tau, pose.tau)
     ends = []
     for c, d in ((pose.x, offset[0]), (pose.y, offset[1])):
         below = math.floor((c + Fraction(d)) / unit)
         ends.append([c] if abs(d) < NOTHING * size else [below * unit, (below + 1) * unit])
-    yield from (Pose(x, y, {"tau": tau}) for x in ends[0] for y in ends[1])
+    yield from (pose_at(x, y, tau) for x in ends[0] for y in ends[1])
 
 
 def _offset(pose: Pose, other: Pose, length: float) -> Floats:
@@ -238,10 +251,9 @@ def _on_circles(checker: PoseChecker, pose: Pose, farthest: float) -> Pose | Non
     free = checker.is_free(Poses(places, pose.theta + np.radians(table[:, 2])))
     for k in np.flatnonzero(free).tolist():
         turn, digits = table[k, 2:].tolist()
-        x, y = (round(c, int(digits)) for c in places[k].tolist()) if digits else (pose.x, pose.y)
-        tilt = Pose(0, 0, f"{turn:g}deg")
-        near = Pose(x, y, {"tau": (tilt @ Pose(0, 0, {"tau": pose.tau})).tau})
-        if checker.is_free(near):
+        x, y = (Fraction(round(c, int(digits))) for c in places[k].tolist()) if digits else (pose.x, pose.y)
+        near = pose_at(x, y, sum_of_angles(Pose(0, 0, f"{turn:g}deg").tau, pose.tau))
+        if is_free_at(checker, near):
             return near
     return None
 
@@ -260,7 +272,7 @@ def _circle(radius: float, length: float) -> Floats:
 
 
 def _overlap(scene: Scene, pose: Pose) -> str:
-    contact = MotionChecker(scene).first_contact(pose, Translation((0, 0)))
+    contact = MotionChecker(scene)._first_contact(pose, STILL)
     assert contact is not None  # both are exact
     if contact.obstacle == BOUNDS:
         return "the reference point is outside the bounds"

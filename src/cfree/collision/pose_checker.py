@@ -209,10 +209,10 @@ class PoseChecker(Value):
         if threads is not None and threads < 1:
             raise ValueError(f"threads: {threads}; give at least 1")
         if (pose := one_pose(poses, "poses")) is not None:
-            return self._is_free_exactly(pose)
+            return is_free_at(self, pose)
         table = rows_of(poses)
         if isinstance(table, list):
-            return np.array([self._is_free_exactly(pose) for pose in table], bool)
+            return np.array([is_free_at(self, pose) for pose in table], bool)
         verdicts = self.verdicts(table, threads)
         for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
             verdicts[k] = FREE if self._handle.is_free(table[k].tolist()) else FORBIDDEN
@@ -255,13 +255,15 @@ class PoseChecker(Value):
         first, change = (np.asarray(each, float).tolist() for each in (start, by))
         return self._handle.sweep_is_free(first, change)
 
-    def _is_free_exactly(self, pose: Pose) -> bool:
-        free: Any = self._handle.is_free(pose)
-        if free is None:  # on a limit, or nearly so
-            x0, y0, x1, y1 = self.limits
-            is_within = x0 <= pose.x <= x1 and y0 <= pose.y <= y1
-            free = is_within and self._handle.is_free(pose, is_within)
-        return bool(free)
+
+def is_free_at(checker: PoseChecker, pose: Pose) -> bool:
+    """True if a pose is free, decided exactly; it is not checked."""
+    free: Any = checker._handle.is_free(pose)
+    if free is None:  # on a limit, or nearly so
+        x0, y0, x1, y1 = checker.limits
+        is_within = x0 <= pose.x <= x1 and y0 <= pose.y <= y1
+        free = is_within and checker._handle.is_free(pose, is_within)
+    return bool(free)
 
 
 def _prepared(scene: Scene) -> tuple[_core.PoseChecker, Limits]:

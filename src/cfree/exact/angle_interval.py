@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from cfree.arguments import checked
 from cfree.exact.algebraic import Exact, Root
-from cfree.exact.half_angle import Angle, normalize_angles, tau_in_chart, theta_in
+from cfree.exact.half_angle import Angle, normalize_angles, tau_in_chart, theta_in, to_chart
 from cfree.exact.pose import Pose, PoseLike, to_pose
 
 FINE = Fraction(1, 1 << 60)
@@ -30,13 +30,11 @@ class AlgebraicAngle:
             chart, root = 1 - chart, Root.of(Fraction(-1))
         self.chart, self.polynomial, self._root = chart, root.poly, root
 
-    @classmethod
+    @staticmethod
     @checked
-    def of(cls, pose: PoseLike) -> AlgebraicAngle:
+    def of(pose: PoseLike) -> AlgebraicAngle:
         """The orientation of a pose."""
-        pose = to_pose(pose, "pose")
-        chart, local = pose.chart
-        return cls(chart, Root.of(local))
+        return orientation_of(to_pose(pose, "pose").tau)
 
     def __repr__(self) -> str:
         return f"AlgebraicAngle({self.theta!r})"
@@ -83,6 +81,12 @@ class AlgebraicAngle:
         while self._root.hi - self._root.lo > width:
             self._root.narrow()
         return self._root.lo, self._root.hi
+
+
+def orientation_of(tau: Fraction | None) -> AlgebraicAngle:
+    """Return the orientation with a half-angle tangent."""
+    chart, local = to_chart(tau)
+    return AlgebraicAngle(chart, Root.of(local))
 
 
 @dataclass(frozen=True)

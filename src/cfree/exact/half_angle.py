@@ -240,7 +240,7 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
     """Read an angle as tau, theta in [0, 2 pi) and the bound on their distance."""
     if isinstance(theta, Mapping):
         tau = _read_tau(theta)
-        return tau, _angle_of(tau), 0.0
+        return tau, theta_from(tau), 0.0
     value, unit = number_and_unit(theta)
     if unit == "deg":
         degrees = to_rational("theta", value)
@@ -345,8 +345,14 @@ def sum_of_angles(tau: Fraction | None, other: Fraction | None) -> Fraction | No
     return (tau + other) / below if below else None
 
 
-def _angle_of(tau: Fraction | None) -> float:
-    """2 atan(tau) in [0, 2 pi), a double."""
+def theta_from(tau: Fraction | None) -> float:
+    """Angle 2 atan(tau) in [0, 2 pi), a double.
+
+    Examples
+    --------
+    >>> theta_from(Fraction(1)), theta_from(None)
+    (1.5707963267948966, 3.141592653589793)
+    """
     if tau is None:
         return math.pi
     if abs(tau.numerator) > tau.denominator:

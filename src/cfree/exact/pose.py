@@ -24,6 +24,7 @@ from cfree.exact.half_angle import (
     normalize_angles,
     read_angle,
     sum_of_angles,
+    theta_from,
     to_chart,
     to_rational,
 )
@@ -157,7 +158,7 @@ class Pose:
         True
         """
         ((x, y),) = self.apply_exact([(other.x, other.y)])
-        return _pose(x, y, sum_of_angles(self.tau, other.tau), self.theta_error + other.theta_error)
+        return pose_at(x, y, sum_of_angles(self.tau, other.tau), self.theta_error + other.theta_error)
 
     def inverse(self) -> Pose:
         """Pose that undoes this one.
@@ -171,7 +172,7 @@ class Pose:
         tau = None if self.tau is None else -self.tau
         c, s, w = half_angle_rotation(tau)
         x, y = Fraction(s * self.y - c * self.x, w), Fraction(-s * self.x - c * self.y, w)
-        return _pose(x, y, tau, self.theta_error)
+        return pose_at(x, y, tau, self.theta_error)
 
 
 PoseLike = Pose | Sequence[Any]  # or (x, y, theta), as `Pose` takes them
@@ -309,9 +310,18 @@ class Poses(Value):
         return Poses(-_rotate(-self.theta, self.xy), -self.theta)
 
 
-def _pose(x: Fraction, y: Fraction, tau: Fraction | None, theta_error: float) -> Pose:
-    pose = Pose(x, y, {"tau": tau})
-    object.__setattr__(pose, "theta_error", theta_error)
+def pose_at(x: Fraction, y: Fraction, tau: Fraction | None, theta_error: float = 0.0) -> Pose:
+    """Return the pose of exact numbers; they are not checked.
+
+    Examples
+    --------
+    >>> pose_at(Fraction(1), Fraction(2), Fraction(1)) == Pose(1, 2, "90deg")
+    True
+    """
+    pose = object.__new__(Pose)
+    values = (x, y, tau, theta_from(tau), theta_error)
+    for name, value in zip(Pose.__slots__, values, strict=True):
+        object.__setattr__(pose, name, value)
     return pose
 
 

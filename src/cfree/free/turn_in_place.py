@@ -16,11 +16,13 @@ from cfree.arguments import checked
 from cfree.collision.pose_checker import limits_of
 from cfree.exact.angle_interval import AngleInterval
 from cfree.exact.angle_set import Arcs, Form, union_of_intersections, where_not_positive
-from cfree.exact.number import Number, common_denominator, to_fraction
+from cfree.exact.number import ExactPoint, Number, common_denominator, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import Boundary
 from cfree.scene.features import BODY, Point, ShapeFeatures, scene_features
 from cfree.scene.scene import Scene
+
+ORIGIN: ExactPoint = (Fraction(0), Fraction(0))
 
 
 @checked
@@ -63,11 +65,18 @@ def turn_in_place(
     [((0.0, 0.0), True), ((3.141592653589793, 3.141592653589793), True)]
     """
     pose = to_pose(pose, "pose")
-    features = scene.features if isinstance(scene, Boundary) else scene_features(scene)
-    limits = limits_of(scene.scene if isinstance(scene, Boundary) else scene)
     P = (pose.x, pose.y) if pole is None else (to_fraction(pole[0]), to_fraction(pole[1]))
     back = Pose(0, 0, {"tau": pose.tau}).inverse()
     (of_pole,) = back.apply_exact([(P[0] - pose.x, P[1] - pose.y)])  # in the robot's frame
+    return free_orientations(scene.scene if isinstance(scene, Boundary) else scene, P, of_pole)
+
+
+def free_orientations(scene: Scene, P: ExactPoint, of_pole: ExactPoint = ORIGIN) -> tuple[AngleInterval, ...]:
+    """Return the orientations of `turn_in_place` about a point that is at `of_pole` in the robot's frame.
+
+    By default that is the reference point. The arguments are not checked.
+    """
+    features, limits = scene_features(scene), limits_of(scene)
     finite = [limit for limit in limits if isinstance(limit, Fraction)]
     unit = math.lcm(features.scale, common_denominator([*P, *of_pole, *finite]))
     x, y, ax, ay = (int(c * unit) for c in (*P, *of_pole))
