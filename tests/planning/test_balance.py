@@ -11,7 +11,8 @@ import pytest
 
 import cfree
 from cfree import Path, Pose, Scene, clearance, narrowest, plan
-from cfree.planning.planner import Planner
+from cfree.planning.options import Options
+from cfree.planning.pose_planner import PosePlanner
 
 ROOT = FilePath(__file__).resolve().parents[2]
 
@@ -154,16 +155,15 @@ def test_other_ways_are_looked_for_if_there_is_time() -> None:
 
 def test_improving_ends_with_the_wish_to_stop() -> None:
     scene = throat(0.1)
-    planner = Planner(scene)
+    options = Options()
     poses = list(found(scene, improve=0).poses)
-    planner.stop.set()
+    options.stop.set()
     with pytest.raises(KeyboardInterrupt):
-        planner._improver(poses).balanced(poses, 60.0)
+        PosePlanner(scene).improver(poses, options).balanced(poses, 60.0)
 
 
 def test_what_doubles_guided_wrongly_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = throat(0.1)
-    planner = Planner(scene)
     poses = [q for q in found(scene, improve=0).poses]
     monkeypatch.setattr(cfree.MotionChecker, "joins", lambda self, way: False)
-    assert planner._improver(poses).balanced(poses, None) is poses
+    assert PosePlanner(scene).improver(poses, Options()).balanced(poses, None) is poses

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cfree import MotionChecker, Planner, Pose, Rotation, Scene
+from cfree import MotionChecker, Pose, Rotation, Scene
 from cfree.collision.motion import motion_between
 from cfree.planning.near_poles import near_poles
+from cfree.planning.pose_planner import PosePlanner
 from shapes import box
 
 ROD = Scene(box(0, 0, 4, 1)[0], [box(-9, -1, 30, 0)[0], box(-9, 9, 30, 10)[0]])  # its corner slides on a floor
@@ -40,7 +41,7 @@ def test_a_small_turn_on_a_long_way_is_a_turn_and_a_translation(tau: str, y: int
 @given(*[st.fractions(1, 4, max_denominator=99)] * 2, st.fractions("1e-15", "1e-6"))
 def test_paths_have_no_far_poles_where_there_is_room(x: Fraction, y: Fraction, tau: Fraction) -> None:
     goal = Pose(x, y, {"tau": tau})
-    path = Planner(ROD).path([Pose(0, 2), goal])
+    path = PosePlanner(ROD).path([Pose(0, 2), goal])
     assert path.goal == goal and len(path.motions) <= 8 and max(poles([*path.poses])) <= 1000 * SIZE
 
 

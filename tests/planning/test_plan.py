@@ -33,6 +33,8 @@ from cfree import (
     plan,
     plan_many,
 )
+from cfree.planning.options import Options
+from cfree.planning.pose_planner import PosePlanner
 from cfree.verify import answer
 from compared import plain_of, scene_of
 from examples import EXAMPLES
@@ -440,5 +442,5 @@ def test_numbers_of_clear_paths_are_short() -> None:
 def test_a_ray_that_links_surfaces_may_be_along_a_level_edge() -> None:
     diamonds = [[(x - 1, y), (x, y - 1), (x + 1, y), (x, y + 1)] for x, y in ((0, 0), (10, 2))]
     scene = Scene([(0, 0), (2, 0), (0, 1)], diamonds)
-    way = Planner(scene).walk(Pose(-9, 0), Pose(20, 0))
+    way = PosePlanner(scene).walk(Pose(-9, 0), Pose(20, 0), Options())
     assert way and (way[0], way[-1]) == (Pose(-9, 0), Pose(20, 0)) and MotionChecker(scene).joins(way)

@@ -10,8 +10,10 @@ from typing import Any
 import pytest
 
 import cfree.verify
-from cfree import MotionChecker, Path, Planner, Pose, Scene, Slide, boundary, free_space, nearest_miss, plan
+from cfree import MotionChecker, Path, Pose, Scene, Slide, boundary, free_space, nearest_miss, plan
 from cfree.errors import InvalidPoseError
+from cfree.planning.options import Options
+from cfree.planning.pose_planner import PosePlanner
 
 F = Fraction
 Ring = Sequence[tuple[Any, Any]]
@@ -45,8 +47,8 @@ def answered(scene: Scene, start: Pose, goal: Pose) -> str:
 def walked(scene: Scene, start: Pose, goal: Pose) -> Path:
     """Without a search."""
     space = free_space(boundary(scene))
-    planner = Planner(space.boundary.scene, space)
-    way = planner.walk(start, goal)
+    planner = PosePlanner(space.boundary.scene, space)
+    way = planner.walk(start, goal, Options())
     assert way is not None
     return planner.path(way)
 

@@ -18,6 +18,8 @@ import numpy as np
 import fuzz
 from cfree import MotionChecker, Path, Planner, Pose, Poses, Scene, boundary, free_space
 from cfree.errors import InvalidPolygonError, UnsupportedError
+from cfree.planning.options import Options
+from cfree.planning.pose_planner import PosePlanner
 from compared import scene_of
 from flood import flood
 from oracles import AtALoss
@@ -66,9 +68,10 @@ def mistakes(kind: str, number: int, tally: Counter[str], most: int = 3) -> list
     pairs = list(combinations(range(len(poses)), 2))
     rng.shuffle(pairs)
     for i, j in [(i, j) for i, j in pairs if cells[i] == cells[j]][:most]:
-        way = planner.walk(poses[i], poses[j])
+        between = PosePlanner(scene, planner.space)
+        way = between.walk(poses[i], poses[j], Options())
         assert way is not None
-        walked = planner.path(way)
+        walked = between.path(way)
         tally["walks"] += 1
         if not (walked.is_free(checker) and walked.start == poses[i] and walked.goal == poses[j]):
             wrong.append(f"walk from {poses[i]} to {poses[j]} is not free")

@@ -12,10 +12,10 @@ import numpy as np
 from cfree.arguments import checked
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.collision.pose_checker import PoseChecker, is_free_at
+from cfree.collision.pose_checker import PoseChecker, are_free, is_free_at
 from cfree.errors import InvalidPoseError
-from cfree.exact.half_angle import sum_of_angles
-from cfree.exact.pose import Pose, PoseLike, Poses, pose_at, to_pose
+from cfree.exact.half_angle import normalize_angles, sum_of_angles
+from cfree.exact.pose import Pose, PoseLike, pose_at, to_pose
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.naming import placed
 from cfree.scene.scene import Scene, box_of, robot_radius
@@ -164,8 +164,8 @@ def _closer(checker: PoseChecker, here: Floats, first: Floats, length: float) ->
     rng, best = np.random.default_rng(0), first
 
     def free(offsets: Floats) -> Floats:
-        poses = Poses(here[:2] + offsets[:, :2], here[2] + offsets[:, 2] / length)
-        return offsets[np.asarray(checker.is_free(poses))]
+        theta = normalize_angles(here[2] + offsets[:, 2] / length)
+        return offsets[are_free(checker, np.column_stack([here[:2] + offsets[:, :2], theta]))]
 
     misses = 0
     while misses < MISSES:
@@ -248,7 +248,8 @@ def _on_circles(checker: PoseChecker, pose: Pose, farthest: float) -> Pose | Non
     table = np.concatenate([turns, *offsets])
     table = table[np.argsort(np.hypot(*table[:, :2].T) + length * np.radians(np.abs(table[:, 2])), kind="stable")]
     places = np.array([float(pose.x), float(pose.y)]) + table[:, :2]
-    free = checker.is_free(Poses(places, pose.theta + np.radians(table[:, 2])))
+    theta = normalize_angles(pose.theta + np.radians(table[:, 2]))
+    free = are_free(checker, np.column_stack([places, theta]))
     for k in np.flatnonzero(free).tolist():
         turn, digits = table[k, 2:].tolist()
         x, y = (Fraction(round(c, int(digits))) for c in places[k].tolist()) if digits else (pose.x, pose.y)

@@ -213,20 +213,12 @@ class PoseChecker(Value):
         table = rows_of(poses)
         if isinstance(table, list):
             return np.array([is_free_at(self, pose) for pose in table], bool)
-        verdicts = self.verdicts(table, threads)
-        for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
-            verdicts[k] = FREE if self._handle.is_free(table[k].tolist()) else FORBIDDEN
-        free: NDArray[np.bool_] = verdicts == FREE
-        return free
+        return are_free(self, table, threads)
 
     @checked
     def verdicts(self, table: Floats, threads: int | None = None) -> NDArray[np.uint8]:
         """Return FORBIDDEN or FREE where doubles are certain, else UNCERTAIN; rows x, y and theta in [0, 2 pi)."""
-        verdicts = np.empty(len(table), np.uint8)
-        for k in range(0, len(table), BLOCK):
-            rows = slice(k, k + BLOCK)
-            self._handle.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
-        return verdicts
+        return _verdicts(self, table, threads)
 
     @checked
     def sweep_is_free(self, start: ArrayLike, by: ArrayLike) -> bool:
@@ -264,6 +256,23 @@ def is_free_at(checker: PoseChecker, pose: Pose) -> bool:
         is_within = x0 <= pose.x <= x1 and y0 <= pose.y <= y1
         free = is_within and checker._handle.is_free(pose, is_within)
     return bool(free)
+
+
+def are_free(checker: PoseChecker, table: Floats, threads: int | None = None) -> NDArray[np.bool_]:
+    """True for each free pose, decided exactly: rows x, y and theta in [0, 2 pi), which are not checked."""
+    verdicts = _verdicts(checker, table, threads)
+    for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
+        verdicts[k] = FREE if checker._handle.is_free(table[k].tolist()) else FORBIDDEN
+    free: NDArray[np.bool_] = verdicts == FREE
+    return free
+
+
+def _verdicts(checker: PoseChecker, table: Floats, threads: int | None) -> NDArray[np.uint8]:
+    verdicts = np.empty(len(table), np.uint8)
+    for k in range(0, len(table), BLOCK):
+        rows = slice(k, k + BLOCK)
+        checker._handle.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+    return verdicts
 
 
 def _prepared(scene: Scene) -> tuple[_core.PoseChecker, Limits]:

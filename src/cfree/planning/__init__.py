@@ -1,7 +1,8 @@
 """Paths, or proofs that there are none, made from the poses and surfaces that the core finds.
 
-`planner` calls the core for one pair of poses; `goals`, `many` and `clearance` call it several times. Every motion of a
-path is proved free by a check of the core.
+`plan`, `planner` and `many` are public: they check and convert all arguments. `pose_planner` calls the core for one
+pair of poses; `goals`, `clearance` and `curved` call it several times. Every motion of a path is proved free by a check
+of the core.
 """
 
 from typing import TYPE_CHECKING

@@ -9,21 +9,22 @@ docs/theory/separations.md, "With a clearance", has the proof.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 
 from cfree.collision.nearer import require_distance
-from cfree.collision.nearest_free import require_free
-from cfree.collision.pose_checker import is_free
+from cfree.collision.nearest_free import refuse_forbidden
+from cfree.collision.pose_checker import PoseChecker, is_free_at
 from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.free.turn_in_place import turn_in_place
-from cfree.paths.path import Objective, Path
-from cfree.planning.asked import Planner
+from cfree.free.turn_in_place import free_orientations
+from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated, all_separated, cheapest, name_of, pose_in
+from cfree.planning.options import Options
+from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
 from cfree.polygons.disc import around_disc, inside_disc
 from cfree.polygons.minkowski import convex_sum
@@ -40,15 +41,7 @@ TURNING = Fraction(1, 2**21)  # half the side of the square added to a robot tha
 ROUNDING = 2.0**-40  # relative; exceeds the rounding of a radius
 
 
-def plan_at_distance(
-    scene: Scene,
-    start: Pose,
-    goal: Pose,
-    clearance: Fraction,
-    planner: Callable[[Scene], Planner],
-    improve: float | None,
-    objective: Objective,
-) -> Path | Separated:
+def plan_at_distance(scene: Scene, start: Pose, goal: Pose, options: Options) -> Path | Separated:
     """Plan a path that keeps a clearance above 0, or prove that none does; see `cfree.plan`.
 
     Raises
@@ -59,20 +52,12 @@ def plan_at_distance(
         If the largest clearance of a path is within 0.1 % of this one.
     """
     for pose, name in ((start, "start"), (goal, "goal")):
-        _require(scene, pose, clearance, name)
-    answer = _to_one(_Query(scene, start, clearance, planner, improve, objective), goal, "goal")
+        _require(scene, pose, options.clearance, name)
+    answer = _to_one(_Query(scene, start, options), goal, "goal")
     return answer if isinstance(answer, Path) else answer[0]
 
 
-def plan_any_at_distance(
-    asked: Planner,
-    start: Pose,
-    goals: Sequence[Goal],
-    clearance: Fraction,
-    planner: Callable[[Scene], Planner],
-    improve: float | None,
-    objective: Objective,
-) -> Path | AllSeparated:
+def plan_any_at_distance(scene: Scene, start: Pose, goals: Sequence[Goal], options: Options) -> Path | AllSeparated:
     """Plan a path to one of several goals that keeps a clearance, or prove that none does; see `cfree.plan`.
 
     Raises
@@ -82,11 +67,10 @@ def plan_any_at_distance(
     UndecidedError
         If no path was found, and for a goal the largest clearance is within 0.1 % of this one.
     """
-    scene = asked.scene
     for pose, name in ((start, "start"), *((goal, name_of(goals, k)) for k, goal in enumerate(goals))):
         if isinstance(pose, Pose):
-            _require(scene, pose, clearance, name)
-    query = _Query(scene, start, clearance, planner, improve and improve / len(goals), objective)
+            _require(scene, pose, options.clearance, name)
+    query = _Query(scene, start, options.shared(len(goals)))
     paths, proofs, undecided = list[Path](), list[Separated](), None
     for k, goal in enumerate(goals):
         try:
@@ -97,7 +81,7 @@ def plan_any_at_distance(
             paths += [answer] if isinstance(answer, Path) else []
             proofs += [] if isinstance(answer, Path) else answer
     if paths:
-        return cheapest(paths, asked)
+        return cheapest(paths, scene, options.preferences)
     if undecided is not None:
         raise undecided
     return all_separated(proofs, goals, is_whole=True)
@@ -109,20 +93,17 @@ class _Query:
 
     scene: Scene
     start: Pose
-    clearance: Fraction
-    planner: Callable[[Scene], Planner]
-    improve: float | None
-    objective: Objective
+    options: Options
 
 
 def _require(scene: Scene, pose: Pose, clearance: Fraction, name: str) -> None:
-    require_free(scene, pose, name)
+    refuse_forbidden(PoseChecker(scene), pose, name)
     require_distance(scene, pose, clearance, name)
 
 
 def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
     """Return a path to a pose or place; or a proof for the pose, or for each interval of orientations at the place."""
-    scene, start, clearance = query.scene, query.start, query.clearance
+    scene, start, options, clearance = query.scene, query.start, query.options, query.options.clearance
     hi, disc, inside = math.inf, list[ExactPoint](), list[ExactPoint]()
 
     def for_scene(path: Path | Separated) -> Path | None:
@@ -134,23 +115,24 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
     for sides in SIDES:
         disc, inside = around_disc(clearance, sides), inside_disc(clearance, sides)
         larger = _grown(scene, disc, scene.bounds)
-        outer = query.planner(larger)
-        ends = _ends(larger, start, goal) if is_free(larger, start) else []
-        ways = ([start] if start == end else outer.quick(start, end) for end in ends)
-        answers: list[Path | Separated] = [outer.improved(way, query.improve, query.objective) for way in ways if way]
+        outer = PosePlanner(larger)
+        ends = _ends(larger, start, goal) if is_free_at(PoseChecker(larger), start) else []
+        ways = ([start] if start == end else outer.quick(start, end, options) for end in ends)
+        answers: list[Path | Separated] = [outer.improved(way, options) for way in ways if way]
         if paths := [path for path in map(for_scene, answers) if path]:
-            return cheapest(paths, outer)
+            return cheapest(paths, larger, options.preferences)
         if proofs := _proofs(query, goal, inside, name):
             return proofs
-        answers = [outer.plan(start, end, improve=query.improve, objective=query.objective) for end in ends]
+        answers = [outer.path_or_proof(start, end, options) for end in ends]
         if paths := [path for path in map(for_scene, answers) if path]:
-            return cheapest(paths, outer)
+            return cheapest(paths, larger, options.preferences)
         if all(isinstance(answer, Separated) and answer.of == "closed" for answer in answers):
             hi = _farthest(disc)
     smaller = _grown(scene, inside, scene.bounds)
-    inner = query.planner(smaller)
+    inner = PosePlanner(smaller)
     # the scene's bounds, not the wider ones of a proof
-    is_joined = any(inner.free_space.common_cell(start, end) is not None for end in _ends(smaller, start, goal))
+    ends = _ends(smaller, start, goal)
+    is_joined = any(inner.free_space(options).common_cell(start, end) is not None for end in ends)
     lo = _nearest(inside) if is_joined else 0.0
     raise UndecidedError(
         f"clearance {float(clearance):g} is too near to the largest that a path keeps: that is between {lo:.8g} and "
@@ -163,8 +145,8 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
 def _ends(scene: Scene, start: Pose, goal: Goal) -> list[Pose]:
     """Return the goal if it is a free pose; at a place, one pose for each interval of free orientations."""
     if isinstance(goal, Pose):
-        return [goal] if is_free(scene, goal) else []
-    poses = (pose_in(interval, start, goal) for interval in turn_in_place(scene, Pose(*goal)))
+        return [goal] if is_free_at(PoseChecker(scene), goal) else []
+    poses = (pose_in(interval, start, goal) for interval in free_orientations(scene, goal))
     return [pose for pose in poses if pose]
 
 
@@ -175,18 +157,17 @@ def _proofs(query: _Query, goal: Goal, ring: Sequence[ExactPoint], name: str) ->
     no contact with them is one with the scene's. At a place, it turns without contact where it is free if grown a
     little: so one pose in each interval of such orientations is enough.
     """
-    scene, clearance = query.scene, query.clearance
+    scene, clearance = query.scene, query.options.clearance
     by, within = BEYOND * clearance, cores(scene, THINNER * clearance)
     x0, y0, x1, y1 = scene.bounds or (by, by, -by, -by)
     robot = [Polygon(convex_sum(core.exact_vertices, ring)) for core in within]
     ends = [goal] if isinstance(goal, Pose) else _turned(query, goal, robot, name)
     inner = with_robot(scene, robot, scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by))
-    planner, proofs = query.planner(inner), list[Separated]()
+    planner, proofs = PosePlanner(inner), list[Separated]()
     for end in ends:
-        if (barrier := planner.barrier(query.start, end)) is None:
+        if (proof := planner.proof(query.start, end, query.options)) is None:
             return []
-        proof = Separated._of(barrier, scene, query.start, end)
-        proofs.append(replace(proof, clearance=clearance, cores=tuple(within)))
+        proofs.append(replace(proof, units=scene.units, scene=scene, clearance=clearance, cores=tuple(within)))
     return proofs
 
 
@@ -196,17 +177,17 @@ def _turned(query: _Query, place: ExactPoint, robot: Sequence[Polygon], name: st
     The grown robot stays within the clearance of the scene's robot. So at single orientations, where it fits exactly,
     the scene's robot has less clearance.
     """
-    by = TURNING * query.clearance
+    by = TURNING * query.options.clearance
     square = [(-by, -by), (by, -by), (by, by), (-by, by)]
     larger = with_robot(
         query.scene, [Polygon(convex_sum(part.exact_vertices, square)) for part in robot], query.scene.bounds
     )
-    intervals = [interval for interval in turn_in_place(larger, Pose(*place)) if not interval.is_single]
+    intervals = [interval for interval in free_orientations(larger, place) if not interval.is_single]
     if not intervals:
         x, y = map(float, place)
         raise InvalidPoseError(
             f"{name} ({x:g}, {y:g}): however it is turned there, the robot is nearer to something than "
-            f"{float(query.clearance):g}; give another place, or less clearance"
+            f"{float(query.options.clearance):g}; give another place, or less clearance"
         )
     poses = [pose_in(interval, query.start, place) for interval in intervals]
     return [pose for pose in poses if pose]

@@ -8,7 +8,7 @@ from typing import Any
 
 from cfree.collision.slide import Slide, Touch
 from cfree.contact.kind import Kind
-from cfree.exact.pose import Pose
+from cfree.exact.pose import Pose, pose_at
 from cfree.scene.features import SceneFeatures, ShapeFeatures
 
 Numbers = tuple[int, int, int, int, int, int]  # x and y as quotients, and the direction of half the angle
@@ -30,7 +30,7 @@ def end_of(pose: Pose) -> tuple[Numbers, tuple[float, float, float]]:
 def from_numbers(numbers: Sequence[int]) -> Pose:
     """Convert the core's numbers to a pose."""
     a, b, c, d, q, p = numbers
-    return Pose(Fraction(a, b), Fraction(c, d), {"tau": Fraction(p, q) if q else None})
+    return pose_at(Fraction(a, b), Fraction(c, d), Fraction(p, q) if q else None)
 
 
 def way_of(way: tuple[Sequence[Numbers], Sequence[Any]], features: SceneFeatures, slides: Slides) -> list[Pose]:

@@ -23,19 +23,24 @@ from cfree.arguments import checked
 from cfree.collision.approximations import Approximations
 from cfree.collision.nearest_free import ForbiddenPoseError
 from cfree.errors import IncompleteError, InvalidPoseError, UndecidedError
-from cfree.exact.number import Number, to_fraction
+from cfree.exact.number import Number
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.caller import OutOfWork, Work
-from cfree.planning.goals import AllSeparated
-from cfree.planning.planner import Planner
+from cfree.planning.goals import AllSeparated, refuse_far, several
+from cfree.planning.options import Options
+from cfree.planning.planner import Planner, answer_for_any, answer_for_one
+from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
 from cfree.scene.frame import frame_of
+from cfree.scene.goals import Goal
+from cfree.scene.scene import robot_radius
 
 Answer = Path | Separated | AllSeparated
-Ask = Callable[[Planner, float | None, Number | None], Answer]
+Ask = Callable[[PosePlanner, Options], Answer]
+Decided = tuple[PosePlanner, Options]  # a planner for polygons that gave an answer, and its options
 POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
@@ -51,7 +56,7 @@ class CurvedPlanner:
     Parameters
     ----------
     planner : Planner
-        A planner of the scene; the planners for polygons get its settings.
+        A planner of the scene, whose settings are used.
     tolerance : float, optional
         As in `cfree.plan`.
 
@@ -62,24 +67,26 @@ class CurvedPlanner:
     """
 
     def __init__(self, planner: Planner, tolerance: float | None = None) -> None:
-        self.exact = self.scene = planner.scene
-        self.near = Approximations(planner.scene, tolerance)
-        self._planner, self._max_seconds = planner, planner.max_seconds
-        self._is_limited = tolerance is None and planner.max_seconds is None
+        self.scene, self._settings, self._tolerance = planner.scene, planner, tolerance
+        self._near = Approximations(planner.scene, tolerance)
+        self._decided: Decided | None = None
 
     @property
     def preferences(self) -> Preferences:
-        return self._planner.preferences
+        return self._settings.preferences
 
     @property
     def angle_scale(self) -> float:
         """Length per radian in the scene of polygons."""
-        return self._planner.angle_scale
+        return robot_radius(self.scene)
 
     @property
     def free_space(self) -> FreeSpace:
         """The free space of the scene of polygons."""
-        return self._planner.free_space
+        if self._decided is None:
+            return self._settings.free_space
+        planner, options = self._decided
+        return planner.free_space(options)
 
     @checked
     def plan(
@@ -92,12 +99,14 @@ class CurvedPlanner:
         objective: Objective = "balanced",
     ) -> Path | Separated:
         """See `cfree.plan`."""
-        ends = to_pose(start, "start"), to_pose(goal, "goal")
+        begin, end = to_pose(start, "start"), to_pose(goal, "goal")
+        options = self._settings._options(clearance, improve, objective)
+        refuse_far(begin, end)
 
-        def ask(planner: Planner, improve: float | None, clearance: Number | None) -> Answer:
-            return planner.plan(*ends, clearance=clearance, improve=improve, objective=objective)
+        def ask(planner: PosePlanner, options: Options) -> Answer:
+            return answer_for_one(planner, begin, end, options)
 
-        answer = self._answer(ask, ends, improve, clearance)
+        answer = self._answer(ask, (begin, end), options)
         assert not isinstance(answer, AllSeparated)
         return answer
 
@@ -112,57 +121,93 @@ class CurvedPlanner:
         objective: Objective = "balanced",
     ) -> Path | AllSeparated:
         """See `cfree.plan`; for several goals, or places."""
-        first = to_pose(start, "start")
+        begin, ends = to_pose(start, "start"), several(goals)
+        options = self._settings._options(clearance, improve, objective)
+        refuse_far(begin, ends)
 
-        def ask(planner: Planner, improve: float | None, clearance: Number | None) -> Answer:
-            return planner.plan_any(first, goals, clearance=clearance, improve=improve, objective=objective)
+        def ask(planner: PosePlanner, options: Options) -> Answer:
+            return answer_for_any(planner, begin, ends, options)
 
-        ends = first, *(goal for goal in goals if isinstance(goal, Pose))
-        answer = self._answer(ask, ends, improve, clearance)
+        answer = self._answer(ask, (begin, *ends), options)
         assert not isinstance(answer, Separated)
         return answer
 
-    def _answer(self, ask: Ask, ends: Sequence[Pose], improve: float | None, clearance: Number | None) -> Answer:
-        self._begin, self._work = time.monotonic(), Work(PATCHES) if self._is_limited else None
-        self._interval, self._reason = (0.0, math.inf), ""
+    def _answer(self, ask: Ask, ends: Sequence[Goal], options: Options) -> Answer:
+        query = CurvedQuery(self._near, replace(options, tolerance=self._tolerance))
         try:
-            return self._refined(lambda planner, improve: ask(planner, improve, clearance), ends, improve)
+            return query.answer(ask, ends)
+        finally:
+            if query.last is not None:
+                self._decided, self.scene = query.last, query.last[0].scene
+
+
+class CurvedQuery:
+    """One query in a scene with round shapes.
+
+    Parameters
+    ----------
+    near : Approximations
+        The scene's polygons, which the query refines.
+    options : Options
+
+    Attributes
+    ----------
+    last : (PosePlanner, Options) or None
+        The planner for polygons that gave the last answer, and its options.
+    """
+
+    def __init__(self, near: Approximations, options: Options) -> None:
+        self.near, self.options = near, options
+        self.last: Decided | None = None
+        self._begin, self._interval, self._reason = time.monotonic(), (0.0, math.inf), ""
+        self._is_limited = options.tolerance is None and options.max_seconds is None
+        self._work = Work(PATCHES) if self._is_limited else None
+        self._decided: dict[bool, Decided] = {}
+
+    def answer(self, ask: Ask, ends: Sequence[Goal]) -> Answer:
+        """Answer the query; `ask` answers it in a scene of polygons.
+
+        Raises
+        ------
+        UndecidedError
+            If polygons within the tolerance decide neither way.
+        """
+        poses = [end for end in ends if isinstance(end, Pose)]
+        try:
+            return self._refined(ask, poses)
         except UndecidedError as error:
-            if clearance is None:
+            if not self.options.clearance:
                 raise
-            lo, hi = self._around(ask, to_fraction(clearance), error.error)
+            lo, hi = self._around(ask, error.error)
             message = f"{error}; the largest clearance that a path keeps is between {lo:.8g} and {hi:.8g}"
             raise UndecidedError(message, lo=lo, hi=hi, error=error.error) from None
 
-    def _around(self, ask: Ask, clearance: Fraction, error: float) -> tuple[float, float]:
+    def _around(self, ask: Ask, error: float) -> tuple[float, float]:
         """Bound the largest clearance by queries for a smaller and a larger one, in the scenes that gave answers."""
         lo, hi = self._interval
-        for outward, planner in self._decided.items():
-            other = clearance + (-AROUND if outward else AROUND) * Fraction(error)
-            planner.work = Work(PATCHES)
+        for outward, (planner, options) in self._decided.items():
+            other = options.clearance + (-AROUND if outward else AROUND) * Fraction(error)
+            own = replace(options, clearance=other, improve=0.0, work=Work(PATCHES))
             with suppress(IncompleteError, InvalidPoseError):
-                answer = ask(planner, 0.0, other) if other > 0 else None
+                answer = ask(planner, own) if other > 0 else None
                 if outward and isinstance(answer, Path):
                     lo = max(lo, math.nextafter(float(other), 0.0))  # rounded down
                 elif not outward and answer is not None and not isinstance(answer, Path):
                     hi = min(hi, math.nextafter(float(other), math.inf))  # rounded up
         return lo, hi
 
-    def _refined(
-        self, ask: Callable[[Planner, float | None], Answer], ends: Sequence[Pose], improve: float | None
-    ) -> Answer:
-        self._decided: dict[bool, Planner] = {}
+    def _refined(self, ask: Ask, ends: Sequence[Pose]) -> Answer:
         while True:
             apart, within, refused = None, None, None
             try:
-                answer = self._asked(ask, improve, outward=True)
+                answer = self._asked(ask, outward=True)
                 if isinstance(answer, Path):
                     return self._for_curves(answer)
                 apart = answer
             except InvalidPoseError as error:  # the inner scene decides if the round shapes also refuse the pose
                 refused = error
             try:
-                answer = self._asked(ask, 0.0, outward=False)
+                answer = self._asked(ask, outward=False)
                 if answer is not None and refused is None and not isinstance(answer, Path):
                     return self._for_curves(answer)
                 within = answer if refused is None and isinstance(answer, Path) else None
@@ -174,20 +219,20 @@ class CurvedPlanner:
             if not self.near.refine(_poses(within, ends), () if apart is None else apart.obstacles):
                 raise self._undecided(self._reason or TOUCHING)
 
-    def _asked(
-        self, ask: Callable[[Planner, float | None], Answer], improve: float | None, *, outward: bool
-    ) -> Answer | None:
+    def _asked(self, ask: Ask, *, outward: bool) -> Answer | None:
         """Return the answer in one of the two scenes of polygons; None if there is no such scene, or no answer."""
         try:
-            planner = self._planner._of(self.near.scene(outward=outward))
+            planner = PosePlanner(self.near.scene(outward=outward))
         except UndecidedError as error:
             self._reason = str(error)
             return None
-        planner.work = self._work
-        if self._max_seconds is not None:
-            planner.max_seconds = max(0.0, self._max_seconds - (time.monotonic() - self._begin))
+        options, seconds = replace(self.options, work=self._work), self.options.max_seconds
+        if not outward:
+            options = replace(options, improve=0.0)
+        if seconds is not None:
+            options = replace(options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
         try:
-            answer = ask(planner, improve)
+            answer = ask(planner, options)
         except OutOfWork:
             raise self._undecided(OUT_OF_WORK) from None
         except UndecidedError as error:
@@ -195,8 +240,8 @@ class CurvedPlanner:
             self._interval = (max(lo, error.lo), hi) if outward else (lo, min(hi, error.hi))
             return None
         except IncompleteError:
-            raise self._undecided(f"{self._max_seconds:g} seconds were not enough; give more") from None
-        self._planner, self.scene, self._decided[outward] = planner, planner.scene, planner
+            raise self._undecided(f"{seconds:g} seconds were not enough; give more") from None
+        self.last = self._decided[outward] = planner, options
         return answer
 
     def _undecided(self, reason: str) -> UndecidedError:
@@ -205,11 +250,12 @@ class CurvedPlanner:
         return UndecidedError(message, error=error)
 
     def _for_curves(self, answer: Answer) -> Answer:
-        frame = frame_of(self.exact)
+        exact = self.near.exact
+        frame = frame_of(exact)
         if isinstance(answer, AllSeparated):
-            proofs = (replace(proof, curved=self.exact, frame=frame) for proof in answer.proofs)
+            proofs = (replace(proof, curved=exact, frame=frame) for proof in answer.proofs)
             return replace(answer, proofs=tuple(proofs))
-        return replace(answer, curved=self.exact, frame=frame)
+        return replace(answer, curved=exact, frame=frame)
 
 
 def _for_both(inner: ForbiddenPoseError, outer: InvalidPoseError | None) -> ForbiddenPoseError:

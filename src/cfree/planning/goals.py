@@ -10,24 +10,28 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Literal, NoReturn
+from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 from cfree.arguments import checked
-from cfree.collision.nearest_free import require_free
+from cfree.collision.nearest_free import refuse_forbidden
+from cfree.collision.pose_checker import PoseChecker
 from cfree.errors import InvalidPoseError
+from cfree.exact.angle_interval import AngleInterval, orientation_of
 from cfree.exact.number import ExactPoint
-from cfree.exact.pose import Pose
-from cfree.paths.path import Objective, Path
+from cfree.exact.pose import Pose, pose_at
+from cfree.paths.path import Path
+from cfree.paths.preferences import Preferences
 from cfree.planning.separation import NO_TRUTH_VALUE, Separated
+from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.digest import Stamp
-from cfree.scene.goals import Goal
+from cfree.scene.goals import Goal, to_goals
 from cfree.scene.scene import Scene
 from cfree.value import Answer, Shown
 from cfree.words import counted
 
 if TYPE_CHECKING:
-    from cfree.exact.angle_interval import AngleInterval
-    from cfree.planning.asked import Planner
+    from cfree.planning.options import Options
+    from cfree.planning.pose_planner import PosePlanner
 
 BITS = 20  # first number of bits of an orientation next to the end of an interval; doubled as often as needed
 INWARD = math.radians(10)  # distance from the end of an interval, if a quarter of the interval is not less
@@ -114,33 +118,44 @@ class AllSeparated(Shown, Answer):
         return tuple(sorted({k for proof in self.proofs for k in proof.obstacles}))
 
 
-def plan_any(
-    planner: Planner,
-    start: Pose,
-    goals: Sequence[Goal],
-    improve: float | None,
-    objective: Objective,
-) -> Path | AllSeparated:
+def several(goals: Any) -> tuple[Goal, ...]:
+    """Convert an argument to several goals, or to one in a tuple."""
+    ends = to_goals(goals)
+    return (ends,) if isinstance(ends, Pose) else ends
+
+
+def refuse_far(start: Pose, goals: Pose | Sequence[Goal]) -> None:
+    """Raise `InvalidPoseError` if a position is too far away for the core's numbers."""
+    ends = {"goal": goals} if isinstance(goals, Pose) else {f"goal {k}": goal for k, goal in enumerate(goals)}
+    for name, end in ({"start": start} | ends).items():
+        x, y = (end.x, end.y) if isinstance(end, Pose) else end
+        if max(abs(x), abs(y)) > LARGEST:
+            raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
+
+
+def plan_any(planner: PosePlanner, start: Pose, goals: Sequence[Goal], options: Options) -> Path | AllSeparated:
     """Return the cheapest of the paths found to the goals, or a proof for each goal."""
-    require_free(planner.scene, start, "start")
+    checker = PoseChecker(planner.scene)
+    refuse_forbidden(checker, start, "start")
     poses, is_whole = dict[Pose, None](), True
     for k, goal in enumerate(goals):
         name = name_of(goals, k)
         if isinstance(goal, Pose):
-            require_free(planner.scene, goal, name)
+            refuse_forbidden(checker, goal, name)
             poses[goal] = None
         else:
             at_place = list(_poses_at(planner.scene, goal, start, name))
             poses |= dict.fromkeys(pose for pose in at_place if pose is not None)
             is_whole = is_whole and None not in at_place
 
-    ways = [planner.way(start, pose, few=True) for pose in poses]
+    ways = [planner.way(start, pose, options, few=True) for pose in poses]
     if not any(isinstance(way, list) for way in ways):
-        ways = [planner.way(start, pose) if way is None else way for way, pose in zip(ways, poses, strict=True)]
+        pairs = zip(ways, poses, strict=True)
+        ways = [planner.way(start, pose, options) if way is None else way for way, pose in pairs]
     free = [way for way in ways if isinstance(way, list)]
     if free:
-        paths = [planner.improved(way, improve and improve / len(free), objective) for way in free]
-        return cheapest(paths, planner)
+        paths = [planner.improved(way, options.shared(len(free))) for way in free]
+        return cheapest(paths, planner.scene, options.preferences)
     return all_separated([proof for proof in ways if isinstance(proof, Separated)], goals, is_whole=is_whole)
 
 
@@ -149,9 +164,9 @@ def name_of(goals: Sequence[Goal], k: int) -> str:
     return "goal" if len(goals) == 1 else f"goal {k}"
 
 
-def cheapest(paths: Sequence[Path], planner: Planner) -> Path:
-    """Return the path of least cost by the planner's preferences."""
-    return min(paths, key=lambda path: planner.preferences.cost(path, planner.scene))
+def cheapest(paths: Sequence[Path], scene: Scene, preferences: Preferences) -> Path:
+    """Return the path of least cost by preferences."""
+    return min(paths, key=lambda path: preferences.cost(path, scene))
 
 
 def all_separated(proofs: Sequence[Separated], goals: Sequence[Goal], *, is_whole: bool) -> AllSeparated:
@@ -163,10 +178,10 @@ def all_separated(proofs: Sequence[Separated], goals: Sequence[Goal], *, is_whol
 
 def _poses_at(scene: Scene, place: ExactPoint, start: Pose, name: str) -> Iterator[Pose | None]:
     """Yield one pose for each interval of free orientations, turned little from the start; None if irrational."""
-    from cfree.free.turn_in_place import turn_in_place
+    from cfree.free.turn_in_place import free_orientations
 
     x, y = place
-    intervals = turn_in_place(scene, Pose(x, y))
+    intervals = free_orientations(scene, place)
     if not intervals:
         raise InvalidPoseError(f"{name} ({float(x):g}, {float(y):g}): no orientation is free there; give another place")
     for interval in intervals:
@@ -177,9 +192,9 @@ def pose_in(interval: AngleInterval, start: Pose, place: ExactPoint) -> Pose | N
     """Return a pose at a place with an orientation in an interval, turned little from the start; None if irrational."""
 
     def pose(tau: Fraction | None) -> Pose:
-        return Pose(*place, {"tau": tau})
+        return pose_at(*place, tau)
 
-    if interval.start is None or interval.stop is None or interval.contains({"tau": start.tau}):
+    if interval.start is None or interval.stop is None or interval.contains(orientation_of(start.tau)):
         return pose(start.tau)
     if interval.is_single:
         low, high = interval.start.neighbours(BITS)
@@ -189,7 +204,7 @@ def pose_in(interval: AngleInterval, start: Pose, place: ExactPoint) -> Pose | N
     to_first, to_last = (abs(math.remainder(start.theta - end, math.tau)) for end in (first, last))
     near = Pose(*place, first + inward if to_first < to_last else last - inward)
     bits = BITS
-    while not interval.contains({"tau": near.tau}):  # the interval is too narrow
+    while not interval.contains(orientation_of(near.tau)):  # the interval is too narrow
         near = pose(interval.start.neighbours(bits)[1])
         bits *= 2
     return near

@@ -16,7 +16,7 @@ from itertools import pairwise
 from typing import Any
 
 import cfree._core as _core
-from cfree.collision.motion import motion_between
+from cfree.collision.motion import joining
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
 from cfree.paths.clearance import clearance
@@ -102,7 +102,7 @@ class Improver:
     def _least(self, better: Better) -> float:
         """Return the least clearance of a path."""
         poses = [*map(from_numbers, better.path())]
-        place = clearance(Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)]), self.scene)
+        place = clearance(Path(poses[0], [joining(a, b) for a, b in pairwise(poses)]), self.scene)
         return place.least if place else math.inf
 
     def _best(

@@ -14,11 +14,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from cfree.collision.motion import motion_between
+from cfree.collision.motion import joining
 from cfree.collision.motion_checker import MotionChecker
-from cfree.collision.pose_checker import PoseChecker
+from cfree.collision.pose_checker import PoseChecker, are_free, is_free_at
 from cfree.errors import UnsupportedError
-from cfree.exact.pose import Pose, Poses
+from cfree.exact.pose import Pose, pose_at
 from cfree.scene.dilation import grown
 from cfree.scene.scene import Scene, with_robot
 
@@ -60,13 +60,14 @@ def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: f
         if grown_robot := larger(level):
             larger_scene, larger_checker = grown_robot
             places = list(_places(poses))
-            free = np.flatnonzero(larger_checker.is_free(Poses.from_poses([pose for _, pose in places])))
+            rows = np.array([(float(pose.x), float(pose.y), pose.theta) for _, pose in places])
+            free = np.flatnonzero(are_free(larger_checker, rows))
             if len(free) > 1:
                 (i, begin), (j, end) = places[free[0]], places[free[-1]]
                 first = begin if begin in poses else short(begin, poses[i])
                 last = end if end in poses else short(end, poses[j + 1])
                 # the poses of the table were rounded
-                if first and last and all(larger_checker.is_free(pose) for pose in (first, last)):
+                if first and last and all(is_free_at(larger_checker, pose) for pose in (first, last)):
                     way = way_of(larger_scene, first, last)
         if way is None:
             return cleared(poses, level + 1)
@@ -76,7 +77,7 @@ def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: f
     def short(place: Pose, end: Pose) -> Pose | None:
         """Round a pose on a motion to few bits, else they double each time; None if no free motion leads to an end."""
         x, y = (round(c * grid) / grid for c in (place.x, place.y))
-        rounded = Pose(x, y, {"tau": place.tau and place.tau.limit_denominator(2**GRID_BITS)})
+        rounded = pose_at(x, y, place.tau and place.tau.limit_denominator(2**GRID_BITS))
         return rounded if checker.joins([end, rounded]) else None
 
     return cleared(poses, 0)
@@ -86,6 +87,6 @@ def _places(poses: Sequence[Pose]) -> Iterator[tuple[int, Pose]]:
     """Yield exact poses along a path, each with the number of the path's pose before it."""
     for k, (a, b) in enumerate(pairwise(poses)):
         if a != b:
-            motion = motion_between(a, b)
+            motion = joining(a, b)
             yield from ((k, motion.at(a, Fraction(share, PLACES))) for share in range(PLACES))
     yield len(poses) - 1, poses[-1]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from cfree.collision.nearer import require_distance
-from cfree.collision.nearest_free import nearest_free, require_free
-from cfree.collision.pose_checker import PoseChecker, is_free
+from cfree.collision.nearest_free import refuse_forbidden, search_nearest
+from cfree.collision.pose_checker import PoseChecker, is_free, is_free_at
 from cfree.errors import InvalidPoseError
-from cfree.exact.number import Number, to_fraction
-from cfree.exact.pose import Pose
-from cfree.free.turn_in_place import turn_in_place
+from cfree.exact.pose import Pose, pose_at
+from cfree.free.turn_in_place import free_orientations
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated, name_of
 from cfree.planning.separation import Separated
@@ -56,7 +56,7 @@ class Ends:
         return None if its_goal is None and self.asked_start is None else Moved(self.asked_start, its_goal)
 
 
-def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Number | None) -> Ends:
+def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Fraction | None) -> Ends:
     """Move start and goals that are not free to the nearest free poses that a search finds.
 
     Parameters
@@ -65,7 +65,7 @@ def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Numbe
     start : Pose
     goals : sequence of Pose or place
         A place is free if any orientation is.
-    clearance : number or None
+    clearance : Fraction or None
         Distance that they must keep from obstacles and workspace.
 
     Raises
@@ -74,18 +74,17 @@ def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Numbe
         If no free pose is found.
     """
     straight = scene.outer(max(map(size_of, scene.robot)) * ROUND) if scene.curved else scene
-    distance = None if clearance is None else to_fraction(clearance)
-    ring = None if distance is None else around_disc(distance, SIDES)
+    ring = None if clearance is None else around_disc(clearance, SIDES)
     room = PoseChecker(straight if ring is None else with_robot(straight, grown_by(straight, ring), straight.bounds))
 
     def is_fit(end: Goal) -> bool:
         if not isinstance(end, Pose):
-            return bool(turn_in_place(room.scene, Pose(*end)))
-        if distance is None or scene.curved:
-            return room.is_free(end) or (distance is None and is_free(scene, end) is True)
+            return bool(free_orientations(room.scene, end))
+        if clearance is None or scene.curved:
+            return is_free_at(room, end) or (clearance is None and is_free(scene, end) is True)
         try:
-            require_free(scene, end)
-            require_distance(scene, end, distance)
+            refuse_forbidden(PoseChecker(scene), end, "pose")
+            require_distance(scene, end, clearance)
         except InvalidPoseError:
             return False
         return True
@@ -93,9 +92,9 @@ def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Numbe
     def moved(end: Goal, name: str) -> Goal:
         if is_fit(end):
             return end
-        near = nearest_free(room, end if isinstance(end, Pose) else Pose(*end, {"tau": start.tau}))
+        near = search_nearest(room, end if isinstance(end, Pose) else pose_at(*end, start.tau))
         if near is None:
-            far = "" if distance is None else f" and {float(distance):g} away from everything"
+            far = "" if clearance is None else f" and {float(clearance):g} away from everything"
             raise InvalidPoseError(f"{name} {text_of(end)}: no pose near by is free{far}; give another")
         return near if isinstance(end, Pose) else (near.x, near.y)
 

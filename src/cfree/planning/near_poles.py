@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.collision.motion import Rotation, motion_between
+from cfree.collision.motion import Rotation, joining
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.number import ExactPoint
-from cfree.exact.pose import Pose
+from cfree.exact.pose import Pose, pose_at
 
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene
@@ -30,7 +30,7 @@ def near_poles(scene: Scene, checker: MotionChecker, poses: Sequence[Pose]) -> l
     far, centres = (FAR * _size(scene, poses)) ** 2, list(dict.fromkeys(_centres(scene)))
     result = [poses[0]]
     for a, b in pairwise(poses):
-        motion = motion_between(a, b)
+        motion = joining(a, b)
         way: Sequence[Pose] | None = None
         if motion.pole and (motion.pole[0] - a.x) ** 2 + (motion.pole[1] - a.y) ** 2 > far:
             way = checker.first_free(_ways(a, motion, centres))
@@ -52,9 +52,9 @@ def _ways(pose: Pose, motion: Rotation, centres: Sequence[ExactPoint]) -> Iterat
 
 def _turned(a: Pose, b: Pose, centre: ExactPoint) -> Pose:
     """Return a pose turned to the orientation of another, about a point of the robot."""
-    turned = Pose(0, 0, {"tau": b.tau})
+    turned = pose_at(Fraction(0), Fraction(0), b.tau)
     ((x, y),), ((u, v),) = a.apply_exact([centre]), turned.apply_exact([centre])
-    return Pose(x - u, y - v, {"tau": b.tau})
+    return pose_at(x - u, y - v, b.tau)
 
 
 def _centres(scene: Scene) -> Iterator[ExactPoint]:

@@ -6,17 +6,20 @@ from collections.abc import Callable, Sequence
 from typing import Any, cast, overload
 
 from cfree.arguments import checked
+from cfree.collision.approximations import Approximations
 from cfree.exact.number import Number
 from cfree.exact.pose import Pose, PoseLike
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
-from cfree.planning.curved import CurvedPlanner
-from cfree.planning.goals import AllSeparated
+from cfree.planning.curved import CurvedQuery
+from cfree.planning.goals import AllSeparated, refuse_far
 from cfree.planning.moved_ends import free_ends
-from cfree.planning.planner import Planner
+from cfree.planning.options import Options, to_distance, to_seconds
+from cfree.planning.planner import answer_for_any, answer_for_one
+from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
-from cfree.scene.goals import to_goals
+from cfree.scene.goals import Goal, to_goals
 from cfree.scene.scene import Scene, required
 
 
@@ -130,21 +133,43 @@ def plan(
     """
     space = scene if isinstance(scene, FreeSpace) else None
     scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
-    polygon_planner = Planner(scene, space, max_seconds, preferences or NONE, progress)
-    planner = CurvedPlanner(polygon_planner, tolerance) if scene.curved else polygon_planner
+    options = Options(
+        improve=to_seconds(improve),
+        clearance=to_distance(clearance),
+        objective=objective,
+        preferences=preferences or NONE,
+        tolerance=tolerance,
+        nearest_free=nearest_free,
+        max_seconds=max_seconds,
+        progress=progress,
+    )
     if not scene.curved and tolerance is not None:
         raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
     if goal is None and scene.goals:
         goal = scene.goals
     goals = () if goal is None else to_goals(goal)
-    start, one = required(scene, start, goals if isinstance(goals, Pose) else Pose(0, 0) if goals else None)
-    several = goals if isinstance(goals, tuple) and goals else None
-    ends = free_ends(scene, start, several or (one,), clearance) if nearest_free else None
-    if ends:
-        start, several, one = ends.start, several and ends.goals, cast(Pose, ends.goals[0])
-    answer: Path | Separated | AllSeparated
-    if several:
-        answer = planner.plan_any(start, several, clearance=clearance, improve=improve, objective=objective)
+    begin, one = required(scene, start, goals if isinstance(goals, Pose) else Pose(0, 0) if goals else None)
+    return _answer(scene, space, begin, goals if isinstance(goals, tuple) and goals else one, options)
+
+
+def _answer(
+    scene: Scene, space: FreeSpace | None, start: Pose, goals: Pose | tuple[Goal, ...], options: Options
+) -> Path | Separated | AllSeparated:
+    """Answer a query for one pose, or for several goals, any of which will do."""
+    ends = None
+    if options.nearest_free:
+        ends = free_ends(scene, start, (goals,) if isinstance(goals, Pose) else goals, options.clearance or None)
+        start, goals = ends.start, cast(Pose, ends.goals[0]) if isinstance(goals, Pose) else ends.goals
+    refuse_far(start, goals)
+
+    def ask(planner: PosePlanner, options: Options) -> Path | Separated | AllSeparated:
+        if isinstance(goals, Pose):
+            return answer_for_one(planner, start, goals, options)
+        return answer_for_any(planner, start, goals, options)
+
+    if scene.curved:
+        query = CurvedQuery(Approximations(scene, options.tolerance), options)
+        answer = query.answer(ask, (start, goals) if isinstance(goals, Pose) else (start, *goals))
     else:
-        answer = planner.plan(start, one, clearance=clearance, improve=improve, objective=objective)
+        answer = ask(PosePlanner(scene, space), options)
     return ends.marked(answer) if ends else answer

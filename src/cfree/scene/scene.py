@@ -178,12 +178,8 @@ class Scene(Shown, Keeping):
         values["curved"] = any(isinstance(shape, Curved) for shape in shown)
         for key, value in values.items():
             object.__setattr__(self, key, value)
-        if self.curved:
-            return
-        if fault := range_fault(self.robot, self.obstacles, self.workspace, self.bounds):
-            (kind, *index), message = fault
-            place = self.obstacle_names[int(index[0])] if kind == "obstacles" else f"{kind}{index or ''}"
-            raise UnsupportedError(f"{place}: {message}")
+        if not self.curved:
+            _refuse_far(self)
 
     def __repr__(self) -> str:
         title = f"{self.name!r}, " if self.name else ""
@@ -345,6 +341,14 @@ def polygons_for(shape: AnyShape, error: float, outward: bool) -> tuple[Polygon,
     return shape.outer(error) if outward else shape.inner(error)
 
 
+def _refuse_far(scene: Scene) -> None:
+    """Raise `UnsupportedError` if a coordinate is out of range."""
+    if fault := range_fault(scene.robot, scene.obstacles, scene.workspace, scene.bounds):
+        (kind, *index), message = fault
+        place = scene.obstacle_names[int(index[0])] if kind == "obstacles" else f"{kind}{index or ''}"
+        raise UnsupportedError(f"{place}: {message}")
+
+
 def _grown(shape: AnyShape, by: Fraction) -> Curved:
     if isinstance(shape, Polygon):
         outer, *holes = shape.exact_rings
@@ -382,16 +386,26 @@ def robot_radius(scene: Scene) -> float:
 
 
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:
-    """Return the scene with another robot and other bounds, without start and goal."""
-    names = scene.obstacle_names
-    return Scene(
-        robot,
-        scene.obstacles,
-        bounds=bounds,
-        obstacle_names=names,
-        workspace=scene.workspace,
-        reading=scene.reading,
-    )
+    """Return a scene of polygons with another robot and other bounds, without start, goal and texts.
+
+    Raises
+    ------
+    UnsupportedError
+        As from `Scene`.
+
+    Examples
+    --------
+    >>> scene = Scene([(0, 0), (1, 0), (0, 1)], [[(5, 5), (6, 5), (6, 6)]], start=(0, 0, 0), name="a wall")
+    >>> with_robot(scene, scene.robot, None) == Scene(scene.robot, scene.obstacles)
+    True
+    """
+    other = copy(scene)
+    values: dict[str, Any] = {"robot": tuple(robot), "bounds": bounds, "start": None, "goal": None, "goals": ()}
+    values |= {"units": "", "name": "", "note": "", "source": {}, "check": {}, "version": 1}
+    for key, value in values.items():
+        object.__setattr__(other, key, value)
+    _refuse_far(other)
+    return other
 
 
 def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
