@@ -13,7 +13,7 @@ from io import BytesIO
 from typing import Any, Literal
 
 from cfree.errors import FormatError
-from cfree.formats.drawings.dxf_tags import described, mended
+from cfree.formats.drawings.dxf_tags import BINARY, described, essential, mended
 from cfree.formats.drawings.dxf_walk import DRAWING, Layers, Place, Walk
 from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.signals import ask
@@ -56,7 +56,7 @@ def read_dxf(source: Source) -> Shapes:
     if tags.mended:
         source.note("mended", "entity without subclass markers", count=tags.mended)
     try:
-        document, faults = _loaded(tags.raw)
+        document, faults = _loaded(source, tags.raw)
         code = int(document.header.get("$INSUNITS", 0))
         text = next((value for tag, value in document.header.custom_vars if tag == PROPERTY), "{}")
         layers = _layers(document)
@@ -82,11 +82,17 @@ def read_dxf(source: Source) -> Shapes:
     return shapes_of_drawing(source, "DXF", content, settings, 'call a layer "robot"')
 
 
-def _loaded(raw: bytes) -> tuple[Any, int]:
-    """Return the document, and the number of faults that ezdxf mended."""
+def _loaded(source: Source, raw: bytes) -> tuple[Any, int]:
+    """Return the document, and the number of faults that ezdxf mended; if needed, without tables and objects."""
     from ezdxf import recover
 
-    document, audit = recover.read(BytesIO(raw))
+    try:
+        document, audit = recover.read(BytesIO(raw))
+    except Exception:  # a damaged file raises any of them
+        if raw.startswith(BINARY):
+            raise
+        document, audit = recover.read(BytesIO(essential(raw)))
+        source.note("mended", "damaged tables, left out: all layers are visible", "more")
     return document, len(audit.fixes)
 
 

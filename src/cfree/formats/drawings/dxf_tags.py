@@ -7,6 +7,7 @@ entity with a broken number is taken out, so that it does not cost the whole fil
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -81,19 +82,51 @@ def mended(raw: bytes) -> Tags:
     """
     if raw.startswith(BINARY):
         return Tags(raw)
-    rows = raw.splitlines()
+    codes, values, broken = _pairs(raw.splitlines())
+    return _Pass(raw, codes, values, broken).tags if len(broken) < len(codes) else Tags(raw)
+
+
+def essential(raw: bytes) -> bytes:
+    """Return a text file without tables and objects, which a file with damaged ones can be read without."""
+    codes, values, _ = _pairs(raw.splitlines())
+    kept: list[bytes] = []
+    section: list[bytes] = []
+    name = b""
+    for k, (code, value) in enumerate(zip(codes, values, strict=True)):
+        if code == 0 and value == b"SECTION":
+            section = []
+            name = values[k + 1] if k + 1 < len(values) else b""
+        section += (b"%d" % code, value)
+        if code == 0 and value == b"ENDSEC" and name in (b"HEADER", b"BLOCKS", b"ENTITIES"):
+            kept += section
+    return b"\n".join([*kept, b"0", b"EOF", b""])
+
+
+def _pairs(rows: Sequence[bytes]) -> tuple[list[int], list[bytes], list[int]]:
+    """Return codes and values, and the tags before which lines were left out since they are no codes."""
     try:
         codes = [int(row) for row in rows[: len(rows) // 2 * 2 : 2]]
+        return codes, [row.strip() for row in rows[1::2]][: len(codes)], []
     except ValueError:
-        return Tags(raw)
-    return _Pass(raw, codes, [row.strip() for row in rows[1::2]]).tags
+        pass
+    codes, values, broken, k = [], list[bytes](), list[int](), 0
+    while k + 1 < len(rows):
+        try:
+            codes.append(int(rows[k]))
+        except ValueError:
+            broken.append(len(codes))
+            k += 1
+        else:
+            values.append(rows[k + 1].strip())
+            k += 2
+    return codes, values, broken
 
 
 class _Pass:
     """One pass over the tags of a file."""
 
-    def __init__(self, raw: bytes, codes: Sequence[int], values: Sequence[bytes]) -> None:
-        self.codes, self.values = codes, values
+    def __init__(self, raw: bytes, codes: Sequence[int], values: Sequence[bytes], broken: Sequence[int]) -> None:
+        self.codes, self.values, self.broken = codes, values, broken
         self.lines: dict[str, int] = {}
         self.tags = Tags(raw, lines=self.lines)
         self.places, self.places_of_angles = 0, 0
@@ -116,7 +149,7 @@ class _Pass:
         self.tags.unit_of_angles = 10.0**-self.places_of_angles if self.places_of_angles else 0.0
         if newer:
             self.set_version(pieces)
-        if pieces:
+        if pieces or broken:
             self.tags.raw = self.written(sorted(pieces, key=lambda piece: piece[0]))
 
     def entities(self) -> Iterator[tuple[int, int, bytes]]:
@@ -145,7 +178,10 @@ class _Pass:
                 self.version = j + 1
 
     def fault(self, first: int, end: int) -> str:
-        """Return the fault of the first number of an entity that cannot be read."""
+        """Return the fault of an entity: a number that cannot be read, or a line that is missing."""
+        place = bisect_left(self.broken, first + 1)
+        if place < len(self.broken) and self.broken[place] <= end:
+            return "a line is missing, or there is one too many"
         for code, value in zip(self.codes[first:end], self.values[first:end], strict=True):
             try:
                 if code in _FLOATS:

@@ -42,7 +42,11 @@ SIDES = 8, 64
 SMOOTH = 1e-6
 """Sine of the turn between two segments that need no join."""
 SHARE = 8
-"""The error of round parts is at most half the width divided by this."""
+"""The error of round parts is at most half the width divided by this,"""
+FINEST = 1e-5
+"""but not below this share of the curve's size, unless the tolerance is."""
+PIECE = 8
+"""Steps for the polygon of a piece of a curve."""
 
 
 def walls(source: Source, curves: Sequence[Curve], where: str = "") -> list[Polygon]:
@@ -143,8 +147,8 @@ def wall(
     if not narrow:
         return []
     x0, y0, x1, y1 = box_of([curve.segments])
-    error = source.reading.tolerance or max(x1 - x0, y1 - y0, narrow) / CURVE_SHARE
-    error = min(error, narrow / 2 / SHARE)
+    size = max(x1 - x0, y1 - y0, narrow)
+    error = min(source.reading.tolerance or size / CURVE_SHARE, max(narrow / 2 / SHARE, size * FINEST))
     stroke = _Stroke(curve, widths, style, error, source.spend)
     polygons = list(stroke.polygons())
     if stroke.is_near:
@@ -184,7 +188,7 @@ class _Stroke:
             half = _exact(first) / 2, _exact(last) / 2
             if max(half) <= 0:
                 continue
-            self.spend(1)
+            self.spend(PIECE)
             if isinstance(segment, Line):
                 yield self.around_line(k, segment, half)
             elif isinstance(segment, Arc) and _is_circular(segment) and first == last:
@@ -225,8 +229,8 @@ class _Stroke:
         r = math.hypot(*arc.u)
         sweep = arc.last - arc.first
         step = min(math.pi / 8, 2 * math.acos(1 / (1 + self.error / (r + half))))
-        count = max(1, math.ceil(abs(sweep) / step))
-        self.spend(count)
+        count = max(1, math.ceil(min(abs(sweep) / step, 1e9)))
+        self.spend(PIECE * count)
         margin = half * MARGIN + NOISE * (r + abs(arc.center[0]) + abs(arc.center[1]))
         way = math.copysign(margin / r, sweep)
         out, into, far = (r + half + margin) / r, (r - half - margin) / r, math.cos(sweep / count / 2)
@@ -386,8 +390,9 @@ def _chords(segment: Segment, error: float, spend: Callable[[int], object]) -> l
                            math.dist((b[0] + d[0], b[1] + d[1]), (2 * c[0], 2 * c[1])))  # fmt: skip
         case _:
             bend = 0.0
-    count = max(1, math.ceil(math.sqrt(bend / 8 / error)))  # a chord is within h^2 / 8 times the second derivative
-    spend(count)
+    # a chord is within h^2 / 8 times the second derivative
+    count = max(1, math.ceil(min(math.sqrt(bend / 8 / error), 1e9)))
+    spend(PIECE * count)
     return [*_chord_points(segment, count), ends(segment)[1]]
 
 
