@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from cfree.planning.separation import Separated as Separated
     from cfree.planning.separation import separation as separation
     from cfree.polygons.polygon import Polygon as Polygon
+    from cfree.polygons.repair import repaired as repaired
     from cfree.scene.scene import Scene as Scene
     from cfree.viewer.browser import view as view
     from cfree.viewer.notebook import widget as widget
@@ -70,6 +71,7 @@ _HOMES = {
     "curves.curved": "Curved",
     "exact.pose": "Pose Poses",
     "polygons.polygon": "Polygon",
+    "polygons.repair": "repaired",
     "scene.scene": "Scene",
     "collision.motion": "Rotation Translation motion_between",
     "collision.slide": "Slide",

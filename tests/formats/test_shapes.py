@@ -89,7 +89,7 @@ MULTIPOLYGON (((0 0, 1 0, 0 1)), ((0 0, 1 0)))
         "a.wkt:3:16 expected 3 numbers a point, got ,",
         'a.wkt:4:9 expected "(", got FULL',
         f"a.wkt:5:1 LINESTRING: {reason}; give it width",
-        "a.wkt:6:27 hole 0: it lies outside the outer ring; move it, or leave it out",
+        "a.wkt:6:27 hole 0: it lies outside the outer ring; move it, or leave it out, or give --repair",
         "a.wkt:7:27 expected the end of the line, got foo",
         "a.wkt:8:17 expected two numbers x y, got ,",
         "a.wkt:9:1 expected POLYGON (...) or MULTIPOLYGON (...), got hello",

@@ -50,7 +50,9 @@ def read_file(path: str | PathLike[str], reading: Reading | None = None) -> Shap
         shapes: Shapes = getattr(import_module(f"cfree.formats.drawings.{module}"), name)(Source(file, reading=reading))
         return shapes
     findings = Findings(file, read_text(Path(file)))
-    return read_wkt(findings) if is_wkt(findings) else read_json_file(findings, read_literals(findings), reading)
+    return (
+        read_wkt(findings, reading) if is_wkt(findings) else read_json_file(findings, read_literals(findings), reading)
+    )
 
 
 def refuse_other_kinds(file: str) -> None:
@@ -90,13 +92,13 @@ def is_wkt(findings: Findings) -> bool:
     return findings.text.lstrip()[:1] not in "{[" and bool(re.search("POLYGON", findings.text, re.IGNORECASE))
 
 
-def read_wkt(findings: Findings) -> Shapes:
+def read_wkt(findings: Findings, reading: Reading | None = None) -> Shapes:
     """Read the shapes of WKT."""
     from cfree.formats.drawings.wkt import wkt_shapes
 
-    source = Source(findings.file)
+    source = Source(findings.file, reading=reading)
     source.findings = findings
-    return shapes_of(source, "WKT", wkt_shapes(findings), {}, "begin its line with robot:")
+    return shapes_of(source, "WKT", wkt_shapes(findings, source), {}, "begin its line with robot:")
 
 
 def quick_scene(data: object) -> Scene | None:

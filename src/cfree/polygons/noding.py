@@ -56,7 +56,7 @@ class Graph:
     --------
     >>> graph = Graph()
     >>> graph.add([((0, 0), (2, 2), 0), ((0, 2), (2, 0), 1)])
-    >>> len(graph.edges), graph.point(4)
+    >>> len(graph.alive()), graph.point(4)
     (4, (Fraction(1, 1), Fraction(1, 1)))
     """
 

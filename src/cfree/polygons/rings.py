@@ -45,12 +45,12 @@ def read_rings(outer: Points, holes: Sequence[Points]) -> _core.Polygon:
     rings = [points.tolist() if isinstance(points, np.ndarray) else points for points in (outer, *holes)]
     read = _core.Polygon.of(rings)
     if read is None:  # rare or wrong input
-        read = _core.Polygon.of([_plain(r, points) for r, points in enumerate(rings)])
+        read = _core.Polygon.of([plain_ring(r, points) for r, points in enumerate(rings)])
         assert read is not None  # pairs of fractions
     return read
 
 
-def _plain(ring: int, rows: Any) -> list[ExactPoint]:
+def plain_ring(ring: int, rows: Any) -> list[ExactPoint]:
     """Convert points to pairs of fractions."""
     if isinstance(rows, str) or not isinstance(rows, Iterable):
         raise _fault(ring, f"{reprlib.repr(rows)} is no ring; give a sequence of points (x, y)")

@@ -14,21 +14,27 @@ from typing import NoReturn, TypeVar
 
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, to_fraction
+from cfree.formats.drawings.mending import mended, repairable
+from cfree.formats.drawings.source import Source
 from cfree.formats.shapes import ROLES, Shape
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_positions import shortened
 from cfree.polygons.polygon import Polygon
-from cfree.scene.scene import explained, flat_shape
+from cfree.scene.scene import flat_shape
 
 T = TypeVar("T")
+Placed = tuple[int, list[ExactPoint]]
+"""A ring, and its place in the text."""
 _LABEL = re.compile(r"\s*(?:([^:()]*):)?\s*(?:SRID\s*=\s*[0-9]+\s*;\s*)?", re.IGNORECASE)
 _KIND = re.compile(r"(POLYGON|MULTIPOLYGON)(Z|M|ZM)?")
 _LENGTHS = {"": (2, 3, 4), "Z": (3,), "M": (3,), "ZM": (4,)}  # numbers of a point
 _TOKEN = re.compile(r"[(),]|[^\s(),]+")
 
 
-def wkt_shapes(findings: Findings) -> list[Shape]:
+def wkt_shapes(findings: Findings, source: Source | None = None) -> list[Shape]:
     """Read the shapes of a text, except empty lines and lines that begin with #; faults go to `findings`.
+
+    With a source that has the option `repair`, polygons that cross themselves or overlap are repaired, and noted.
 
     Examples
     --------
@@ -41,7 +47,7 @@ def wkt_shapes(findings: Findings) -> list[Shape]:
         shape
         for match in lines
         if not match[0].lstrip().startswith("#")
-        for shape in _Line(findings, match.start(), match.end()).shapes()
+        for shape in _Line(findings, match.start(), match.end(), source).shapes()
     ]
 
 
@@ -52,8 +58,9 @@ class _SyntaxFault(Exception):
 class _Line:
     """One line being read: `token` at `offset` is next, or "" at the end."""
 
-    def __init__(self, findings: Findings, start: int, end: int) -> None:
+    def __init__(self, findings: Findings, start: int, end: int, source: Source | None) -> None:
         self.findings = findings
+        self.mender = source if source and source.reading.repair else None
         label = _LABEL.match(findings.text, start, end)
         assert label is not None  # it matches the empty text
         self.label = (label[1] or "").strip()
@@ -76,26 +83,32 @@ class _Line:
             if dimensions and not known[2]:
                 self._advance()
             self.lengths = _LENGTHS[dimensions]
-            polygons = self._list(self._polygon) if known[1] == "MULTIPOLYGON" else [self._polygon()]
+            parts = self._list(self._rings) if known[1] == "MULTIPOLYGON" else [self._rings()]
             if self.token:
                 self._refuse("the end of the line")
         except _SyntaxFault:
             return []
         role = self.label if self.label in ROLES else "obstacle"
         name = self.label if self.label not in ("", *ROLES) else None
-        return [Shape(role, name, polygon) for polygon in polygons if polygon]
+        rings = [part for part in parts if part]
+        if self.mender:
+            polygons = mended(self.mender, [[ring for _, ring in part] for part in rings], role, name)
+        else:
+            polygons = [polygon for part in rings if (polygon := self._polygon(part))]
+        return [Shape(role, name, polygon) for polygon in polygons]
 
-    def _polygon(self) -> Polygon | None:
-        known_problems, start = len(self.findings), self.offset
+    def _rings(self) -> list[Placed]:
+        """Return the rings of a polygon with their places; none, if one has a fault."""
+        known_problems = len(self.findings)
         placed = [(offset, ring) for offset, ring in self._list(self._ring) if ring]
-        if len(self.findings) > known_problems or not placed:
-            return None
+        return placed if len(self.findings) == known_problems else []
+
+    def _polygon(self, placed: list[Placed]) -> Polygon | None:
         offsets, rings = zip(*placed, strict=True)
         try:
             return Polygon(rings[0], rings[1:])
         except InvalidPolygonError as error:
-            place = start if error.ring is None else offsets[error.ring]
-            self.findings.at(place, self.label, explained(error))
+            self.findings.at(offsets[error.ring or 0], self.label, repairable(error))
             return None
 
     def _ring(self) -> tuple[int, list[ExactPoint]]:
