@@ -117,7 +117,7 @@ def test_what_nesting_leaves_out_is_said(folder: Path) -> None:
         shapes = cfree.load_shapes(folder / "m.json", roles=roles)
         return [(note.kind, note.what, note.count, note.where) for note in shapes.reading]
 
-    often = ("info", "item wanted several times, read once", 1, "")
+    often = ("info", "item, wanted several times and read once", 1, "")
     assert notes({}) == [often]
     assert notes({"item 0": "robot"})[1:] == [("info", "place of the robot's item, not read", 1, "item 0")]
     assert notes({"item 1": "ignore"})[0] == ("assumption", "ignored item", 1, "item 1")

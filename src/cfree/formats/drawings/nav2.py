@@ -151,7 +151,7 @@ class _Reader:
         if role is None:
             self.others.append(name)
             remedy = f'--role "{name}=robot"'
-            self.source.note("hidden", "zone around the robot", where=name, remedy=remedy)
+            self.source.note("hidden", "zone without a role", where=name, remedy=remedy)
         if role is None or role == IGNORE:
             return
         polygon = self.polygon(keys["points"], name) if "points" in keys else self.disc(keys["radius"], name)
@@ -181,7 +181,7 @@ class _Reader:
             return None
         ring: Ring = [arc_of_circle((x, 0.0), radius)]
         tolerance = tolerance_of(self.source, [ring])
-        self.source.note("near", "polygon around a disc", "near", where=key, size=tolerance, remedy="--tolerance")
+        self.source.note("near", "polygon, around a disc", "near", where=key, size=tolerance, remedy="--tolerance")
         return polygon_of(Outline(ring), tolerance, spend=self.source.spend)
 
     def number(self, keys: dict[str, Any], key: str) -> Fraction:

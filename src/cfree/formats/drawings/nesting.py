@@ -90,7 +90,7 @@ class _Reader:
             by_id[number] = f"item {number}", allowed, self.polygons(shape, (key, k, shape_key))
             demand, _ = _member(item, "demand")
             if type(demand) is int and demand > 1:
-                self.source.note("info", "item wanted several times, read once")
+                self.source.note("info", "item, wanted several times and read once")
         return by_id
 
     def polygons(self, shape: Any, path: Path) -> list[Polygon]:

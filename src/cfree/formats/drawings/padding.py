@@ -54,7 +54,7 @@ def padded(source: Source, polygon: Polygon, by: Fraction, is_disc: bool = False
     if is_disc or contains(larger, polygon):
         source.note("info", "footprint_padding, as nav2 adds it", "more", size=size)
         return [larger]
-    what = "padded outline beside the drawn one: both are the robot"
+    what = "padded outline, beside the drawn one: both are the robot"
     source.note("guess", what, "more", size=size)
     return [polygon, larger]
 

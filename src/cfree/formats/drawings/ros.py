@@ -64,7 +64,7 @@ def _map(source: Source, keys: dict[str, Any]) -> Shapes:
         states = cells.with_unknown_grey(states, grey)
     elif limits.mode != "raw":
         is_trap = (image.colours.greys == SAVED_UNKNOWN) & (states == FREE)
-        what, remedy = "free cell in map_saver's colour for unknown", "--free-thresh 0.196"
+        what, remedy = "free cell, unknown to map_saver", "--free-thresh 0.196"
         cells.note("warning", what, "less", is_trap, f"grey {SAVED_UNKNOWN}", f"{remedy} or --unknown-grey 205")
     states = cells.with_occupied(states, values)
     shapes = cell_shapes(source, states[image.pixels][::-1], resolution, origin, "unknown")  # the first row is the top
@@ -94,14 +94,14 @@ class _Cells:
         if reading.free_thresh is not None:
             limits = replace(limits, free=reading.free_thresh)
         values = published(rules, self.colours, limits)
-        what = "cell freed by another threshold"
+        what = "free cell by another threshold"
         is_freed = (values == FREE) & (published(rules, self.colours, own) != FREE)
         self.note("assumption", what, "less", is_freed, remedy=f"--free-thresh {limits.free:g}")
         self.source.note("info", "map rules", where=rules, remedy="--map-rules")
         if rules == "strict":
             servers = [published(server, self.colours, limits) for server in SERVERS]
             is_disputed = (values != FREE) & np.any([other == FREE for other in servers], axis=0)
-            what, remedy = "cell forbidden by some map servers only", "--map-rules ros1, nav2 or nav2-old"
+            what, remedy = "forbidden cell that some map servers free", "--map-rules ros1, nav2 or nav2-old"
             self.note("info", what, "more", is_disputed, remedy=remedy)
         else:
             strict = published("strict", self.colours, limits)
@@ -115,7 +115,7 @@ class _Cells:
         """Return states in which the cells of a grey are unknown."""
         is_grey = self.colours.greys == grey
         if self.source.reading.unknown == "free":
-            what = "forbidden cell taken as unknown"
+            what = "forbidden cell, taken as unknown"
             self.note("assumption", what, "less", is_grey & (states > FREE), remedy=f"--unknown-grey {grey}")
         return np.where(is_grey, np.int8(UNKNOWN), states)
 
@@ -132,7 +132,7 @@ class _Cells:
             self.note("guess", what, "more", is_between, where, "--occupied 65")
             return states
         is_freed = is_between & (values < least)
-        what = "cell in between below the limit, free"
+        what = "cell in between, freed by its value"
         self.note("assumption", what, "less", is_freed, where, f"--occupied {least}")
         states = np.where(is_between, np.int8(OCCUPIED), states)
         return np.where(is_freed, np.int8(FREE), states)
