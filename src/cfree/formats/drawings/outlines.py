@@ -22,7 +22,6 @@ from cfree.formats.text.findings import InvalidFileError, Problem
 from cfree.scene.scene import explained
 
 PIVOT = "pivot"
-"""The file that makes walls of curves; imported only for the option `strokes`."""
 
 
 def shapes_of_drawing(
