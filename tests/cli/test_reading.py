@@ -136,6 +136,17 @@ def test_more_lines_than_eight_are_counted_and_check_prints_them(folder: Path) -
     assert len(run("check", file).stderr.splitlines()) == MOST_LINES + 5
 
 
+@pytest.mark.slow
+def test_the_lines_of_several_scenes_are_below_their_names(folder: Path) -> None:
+    files = [folder / "a.json", folder / "plain.json", folder / "closed.json"]
+    small = "--size", "160x90", "--fps", "4", "--storyboard", "turntable"
+    result = run("film", *files, "-o", folder / "a.gif", *small)
+    assert result.exit_code == 0, result.stderr
+    assert [line for line in result.stderr.splitlines() if line == FIRST or line.endswith(":")] == [
+        FIRST, f"{files[2]}:", FIRST,
+    ]  # fmt: skip
+
+
 def test_a_scene_without_a_record_is_read_in_silence(folder: Path) -> None:
     result = run("plan", folder / "plain.json")
     assert result.stderr == "" and "as read" not in result.stdout

@@ -68,7 +68,8 @@ def made(
 def report(notes: Sequence[Note], source: Path, most: int | None = MOST_LINES) -> None:
     """Print the lines of a record to standard error, the most serious first.
 
-    A file is reported once. With `--strict` end the command if there is a loss, and print all losses.
+    A file is reported once; each after the first has its name above its lines. With `--strict` end the command if there
+    is a loss, and print all losses.
     """
     from cfree.scene.reading import together
     from cfree.scene.reading_lines import counts, lines, losses
@@ -84,6 +85,8 @@ def report(notes: Sequence[Note], source: Path, most: int | None = MOST_LINES) -
     texts = lines(refused or notes)
     is_checkable = source.is_file() and not is_archive(source)
     shown = texts[:most] if is_checkable and not refused else texts
+    if texts and len(meta[_SOURCES]) > 1:
+        tell(f"{source}:")
     for text in shown:
         tell(text)
     if refused:

@@ -31,10 +31,10 @@ def test_the_file_of_an_answer_keeps_the_record(scene: cfree.Scene, tmp_path: Pa
     answer = cfree.plan(scene)
     cfree.save(answer, file)
     again: Any = cfree.load(file)
-    kept = (replace(LOST, items=(Item("5F", (6.0, 4.0), 2.0),)), *NOTES[1:])
-    assert again == answer and again.stamp.reading == kept
+    expected = (replace(LOST, items=(Item("5F", (6.0, 4.0), 2.0),)), *NOTES[1:])
+    assert again == answer and again.stamp.reading == expected
     cfree.save(again, tmp_path / "again.json")
-    assert cfree.load(tmp_path / "again.json").stamp.reading == kept  # type: ignore[union-attr]
+    assert cfree.load(tmp_path / "again.json").stamp.reading == expected  # type: ignore[union-attr]
 
 
 @pytest.mark.parametrize("scene", [OPEN, CLOSED, SEVERAL, ROUND], ids=["path", "separated", "all", "round"])
