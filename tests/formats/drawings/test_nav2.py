@@ -117,6 +117,8 @@ def test_the_padded_robot_is_drawn_and_padded(tmp_path: Path) -> None:
     assert read(tmp_path, text, padding=0.25).polygons == shapes.polygons
     box = "footprint: [[1, 1], [-1, 1], [-1, -1], [1, -1]]"
     assert read(tmp_path, box, padding=0.5).polygons[0].bounds == (-1.5, -1.5, 1.5, 1.5)
+    apart = f"a: {{footprint_padding: 0.5}}\nb:\n  {box}\nc: {{robot_radius: 0.1, footprint_padding: 3}}"
+    assert [part.bounds for part in read(tmp_path, apart.replace("3", "0")).polygons] == [(-1.5, -1.5, 1.5, 1.5)]
     negative = read(tmp_path, f"{box}\nfootprint_padding: -0.5")
     assert negative.polygons[0].bounds == (-1, -1, 1, 1)
     assert [note.what for note in negative.reading] == ["negative footprint_padding, not applied"]

@@ -33,10 +33,10 @@ _MOST_COMPARED = 50
 
 @dataclass(frozen=True)
 class _Footprint:
-    """The polygons of one robot, and their padding."""
+    """The polygons of one robot, and their padding; None without one of its own."""
 
     polygons: tuple[Polygon, ...]
-    padding: Fraction = Fraction(0)
+    padding: Fraction | None = None
     is_disc: bool = False
 
 
@@ -57,8 +57,9 @@ def read_parameters(source: Source, root: Any) -> Shapes:
     least = to_fraction(source.reading.padding)
     parts: list[AnyShape] = []
     for one in different:
+        by = max(reader.padding if one.padding is None else one.padding, least)
         for polygon in one.polygons:
-            for part in padded(source, polygon, max(one.padding, least), one.is_disc):
+            for part in padded(source, polygon, by, one.is_disc):
                 _add(parts, part)
     shapes = [Shape("robot", None, part) for part in parts] + reader.zones
     settings = {"units": "m", "source": {ROBOT_FRAME: reader.frame}}
@@ -83,6 +84,7 @@ class _Reader:
         self.zones: list[Shape] = []
         self.others: list[str] = []
         self.frame = "base_link"
+        self.padding = Fraction(0)  # the largest of mappings without a footprint
 
     def read(self, name: str, keys: dict[str, Any]) -> None:
         """Read one mapping of parameters."""
@@ -107,13 +109,16 @@ class _Reader:
                 self.source.note("info", "unused robot_radius: there is a footprint")
         elif radius is not None:
             polygon = self.disc(radius, "robot_radius")
+        padding = self.padding_of(keys)
         if polygon:
-            self.footprints.append(_Footprint((polygon,), self.padding(keys), not has_outline))
+            self.footprints.append(_Footprint((polygon,), padding, not has_outline))
+        elif padding:
+            self.padding = max(self.padding, padding)
 
-    def padding(self, keys: dict[str, Any]) -> Fraction:
+    def padding_of(self, keys: dict[str, Any]) -> Fraction | None:
         node = keys.get("footprint_padding")
         if node is None:
-            return Fraction(0)
+            return None
         try:
             value = to_fraction(written(self.source, node))
             if abs(value) >= 10**9:
