@@ -139,6 +139,12 @@ def test_a_map_without_an_obstacle_is_said(folder: Path) -> None:
     assert said(read(folder, [[254, 254]], unknown="free"), "without an obstacle")
 
 
+def test_crossed_thresholds_are_warned_of(folder: Path) -> None:
+    text = "occupied_thresh: 0.2\nfree_thresh: 0.6"
+    assert said(read(folder, [[254]], text), "below free_thresh") == [("warning", "unknown", 1, "", "")]
+    assert not said(read(folder, [[254]], f"{text}\nmode: raw"), "below free_thresh")
+
+
 def test_an_image_may_have_its_absolute_path_in_the_maps_folder(folder: Path) -> None:
     rows, mark = [[254, 0]], "image: m.png"
     expected = read(folder, rows).polygons

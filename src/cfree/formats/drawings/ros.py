@@ -56,6 +56,8 @@ def _map(source: Source, keys: dict[str, Any]) -> Shapes:
     for key in ("occupied_thresh", "free_thresh"):
         if key not in keys and limits.mode != "raw":
             source.note("info", "default threshold", where=key)
+    if limits.occupied < limits.free and limits.mode != "raw":
+        source.note("warning", "occupied_thresh below free_thresh", "unknown")
     image = _image(source, keys["image"])
     cells = _Cells(source, image, Place(resolution, origin))
     values = cells.values(limits)
