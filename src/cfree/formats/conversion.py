@@ -74,8 +74,10 @@ def convert(
     is_file, is_made = isinstance(robot, str | PathLike), robot is None or isinstance(robot, Shapes)
     other = robot if is_file or is_made else shapes_in(robot, "robot")
     check_scene_path(target)
-    other = load_shapes(robot, **options) if is_file else other
-    scene, notes = written(load_shapes(source, **options).scene(other, pivot), Path(target), outer, inner, tolerance)
+    other = load_shapes(robot, curves=True, **options) if is_file else other
+    scene, notes = written(
+        load_shapes(source, curves=True, **options).scene(other, pivot), Path(target), outer, inner, tolerance
+    )
     return with_reading(scene, together(scene.reading, notes))
 
 

@@ -77,6 +77,7 @@ def load_shapes(
     path: str | PathLike[str],
     *,
     tolerance: float | None = None,
+    curves: bool = False,
     roles: Mapping[str, str] | None = None,
     units: str = "",
     scale: Number | None = None,
@@ -105,7 +106,9 @@ def load_shapes(
         A scene, GeoJSON, WKT, SVG, DXF, the YAML of a ROS map or of nav2 parameters, URDF, or nesting JSON.
     tolerance : float, optional
         Curves become polygons with this error at most, in the scene's unit: around robot and obstacles, inside the
-        workspace. By default outlines with curves are round shapes, `Curved`.
+        workspace. The default is a thousandth of the drawing's size.
+    curves : bool
+        Outlines of SVG and DXF with curves become round shapes, `Curved`, as for `load_scene`.
     roles : mapping of str to str, optional
         Roles of layers, groups or names: "robot", "obstacle", "workspace", or "ignore".
     units : str
@@ -164,7 +167,7 @@ def load_shapes(
     options: dict[str, Any] = {name: value for name, value in locals().items() if name != "path"}
     options["roles"] = dict(roles or {})
     options["scale"] = None if scale is None else to_fraction(scale)
-    return read_shapes(path, Reading(**options, curves=tolerance is None))
+    return read_shapes(path, Reading(**options))
 
 
 def read_shapes(path: str | PathLike[str], reading: Reading) -> Shapes:
