@@ -1,4 +1,4 @@
-"""Clips of SVG: viewports, clip paths and masks. Convex ones are applied to convex straight shapes, exactly."""
+"""Clips of SVG: viewports and clip paths are applied exactly, masks are not."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from cfree.curves.drawn import Line, Ring, straight, turn
-from cfree.curves.hulls import box_of
+from cfree.curves.drawn import Line, Ring, polyline, straight, turn
+from cfree.curves.hulls import Outline, box_of
 from cfree.exact.number import ExactPoint
-from cfree.formats.drawings.svg_paths import start_of
+from cfree.formats.drawings.regions import clipped, filled_outlines
+from cfree.formats.drawings.source import Source
 
 Effect = Literal["none", "all", "cut", "unknown"]
 _NOISE = 1e-12  # of doubles that curves have, per size of the drawing
@@ -24,102 +25,78 @@ class Clip:
     ----------
     what : str
         "viewport", "clip-path" or "mask".
-    corners : tuple of points
-        Corners of the convex region that stays, counter-clockwise; empty if the region is another one.
+    region : tuple of Outline, optional
+        The union of these outlines stays; None if it is not known.
     """
 
     what: str
-    corners: tuple[ExactPoint, ...] = ()
+    region: tuple[Outline, ...] | None = None
 
-    def applied(self, rings: Sequence[Ring], closed: bool = True) -> tuple[Effect, list[Ring]]:
-        """Return what the clip leaves of rings: all, nothing, a part; or all rings because it cannot be applied.
-
-        Curves that are not closed stay whole if they are not inside.
+    def effect(self, rings: Sequence[Ring]) -> Effect:
+        """Return "none" if all of the rings is inside, "all" if nothing is, "cut" if neither is certain.
 
         Examples
         --------
-        >>> from cfree.curves.drawn import polyline
-        >>> square = polyline([(0, 0), (2, 0), (2, 2), (0, 2)])
-        >>> effect, (ring,) = Clip("viewport", ((1, 1), (5, 1), (5, 5), (1, 5))).applied([square])
-        >>> effect, [str(x + y) for x, y in sorted(line.start for line in ring)]
-        ('cut', ['2', '3', '3', '4'])
+        >>> def box(x, y, size):
+        ...     return polyline([(x, y), (x + size, y), (x + size, y + size), (x, y + size)])
+        >>> clip = Clip("viewport", (Outline(box(0, 0, 5)),))
+        >>> [clip.effect([box(x, 1, 2)]) for x in (1, 4, 8)], Clip("mask").effect([box(0, 0, 1)])
+        (['none', 'cut', 'all'], 'unknown')
         """
-        whole = [*rings]
-        if not self.corners:
-            return "unknown", whole
-        if self._contains(whole):
-            return "none", whole
-        if self._misses(whole):
-            return "all", []
-        if not closed or len(whole) != 1 or not straight(whole[0]):
-            return "unknown", whole
-        points = convex([segment.start for segment in whole[0] if isinstance(segment, Line)])
-        if not points:
-            return "unknown", whole
-        for k, corner in enumerate(self.corners):
-            points = _half(points, corner, self.corners[(k + 1) % len(self.corners)])
-        ring: Ring = [Line(a, b) for a, b in zip(points, [*points[1:], *points[:1]], strict=True) if a != b]
-        return ("cut", [ring]) if len(ring) > 2 else ("all", [])
+        if self.region is None:
+            return "unknown"
+        if not self.region or self._misses(rings):
+            return "all"
+        corners = _corners(self.region)
+        return "none" if corners and _contains(corners, rings) else "cut"
 
-    def _contains(self, rings: list[Ring]) -> bool:
-        """True if all corners of rings are inside, or the box of curved ones by more than rounding."""
-        sides = [*zip(self.corners, [*self.corners[1:], *self.corners[:1]], strict=True)]
-        points = [
-            p for ring in rings for segment in ring if isinstance(segment, Line) for p in (segment.start, segment.end)
-        ]
-        noise = 0.0
-        if not all(map(straight, rings)):
-            x0, y0, x1, y1 = box_of(rings)
-            points = [(Fraction(x), Fraction(y)) for x in (x0, x1) for y in (y0, y1)]
-            longest = max(float(abs(b[0] - a[0]) + abs(b[1] - a[1])) for a, b in sides)
-            noise = _NOISE * longest * max(map(abs, (x0, y0, x1, y1)))
-        return all(bool(turn(a, b, p) >= -noise) for p in points for a, b in sides)
-
-    def _misses(self, rings: list[Ring]) -> bool:
+    def _misses(self, rings: Sequence[Ring]) -> bool:
         """True if the boxes are apart by more than rounding."""
         x0, y0, x1, y1 = box_of(rings)
-        xs, ys = zip(*((float(x), float(y)) for x, y in self.corners), strict=True)
-        noise = _NOISE * max(map(abs, (x0, y0, x1, y1, *xs, *ys)))
-        return bool(x1 < min(xs) - noise or x0 > max(xs) + noise or y1 < min(ys) - noise or y0 > max(ys) + noise)
+        left, low, right, high = box_of([outline.outer for outline in self.region or ()])
+        noise = _NOISE * max(map(abs, (x0, y0, x1, y1, left, low, right, high)))
+        return bool(x1 < left - noise or x0 > right + noise or y1 < low - noise or y0 > high + noise)
+
+    def cut(self, source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Ring]:
+        """Return the rings of the part inside of the region, to be filled by the even-odd rule.
+
+        Examples
+        --------
+        >>> square = [polyline([(0, 0), (2, 0), (2, 2), (0, 2)])]
+        >>> clip = Clip("viewport", (Outline(polyline([(1, 1), (5, 1), (5, 5), (1, 5)])),))
+        >>> (ring,) = clip.cut(Source("a.svg"), square, True)
+        >>> [str(x + y) for x, y in sorted(line.start for line in ring)]
+        ['2', '3', '3', '4']
+        """
+        outlines = filled_outlines(source, rings, even_odd)
+        return [ring for outline in clipped(source, outlines, self.region or ()) for ring in outline.rings]
 
 
-def convex(points: Sequence[ExactPoint]) -> tuple[ExactPoint, ...]:
-    """Return the corners of a convex polygon counter-clockwise; nothing if it is not convex.
+def convex_clip(what: str, corners: Sequence[ExactPoint]) -> Clip:
+    """Return the clip of a convex polygon."""
+    return Clip(what, (Outline(polyline(list(corners))),))
 
-    Examples
-    --------
-    >>> convex([(0, 0), (0, 2), (2, 2), (2, 0)]), convex([(0, 0), (4, 0), (1, 1), (0, 4)])
-    (((2, 0), (2, 2), (0, 2), (0, 0)), ())
-    """
-    corners = list(points)
+
+def _corners(region: Sequence[Outline]) -> tuple[ExactPoint, ...]:
+    """Return the corners of a region counter-clockwise, if it is a convex quadrilateral or triangle, else nothing."""
+    if len(region) != 1 or region[0].holes or len(region[0].outer) > 4 or not straight(region[0].outer):
+        return ()
+    corners = [segment.start for segment in region[0].outer if isinstance(segment, Line)]
     turns = [turn(corners[k - 2], corners[k - 1], corners[k]) for k in range(len(corners))]
-    if len(corners) < 3 or not any(turns):
-        return ()
-    if all(value <= 0 for value in turns):
-        corners.reverse()
-    elif not all(value >= 0 for value in turns):
-        return ()
-    rising = [a < b for a, b in zip(corners, [*corners[1:], *corners[:1]], strict=True)]
-    changes = sum(rising[k - 1] != rising[k] for k in range(len(rising)))
-    return tuple(corners) if changes == 2 else ()  # else it winds more than once
+    if all(value < 0 for value in turns):
+        return tuple(corners[::-1])
+    return tuple(corners) if all(value > 0 for value in turns) else ()
 
 
-def corners_of(rings: Sequence[Ring]) -> tuple[ExactPoint, ...]:
-    """Return the corners of the region of rings if it is convex and straight, else nothing."""
-    if len(rings) != 1 or not straight(rings[0]):
-        return ()
-    return convex([segment.start for segment in rings[0] if isinstance(segment, Line)] or [start_of(rings[0])])
-
-
-def _half(points: Sequence[ExactPoint], a: ExactPoint, b: ExactPoint) -> tuple[ExactPoint, ...]:
-    """Return the part of a convex polygon to the left of a line."""
-    left: list[ExactPoint] = []
-    for k, p in enumerate(points):
-        before = points[k - 1]
-        s, t = turn(a, b, before), turn(a, b, p)
-        if s * t < 0:
-            share = Fraction(s) / (s - t)
-            left.append((before[0] + share * (p[0] - before[0]), before[1] + share * (p[1] - before[1])))
-        if t >= 0:
-            left.append(p)
-    return tuple(left)
+def _contains(corners: Sequence[ExactPoint], rings: Sequence[Ring]) -> bool:
+    """True if all corners of rings are inside of a convex polygon; of curved ones their box, up to rounding."""
+    sides = [*zip(corners, [*corners[1:], *corners[:1]], strict=True)]
+    lines = [segment for ring in rings for segment in ring if isinstance(segment, Line)]
+    points = [p for line in lines for p in (line.start, line.end)]
+    noise = 0.0
+    if not all(map(straight, rings)):
+        x0, y0, x1, y1 = box_of(rings)
+        points = [(Fraction(x), Fraction(y)) for x in (x0, x1) for y in (y0, y1)]
+        longest = max(float(abs(b[0] - a[0]) + abs(b[1] - a[1])) for a, b in sides)
+        noise = _NOISE * longest * max(map(abs, (x0, y0, x1, y1)))
+    return all(bool(turn(a, b, p) >= -noise) for p in points for a, b in sides)

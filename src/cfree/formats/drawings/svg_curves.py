@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from cfree.curves.drawn import Affine
-from cfree.curves.hulls import box_of
+from cfree.curves.hulls import box_of, rough
 from cfree.formats.drawings.content import Cap, Curve, Join, Lines
+from cfree.formats.drawings.regions import layer_outlines
 from cfree.formats.drawings.source import Source
 from cfree.formats.drawings.svg_lengths import Measure
 from cfree.formats.drawings.svg_paths import Subpath, closed_by_a_line, end_of, start_of
@@ -29,18 +30,48 @@ class Group:
     """Unfilled curves below a group that has a name, or of an element that has a role."""
 
     names: tuple[str, ...]
-    elements: list[tuple[tuple[str, ...], int, list[Curve]]] = field(default_factory=list)
+    elements: list[Lines] = field(default_factory=list)
     doubtful: list[Curve] = field(default_factory=list)  # filled curves that may be pieces of an outline
 
-    def lines(self, together: bool) -> Iterator[Lines]:
-        """Yield the curves of all elements together, or the open curves together and each closed element."""
-        open_curves = [curve for _, _, own in self.elements for curve in own if together or not curve.closed]
-        if open_curves:
-            names, line = self.elements[0][:2] if len(self.elements) == 1 else (self.names, self.elements[0][1])
-            yield Lines(open_curves + self.doubtful, names, line)
-        for names, line, own in () if together else self.elements:
-            if closed := [curve for curve in own if curve.closed]:
-                yield Lines(closed, names, line)
+    def lines(self, source: Source, size: float) -> Iterator[Lines]:
+        """Yield its curves: closed elements each by itself, but for those inside of an outline of open curves.
+
+        A frame around everything must not turn furniture into holes; the circle in a plate drawn by lines is one.
+        """
+        together = source.reading.holes == "nested" or source.reading.strokes != "ignore"
+        loose = [curve for element in self.elements for curve in element.curves if together or not curve.closed]
+        closed = [] if together else [_closed(element) for element in self.elements]
+        whole = [element for element in closed if element.curves]
+        if loose:
+            loose += self.doubtful
+            held = _held(source, loose, whole, size)
+            loose += [curve for element in whole if id(element) in held for curve in element.curves]
+            whole = [element for element in whole if id(element) not in held]
+            names = self.elements[0].names if len(self.elements) == 1 else self.names
+            yield Lines(loose, names, self.elements[0].line)
+        yield from whole
+
+
+def _closed(element: Lines) -> Lines:
+    return replace(element, curves=[curve for curve in element.curves if curve.closed])
+
+
+def _held(source: Source, loose: list[Curve], elements: list[Lines], size: float) -> set[int]:
+    """Return the identities of closed elements that are inside of an outline which open curves close."""
+    if not elements:
+        return set()
+    import shapely
+
+    outlines = layer_outlines(Source(source.findings.file, reading=source.reading), "", loose, size=size)
+    bodies = [shapely.Polygon(points) for outline in outlines if len(points := rough(outline.outer)) > 2]
+    rims = [shapely.MultiPoint([p for curve in item.curves for p in rough(curve.segments)]) for item in elements]
+    held: set[int] = set()
+    for body in bodies:
+        if body.is_valid:
+            shapely.prepare(body)
+            inside = shapely.covers(body, rims).tolist()
+            held |= {id(element) for element, held_here in zip(elements, inside, strict=True) if held_here}
+    return held
 
 
 class Pen:

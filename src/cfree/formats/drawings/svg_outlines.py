@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 from cfree.curves.drawn import Ring
@@ -37,8 +36,12 @@ class Outlines:
     def content(self) -> list[Drawn | Lines]:
         """Return filled elements in the order of the file, then unfilled curves by their groups."""
         note_painted(self.source, self.painted)
-        together = self.source.reading.holes == "nested" or self.source.reading.strokes != "ignore"
-        return self.filled + [lines for group in self.groups if group.elements for lines in group.lines(together)]
+        rings = [ring for item in self.painted for ring in item.drawn.rings]
+        rings += [curve.segments for group in self.groups for item in group.elements for curve in item.curves]
+        x0, y0, x1, y1 = box_of(rings)
+        size = max(x1 - x0, y1 - y0)
+        unfilled = [lines for group in self.groups if group.elements for lines in group.lines(self.source, size)]
+        return self.filled + unfilled
 
     def add(self, element: Element) -> None:
         """Add the outline of a path or a basic shape."""
@@ -84,11 +87,12 @@ class Outlines:
             self._lines(element, flat, role)
             parts = [part for part in parts if not any(part is line for line in flat)]
         rings = [closed_by_a_line(part) for part in parts]
+        even_odd = style["fill-rule"].lower() == "evenodd"
         if rings and element.state.clips:
-            _, rings = self._clipped(element, role, rings)
+            _, rings, even_odd = self._clipped(element, role, rings, even_odd)
         if not rings:
             return
-        drawn = Drawn(rings, element.state.names, element.node.line, style["fill-rule"].lower() == "evenodd")
+        drawn = Drawn(rings, element.state.names, element.node.line, even_odd)
         self.filled.append(drawn)
         self.painted.append(Painted(drawn, role, style["fill"].lower() or "black"))
         if not style["fill"] and len(parts) == 1 and len(parts[0].segments) == 1 and not parts[0].closed:
@@ -97,18 +101,19 @@ class Outlines:
             self.filled.append(Lines(self._curves(element, parts), element.state.names, element.node.line))
 
     def _lines(self, element: Element, parts: list[Subpath], role: str) -> None:
-        """Add an unfilled element to its group; by itself, if a clip changes it or was not applied."""
-        curves = self._curves(element, parts)
-        rings = [curve.segments for curve in curves]
+        """Add an unfilled element to its group; by itself, if a clip cuts it or was not applied."""
+        lines = Lines(self._curves(element, parts), element.state.names, element.node.line)
+        rings = [curve.segments for curve in lines.curves]
+        whole, left, _ = False, rings, True
         if element.state.clips:
-            whole, left = self._clipped(element, role, rings, all(curve.closed for curve in curves))
-            if len(left) == len(curves):
-                curves = [replace(curve, segments=ring) for curve, ring in zip(curves, left, strict=True)]
-            if whole or left != rings:
-                if left:
-                    self.filled.append(Lines(curves, element.state.names, element.node.line))
-                return
-        self._group_of(element, role).elements.append((element.state.names, element.node.line, curves))
+            cuts = self.source.reading.strokes == "ignore" and all(curve.closed for curve in lines.curves)
+            whole, left, _ = self._clipped(element, role, rings, True, cuts)
+        if left is not rings and left:
+            self.filled.append(Drawn(left, lines.names, lines.line))
+        elif whole:
+            self.filled.append(lines)
+        elif left:
+            self._group_of(element, role).elements.append(lines)
 
     def _group_of(self, element: Element, role: str) -> Group:
         """Return the group around an element; another one for elements with a role that the group does not give."""
@@ -125,16 +130,23 @@ class Outlines:
         pen = Pen(self.source, state.style, state.measure, state.frame, element.name)
         return [pen.curve(part, element.handle) for part in parts]
 
-    def _clipped(self, element: Element, role: str, rings: list[Ring], closed: bool = True) -> tuple[bool, list[Ring]]:
-        """Return True if some clip was not applied, and what the others leave of rings."""
+    def _clipped(
+        self, element: Element, role: str, rings: list[Ring], even_odd: bool, cuts: bool = True
+    ) -> tuple[bool, list[Ring], bool]:
+        """Return True if some clip was not applied, what the others leave of rings, and the rule that fills it.
+
+        Without `cuts`, clips that cut are not applied.
+        """
         whole = False
         where = element.name or element.handle
         for clip in element.state.clips:
-            effect, rings = clip.applied(rings, closed)
-            if effect == "all":
+            effect = clip.effect(rings)
+            if effect == "cut" and cuts:
+                rings, even_odd = clip.cut(self.source, rings, even_odd), True
+            if effect == "all" or not rings:
                 self.source.note("hidden", f"{element.node.tag} outside of its {clip.what}", "less", where=where)
-                return whole, []
-            if effect != "unknown":
+                return whole, [], even_odd
+            if effect == "none" or (effect == "cut" and cuts):
                 continue
             if role == "workspace":
                 element.refuse(f"a workspace with a {clip.what} would be larger than drawn; draw what is left of it")
@@ -142,7 +154,7 @@ class Outlines:
             x0, y0, x1, y1 = box_of(rings)
             at = (x0 + x1) / 2, (y0 + y1) / 2
             self.source.note("guess", f"{clip.what} not applied: larger than drawn", "more", where=where, at=at)
-        return whole, rings
+        return whole, rings, even_odd
 
     # elements without an outline
 

@@ -6,9 +6,11 @@ from dataclasses import replace
 from fractions import Fraction
 
 from cfree.curves.drawn import IDENTITY, Affine, Line, compose, translation
+from cfree.curves.hulls import Outline
 from cfree.formats.drawings.content import Drawn, Lines
+from cfree.formats.drawings.regions import clipped, filled_outlines
 from cfree.formats.drawings.source import DEEPEST, Source
-from cfree.formats.drawings.svg_clips import Clip, convex, corners_of
+from cfree.formats.drawings.svg_clips import Clip, convex_clip
 from cfree.formats.drawings.svg_conditions import applies
 from cfree.formats.drawings.svg_element import Element, State
 from cfree.formats.drawings.svg_forms import FORMS, extent
@@ -29,6 +31,9 @@ _UNDRAWN = {
 _ANIMATIONS = {"animate", "animateTransform", "animateMotion", "animateColor", "set", "discard"}
 _PICTURES = {"image", "foreignObject", "video", "canvas", "iframe", "audio"}
 _VIEWPORTS = {"svg", "symbol"}
+MOST_CLIPS = 20
+"""Maximum depth of clip paths that refer to each other."""
+_UNIT_BOX = tuple(map(Fraction, (0, 0, 1, 1)))
 _NAMES = ("data-role", "label", "data-name", "id", "class")
 
 
@@ -54,6 +59,7 @@ class Walk:
         self.begin = State(frame, size, ROOT, (), self.outlines.group(()))
         self.known: dict[str, Node] = {}
         self.twice: set[str] = set()
+        self.clips: dict[tuple[int, Affine], Clip] = {}
         waiting = [root]
         while waiting:
             node = waiting.pop()
@@ -166,7 +172,7 @@ class Walk:
         style, declared = element.state.style, element.declared
         measure, (left, top) = element.state.measure, (Fraction(0), Fraction(0))
         if style["transform-box"].lower() != "view-box":
-            measure, (left, top) = self._own_box(element)
+            measure, (left, top) = self._own_box(element, style["transform-box"].lower())
 
         def length(text: str, axis: Axis) -> Fraction:
             return measure.length(self.source, text, axis)
@@ -181,9 +187,8 @@ class Walk:
             raise ValueError(f"transform: {error}") from None
         return around(x + left, y + top, by) if x + left or y + top else by
 
-    def _own_box(self, element: Element) -> tuple[Measure, tuple[Fraction, Fraction]]:
-        """Return size and corner of an element's own box, for transform-box."""
-        box = element.state.style["transform-box"].lower()
+    def _own_box(self, element: Element, box: str) -> tuple[Measure, tuple[Fraction, Fraction]]:
+        """Return size and corner of an element's own box, which is not known of curved paths and groups."""
         parts = element.form(IDENTITY).parts()[0] if element.node.tag in FORMS else []
         rings = [part.segments for part in parts]
         simple = element.node.tag in ("rect", "circle", "ellipse")
@@ -216,14 +221,14 @@ class Walk:
             return None
         clips = state.clips
         if state.style["overflow"].lower() not in ("visible", "auto"):
-            clips += (Clip("viewport", convex(corners_in(state.frame, place, size))),)
+            clips += (convex_clip("viewport", corners_in(state.frame, place, size)),)
         by = fitted(place, size, box, node.attributes.get("preserveAspectRatio", "")) if box else translation(*place)
         inner = (box[2], box[3]) if box else size
         measure = replace(state.measure, width=inner[0], height=inner[1])
         return replace(state, frame=shortened(compose(state.frame, by)), measure=measure, clips=clips, sizes=None)
 
     def _clip_path(self, element: Element, state: State) -> tuple[Clip, ...]:
-        """Return the clip that an element refers to; without corners, if it is no convex polygon."""
+        """Return the clip that an element refers to, which may be unknown."""
         value = state.style["clip-path"]
         if not value.lower().startswith("url("):
             return (Clip("clip-path"),)
@@ -231,24 +236,59 @@ class Walk:
         if target is None or target.tag != "clipPath":
             self.source.note("info", "clip-path that is not in this file: no clip", where=element.name)
             return ()
-        children = [child for child in target.children if child.tag not in _UNDRAWN | _ANIMATIONS]
-        plain = target.attributes.get("clipPathUnits", "userSpaceOnUse") == "userSpaceOnUse"
-        if not plain or len(children) != 1 or children[0].tag not in FORMS:
-            return (Clip("clip-path"),)
-        inside = replace(state, style=ROOT)
-        for node in (target, children[0]):
-            declared = self.styles.declared(node)
-            style = computed(inside.style, declared)
-            inside = replace(inside, style=style)
-            if style["clip-path"].lower() != "none" or style["mask"].lower() != "none":
+        frame = state.frame
+        if target.attributes.get("clipPathUnits") == "objectBoundingBox":
+            try:
+                measure, corner = self._own_box(element, "fill-box")
+            except ValueError:
                 return (Clip("clip-path"),)
-            element = Element(self.source, node, inside, declared)
-            if "transform" in declared or "transform" in node.attributes:
-                inside = replace(inside, frame=shortened(compose(inside.frame, self._transform(element))))
-        if style["display"].lower() == "none" or style["visibility"].lower() != "visible":
-            return (Clip("clip-path"),)
-        parts, fault = Element(self.source, children[0], inside, declared).form().parts()
-        return (Clip("clip-path", corners_of([closed_by_a_line(part) for part in parts]) if fault is None else ()),)
+            frame = compose(frame, fitted(corner, (measure.whole("x"), measure.whole("y")), _UNIT_BOX, "none"))
+        key = id(target), frame
+        if key not in self.clips:
+            self.clips[key] = Clip("clip-path")  # as long as it is not known; for ever, if it refers to itself
+            region = self._clip_region(target, replace(state, frame=frame, style=ROOT, clips=()), 0)
+            self.clips[key] = Clip("clip-path", None if region is None else tuple(region))
+        return (self.clips[key],)
+
+    def _clip_region(self, node: Node, state: State, depth: int) -> list[Outline] | None:
+        """Return the union of the shapes of a clipPath; None if some of them has no known outline."""
+        self.source.spend(4)
+        declared = self.styles.declared(node)
+        style = computed(state.style, declared)
+        if depth > MOST_CLIPS or style["mask"].lower() != "none" or node.tag == "text":
+            return None
+        if node.tag in _UNDRAWN - {"clipPath"} | _ANIMATIONS or style["display"].lower() == "none":
+            return []
+        state = replace(state, style=style, clips=())
+        element = Element(self.source, node, state, declared)
+        if "transform" in declared or "transform" in node.attributes:
+            state = replace(state, frame=shortened(compose(state.frame, self._transform(element))))
+        region: list[Outline] = []
+        if node.tag in FORMS:
+            parts, fault = Element(self.source, node, state, declared).form().parts()
+            rings = [closed_by_a_line(part) for part in parts]
+            if fault is not None:
+                return None
+            if rings and style["visibility"].lower() == "visible":
+                region = filled_outlines(self.source, rings, style["clip-rule"].lower() == "evenodd")
+        elif node.tag in ("clipPath", "use"):
+            inside: list[Node | None] = [*node.children]
+            if node.tag == "use":
+                inside = [self._target(node.attributes.get("href", ""))]
+                state = replace(state, frame=compose(state.frame, translation(*element.corner())))
+            for child in inside:
+                part = self._clip_region(child, state, depth + 1) if child else []
+                if part is None:
+                    return None
+                region += part
+        else:
+            return None
+        if style["clip-path"].lower() != "none":
+            for clip in self._clip_path(replace(element, state=state), state):
+                if clip.region is None:
+                    return None
+                region = clipped(self.source, region, clip.region)
+        return region
 
     # references and branches
 
