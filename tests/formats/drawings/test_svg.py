@@ -41,6 +41,15 @@ def test_each_way_of_drawing_a_region_gives_the_region(name: str, tmp_path: Path
         assert not svg_drawings.verdict(svg_drawings.make(name, seed), tmp_path / "a.svg"), f"seed {seed}"
 
 
+def test_a_clipped_workspace_is_what_is_left_and_no_more(tmp_path: Path) -> None:
+    body = '<svg width="9" height="9"><circle id="workspace" cx="4" cy="4" r="5"/></svg>'
+    (room,) = read(tmp_path, body, tolerance=0.01).shapes
+    truth = shapely.Point(4, -4).buffer(5, quad_segs=5000).intersection(shapely.box(0, -9, 9, 0))
+    shape = room.polygon.to_shapely()
+    assert shape.difference(truth.buffer(1e-6)).area == 0
+    assert truth.difference(shape).area < 0.01 * truth.length
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", svg_drawings.WAYS)
 def test_many_drawings_of_each_way_are_read_as_they_are_meant(name: str, tmp_path: Path) -> None:
@@ -196,8 +205,8 @@ def test_a_clip_that_is_not_applied_keeps_the_shape_whole_and_says_it(tmp_path: 
     "body",
     [
         '<mask id="m"/><rect id="workspace" mask="url(#m)" width="10" height="10"/>',
-        '<clipPath id="c"><circle r="5"/></clipPath><rect id="workspace" clip-path="url(#c)" width="9" height="9"/>',
-        '<svg width="9" height="9"><circle id="workspace" r="8"/></svg>',
+        '<clipPath id="c"><text>a</text></clipPath><rect id="workspace" clip-path="url(#c)" width="9" height="9"/>',
+        '<clipPath id="c" clip-path="url(#c)"/><rect id="workspace" clip-path="url(#c)" width="9" height="9"/>',
         '<g style="clip-path:circle(3px)"><rect id="workspace" width="9" height="9"/></g>',
     ],
 )
@@ -206,7 +215,7 @@ def test_a_workspace_with_a_clip_that_is_not_applied_is_refused(body: str, tmp_p
         read(tmp_path, body)
 
 
-def test_convex_clips_are_applied_exactly(tmp_path: Path) -> None:
+def test_clips_are_applied_exactly(tmp_path: Path) -> None:
     clip = '<clipPath id="c" transform="translate(1)"><polygon points="0,0 12,0 0,12"/></clipPath>'
     shapes = read(tmp_path, f'{clip}<rect id="workspace" clip-path="url(#c)" x="1" width="9" height="9"/>')
     assert shapes.shapes[0].polygon.exact_area == 81 - 18
