@@ -23,6 +23,19 @@ SVG = """<?xml version="1.0"?>
  <circle id="pivot" cx="12" cy="205" r="1"/>
 </svg>
 """
+STYLED_SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="60mm" viewBox="0 0 100 60">
+ <style>@media (min-width: 9px) {.a {opacity: 0.5}} .off, g > .b {display: none !important} #t {fill-rule: evenodd}</style>
+ <symbol id="s" viewBox="0 0 10 20" preserveAspectRatio="xMaxYMin slice"><path d="m1 1h8v18-8 0"/></symbol>
+ <clipPath id="c"><path id="k" d="M5 5L50 9 30 50z" clip-rule="evenodd"/><use href="#k" x="3"/></clipPath>
+ <g clip-path="url(#c)"><circle cx="30%" cy="20" r="9" style="transform:scale(1.5) rotate(10deg)"/></g>
+ <use href="#s" x="60" y="5" width="20" height="12"/><path id="t" d="M5 55L20 40 20 55 5 40z" class="a"/>
+ <switch><g systemLanguage="de"><rect width="9" height="9"/></g><path d="M70 40q5-9 9 0t9 0v9h-18z"/></switch>
+ <g id="plate" fill="none" stroke="red" stroke-width="2%"><path d="M40 40H55"/><path d="M55 40V55L40 55"/>
+  <line x1="40" y1="55" x2="40" y2="40"/><circle cx="47" cy="47" r="3"/><rect class="off" width="9" height="9"/></g>
+ <svg x="80" y="30" width="15" height="9"><rect id="robot" x="-2" width="10" height="4" transform-origin="1 2"
+  transform="rotate(3) skewX(2)"/></svg><path mask="url(#m)" d="M90 45a2 3 20 104-2z"/><path d="M90 55h5v3 x"/>
+</svg>
+"""
 MAP = """image: map.pgm
 resolution: 0.05
 origin: [-1.5, 2, 0]
@@ -109,7 +122,7 @@ def files() -> dict[str, bytes]:
     head = f'<!DOCTYPE svg [<!ENTITY ns "{NAMESPACE}">]>'
     named = head + SVG[SVG.index("<svg") :].replace(NAMESPACE, "&ns;")
     texts = {"a.svg": SVG, "nav.yaml": NAV2, "r.urdf": URDF, "n.json": NESTING, "a.dxf": dxf(), "map.yaml": MAP}
-    texts |= {"grid.map": MOVINGAI, "teb.yaml": MONITOR}
+    texts |= {"c.svg": STYLED_SVG, "grid.map": MOVINGAI, "teb.yaml": MONITOR}
     return {name: text.encode() for name, text in texts.items()} | {"b.svgz": gzip.compress(named.encode(), mtime=0)}
 
 

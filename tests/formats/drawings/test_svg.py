@@ -74,7 +74,7 @@ def test_numbers_of_any_length_are_exact_and_too_long_ones_are_refused(tmp_path:
     (shape,) = read(tmp_path, f'<path d="M0 0h{digits}v1h-{digits}z"/>').shapes
     assert shape.polygon.exact_area == Fraction(digits)
     for wrong in ("1" * 401, "1e401", "1e-999999999", "-1e308"):
-        with pytest.raises(FormatError, match=r"(below|beyond) 1e(150|308)"):
+        with pytest.raises(FormatError, match=r"is no coordinate; give 0, or one from 1e-100 to 1e150"):
             read(tmp_path, f'<path d="M0 0h{wrong}v1z"/>')
 
 
@@ -360,7 +360,7 @@ def test_an_end_that_misses_its_begin_by_its_digits_closes_the_outline(tmp_path:
         ("<style>g ~ g ~ g {fill: red}</style>" + "<g/>" * 9000, "more than 1,000,000 elements"),
         ("<style>" + "*[a] {fill: red}" * 30_000 + "</style>" + "<g/>" * 3000, "more than 1,000,000 elements"),
         ('<path d="' + "M0 0h1" * 600_000 + '"/>', "more than 1,000,000 elements"),
-        ('<path d="M0 0' + "1" * 5000 + '"/>', "below 1e150"),
+        ('<path d="M0 0' + "1" * 5000 + '"/>', "to 1e150"),
         ('<g transform="' + "scale(1.000000000000001)" * 3000 + '"><rect width="1" height="1"/></g>', None),
     ],
 )  # fmt: skip

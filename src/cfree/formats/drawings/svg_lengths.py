@@ -15,7 +15,9 @@ NUMBER = r"[+-]?(?:[0-9]++\.?+[0-9]*+|\.[0-9]++)(?:[eE][+-]?[0-9]++)?+"
 """Pattern of a number."""
 SPACE = r"[ \t\n\r\f]"
 MOST_DIGITS = 400
-"""Maximum number of characters of a number, and maximum size of its exponent."""
+"""Maximum number of characters of a number."""
+LEAST, GREATEST = -100, 150
+"""Bounds of the decimal exponent of a number that is not 0."""
 UNITS = {
     "px": Fraction(1), "in": Fraction(96), "cm": Fraction(9600, 254), "mm": Fraction(960, 254),
     "m": Fraction(960000, 254), "q": Fraction(240, 254), "pt": Fraction(4, 3), "pc": Fraction(16),
@@ -29,7 +31,7 @@ _LENGTH = re.compile(rf"{SPACE}*({NUMBER})([A-Za-z]+|%)?{SPACE}*")
 
 
 def number(text: str) -> Decimal:
-    """Return a number exactly; raise a ValueError if it has too many digits.
+    """Return a number exactly; raise a ValueError if it is out of range or too long.
 
     Examples
     --------
@@ -37,8 +39,8 @@ def number(text: str) -> Decimal:
     Decimal('-0.0005')
     """
     value = Decimal(text)
-    if len(text) > MOST_DIGITS or (value and abs(value.adjusted()) > MOST_DIGITS):
-        raise ValueError(f"{text[:20]} is no coordinate; give one below 1e150")
+    if len(text) > MOST_DIGITS or (value and not LEAST <= value.adjusted() < GREATEST):
+        raise ValueError(f"{text[:20]} is no coordinate; give 0, or one from 1e{LEAST} to 1e{GREATEST}")
     return value
 
 

@@ -19,8 +19,6 @@ from cfree.formats.drawings.svg_transforms import placing
 
 EXACT = Context(prec=6 * MOST_DIGITS, Emax=10**6, Emin=-(10**6), traps=[])
 """Sums of as many numbers as a file can have are exact in it."""
-FARTHEST = 1e150
-"""Maximum radius of an arc."""
 _COMMAND = re.compile("[MmZzLlHhVvCcSsQqTtAa]")
 _NUMBER = re.compile(NUMBER)
 _GAP = rf"{SPACE}*+,?+{SPACE}*+"
@@ -256,8 +254,6 @@ class _Pen:
         if not rx or not ry:
             self._line(x, y, relative)
             return
-        if max(rx, ry) > FARTHEST:
-            raise ValueError("a coordinate that is not finite, or beyond 1e150; scale the drawing")
         self._step(relative)
         part, start, after = self._piece(), self.point, self.place(x, y)
         if after != start:

@@ -25,6 +25,8 @@ _CSS = {
 _SHARES = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 LONGEST = 10**80
 """Maximum denominator of an entry of a map; a map with longer numbers is rounded to 14 digits."""
+NEAREST, FARTHEST = Fraction(1, 10**40), Fraction(10**100)
+"""Bounds of the entries of a map that are not 0."""
 Length = Callable[[str, Axis], Fraction]
 Point = Callable[[Any, Any], ExactPoint]
 
@@ -180,7 +182,15 @@ def origin(text: str, length: Length) -> tuple[Fraction, Fraction]:
 
 
 def shortened(by: Affine) -> Affine:
-    """Return a map, its entries rounded to 14 digits if some have very many."""
+    """Return a map, its entries rounded to 14 digits if some have very many.
+
+    Raises
+    ------
+    ValueError
+        If it enlarges or shrinks more than doubles can represent.
+    """
+    if any(abs(entry) > FARTHEST or 0 < abs(entry) < NEAREST for entry in by[:4]):
+        raise ValueError("transform: a scale of less than 1e-40 or more than 1e100; scale the drawing")
     if all(entry.denominator < LONGEST and abs(entry.numerator) < LONGEST**2 for entry in by):
         return by
     a, b, c, d, e, f = (decimal(float(entry)) for entry in by)
