@@ -24,7 +24,8 @@ SVG = """<?xml version="1.0"?>
 </svg>
 """
 STYLED_SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="60mm" viewBox="0 0 100 60">
- <style>@media (min-width: 9px) {.a {opacity: 0.5}} .off, g > .b {display: none !important} #t {fill-rule: evenodd}</style>
+ <style>@media (min-width: 9px) {.a {opacity: 0.5}} .off, g > .b {display: none !important}
+  #t {fill-rule: evenodd}</style>
  <symbol id="s" viewBox="0 0 10 20" preserveAspectRatio="xMaxYMin slice"><path d="m1 1h8v18-8 0"/></symbol>
  <clipPath id="c"><path id="k" d="M5 5L50 9 30 50z" clip-rule="evenodd"/><use href="#k" x="3"/></clipPath>
  <g clip-path="url(#c)"><circle cx="30%" cy="20" r="9" style="transform:scale(1.5) rotate(10deg)"/></g>

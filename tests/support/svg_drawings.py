@@ -565,6 +565,8 @@ TRUSTED = {
     "rounded_rectangle": ("resvg",),
     "broken_path": ("resvg",),
     "use_of_an_svg": ("resvg",),
+    "clip_of_several_shapes": ("resvg",),
+    "clip_in_shares_of_a_box": ("resvg",),
 }
 """Renderers that draw a way rightly, if not all do."""
 

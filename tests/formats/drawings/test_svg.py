@@ -182,6 +182,21 @@ def test_rules_that_are_not_understood_are_said_and_a_workspace_with_one_is_refu
         read(tmp_path, f'{sheet}<g class="a"><rect id="workspace" width="2" height="2"/></g>')
 
 
+def test_rules_that_are_not_understood_and_only_paint_are_one_note(tmp_path: Path) -> None:
+    sheet = "<style>rect:foo(1) {stroke: red} @media print {rect {stroke: red}} ::x {}</style>"
+    shapes = read(tmp_path, f'{sheet}<rect width="2" height="2"/>')
+    assert [note.kind for note in shapes.reading] == ["paint", "paint"]
+    assert {note.what for note in shapes.reading} == {"rule of a style sheet not obeyed: it only paints"}
+
+
+def test_a_workspace_beyond_the_page_is_read_whole_and_said(tmp_path: Path) -> None:
+    shapes = read(tmp_path, '<rect id="workspace" width="101" height="5"/>')
+    assert [(note.what, note.effect) for note in notes(shapes, "warning")] == [
+        ("workspace beyond the page: read whole", "less")
+    ]
+    assert not notes(read(tmp_path, '<rect id="workspace" width="100" height="100"/>'), "warning")
+
+
 def test_style_sheets_of_other_files_are_not_read_and_said(tmp_path: Path) -> None:
     page = '<?xml-stylesheet href="a.css"?>' + PAGE
     shapes = read(tmp_path, '<style>@import url("b.css");</style><rect width="2" height="2"/>', page)
@@ -334,6 +349,14 @@ def test_strokes_have_the_width_and_the_form_that_is_drawn(tmp_path: Path) -> No
     assert [curve.cap for curve in item.curves] == ["butt", "square", "butt", "butt"]
     filled = lines_of(tmp_path, '<rect stroke="red" width="3" height="3"/>', strokes="drawn")
     assert [type(item).__name__ for item in filled] == ["Drawn", "Lines"]
+
+
+def test_the_width_of_a_stroke_that_is_no_length_costs_no_file(tmp_path: Path) -> None:
+    body = '<line stroke="red" stroke-width="thick" x2="5" y2="5"/>'
+    body += '<rect stroke="red" stroke-width="2em" width="5" height="5"/>'
+    assert not notes(read(tmp_path, body), "guess")
+    (item,) = lines_of(tmp_path, body, strokes="drawn")[2:]
+    assert item.curves[0].width == 1
 
 
 def test_an_end_that_misses_its_begin_by_its_digits_closes_the_outline(tmp_path: Path) -> None:

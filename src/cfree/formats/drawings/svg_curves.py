@@ -97,10 +97,18 @@ class Pen:
         self.width = 0.0
         fixed = style["vector-effect"].lower() == "non-scaling-stroke"
         if style["stroke"].lower() != "none":
-            width = float(measure.length(source, style["stroke-width"], "diagonal"))
-            self.width = max(0.0, width) * (1.0 if fixed else self.scale)
+            self.width = self._width(measure) * (1.0 if fixed else self.scale)
         if source.reading.strokes != "ignore" and self.width:
             self._note(fixed)
+
+    def _width(self, measure: Measure) -> float:
+        """Return the width in user units; strokes that are not read need no notes."""
+        source = self.source if self.source.reading.strokes != "ignore" else Source("")
+        try:
+            return max(0.0, float(measure.length(source, self.style["stroke-width"], "diagonal")))
+        except ValueError:
+            source.note("guess", "width of a stroke that is no length: taken as 1", "unknown", where=self.where)
+            return 1.0
 
     def _note(self, fixed: bool) -> None:
         note, where = self.source.note, self.where

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 from cfree.curves.drawn import Ring
@@ -9,13 +10,12 @@ from cfree.curves.hulls import box_of
 from cfree.formats.drawings.content import Curve, Drawn, Lines
 from cfree.formats.drawings.outlines import PIVOT
 from cfree.formats.drawings.source import Source, role_of
+from cfree.formats.drawings.svg_clips import Clip
 from cfree.formats.drawings.svg_curves import Group, Pen
 from cfree.formats.drawings.svg_element import Element
 from cfree.formats.drawings.svg_paint import Painted, note_painted
 from cfree.formats.drawings.svg_paths import Subpath, closed_by_a_line, end_of, on_a_line
 from cfree.formats.drawings.svg_viewports import corners_in
-
-_NONE = Fraction(0)
 
 
 class Outlines:
@@ -26,6 +26,7 @@ class Outlines:
         self.filled: list[Drawn | Lines] = []
         self.painted: list[Painted] = []
         self.groups: list[Group] = []
+        self.page: Clip | None = None
         self._own: dict[tuple[int, str], Group] = {}
 
     def group(self, names: tuple[str, ...]) -> Group:
@@ -62,6 +63,8 @@ class Outlines:
         if role in ("workspace", "robot") and (style["filter"].lower() != "none" or "url(" in style["fill"]):
             what = f"{role} with a filter, a gradient or a pattern: its outline is read"
             self.source.note("info", what, where=element.name)
+        if role == "workspace" and self.page and self.page.effect([part.segments for part in parts]) != "none":
+            self.source.note("warning", "workspace beyond the page: read whole", "less", where=element.name)
         pivot = bool(names) and names[0].lower() == PIVOT
         if pivot or (element.node.tag != "line" and style["fill"].lower() != "none"):
             self._fill(element, parts, role)
@@ -160,24 +163,24 @@ class Outlines:
 
     def text(self, element: Element) -> None:
         """Note a text with its place."""
-        try:
-            (x, y), *_ = corners_in(element.state.frame, element.corner(), (_NONE, _NONE))
-            at = float(x), float(y)
-        except ValueError:  # a list of places, one for each letter
-            at = None
+        at, _ = _box(element)
         self.source.note("paint", "text", "less", where=element.name, at=at)
 
     def picture(self, element: Element) -> None:
-        """Note a picture or a piece of another language, with its box."""
-        width, height = element.sizes()
-        corners = corners_in(element.state.frame, element.corner(), (width or _NONE, height or _NONE))
-        xs, ys = zip(*((float(x), float(y)) for x, y in corners), strict=True)
-        self.source.note(
-            "lost",
-            element.node.tag,
-            "less",
-            where=element.name,
-            at=((min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2),
-            size=max(max(xs) - min(xs), max(ys) - min(ys)),
-            remedy="trace it in the drawing",
-        )
+        """Note a picture or a piece of another language, with its middle and its longer side."""
+        at, size = _box(element)
+        remedy = "trace it in the drawing"
+        self.source.note("lost", element.node.tag, "less", where=element.name, at=at, size=size, remedy=remedy)
+
+
+def _box(element: Element) -> tuple[tuple[float, float] | None, float | None]:
+    """Return middle and longer side of an element's box; None if it has none."""
+    quiet = replace(element, source=Source(""))
+    try:
+        width, height = quiet.sizes()
+        corners = corners_in(quiet.state.frame, quiet.corner(), (width or Fraction(0), height or Fraction(0)))
+    except ValueError:  # lists of places, one for each letter
+        return None, None
+    xs, ys = zip(*((float(x), float(y)) for x, y in corners), strict=True)
+    middle = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+    return middle, max(max(xs) - min(xs), max(ys) - min(ys))

@@ -103,6 +103,8 @@ class Styles:
 
     def _not_obeyed(self, node: Node, rule: _Rule) -> None:
         where = node.attributes.get("id", node.tag)
+        if not any(key in MOVES or key in HIDES for key, _, _ in rule.declarations):
+            self.source.note("paint", "rule of a style sheet not obeyed: it only paints", where=where)
         for key, value, _ in rule.declarations:
             if key in MOVES and node.tag != "svg":
                 self.source.refuse(
@@ -170,6 +172,8 @@ class Styles:
             )
         if any(key in HIDES for key, _, _ in declarations):
             self.source.note("guess", "rule of a style sheet not obeyed: its selector is not read", "unknown")
+        else:
+            self.source.note("paint", "rule of a style sheet not obeyed: it only paints")
 
     def _match(self, root: Node) -> None:
         """Find the rules of each element."""

@@ -57,6 +57,10 @@ class Walk:
         self.styles = Styles(source, root)
         self.outlines = Outlines(source)
         self.begin = State(frame, size, ROOT, (), self.outlines.group(()))
+        if size.width and size.height:
+            left, top = box_of_view(root)[:2] or (Fraction(0), Fraction(0))
+            page = corners_in(frame, (left, top), (size.width, size.height))
+            self.outlines.page = convex_clip("page", page)
         self.known: dict[str, Node] = {}
         self.twice: set[str] = set()
         self.clips: dict[tuple[int, Affine], Clip] = {}
@@ -135,8 +139,9 @@ class Walk:
             self.source.note("lost", f"{tag[:40]}: no element that draws", "less", where=element.name)
 
     def _children(self, node: Node, state: State | None, depth: int) -> None:
-        for child in node.children if state else ():
-            self._node(child, state, depth + 1)  # type: ignore[arg-type]
+        if state:
+            for child in node.children:
+                self._node(child, state, depth + 1)
 
     # matrix, viewport, clips
 
