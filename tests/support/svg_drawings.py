@@ -218,6 +218,25 @@ def turned_ellipse(rng: random.Random) -> Drawing:
 
 
 @way
+def arcs(rng: random.Random) -> Drawing:
+    """Draw a part of a turned ellipse between two of its points; now and then, radii that are too small."""
+    rx, ry, turn = rng.randint(15, 40), rng.randint(8, 30), rng.randint(0, 170)
+    first, sweep = rng.uniform(0, 6), rng.choice([-1, 1]) * rng.uniform(0.8, 5.5)
+    small = rng.random() < 0.2
+    if small:
+        sweep = math.copysign(math.pi, sweep)
+    c, n = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+    points = []
+    for k in range(1025):
+        x, y = rx * math.cos(first + sweep * k / 1024), ry * math.sin(first + sweep * k / 1024)
+        points.append((50 + c * x - n * y, 50 + n * x + c * y))
+    share = 0.5 if small else 1
+    flags = f"{int(abs(sweep) > math.pi)}{int(sweep > 0)}"
+    begin, end = (f"{x:.15g},{y:.15g}" for x, y in (points[0], points[-1]))
+    return drawing(f'<path d="M{begin}A{rx * share},{ry * share} {turn} {flags}{end}z"/>', Polygon(points))
+
+
+@way
 def curves(rng: random.Random) -> Drawing:
     """Draw parabolas, by Q and T, and the same as cubics, by C and S."""
     h, w = rng.randint(10, 30), rng.randint(10, 20)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import shapely
 import svg_drawings
 from cfree.errors import FormatError
 from cfree.formats.drawings.source import Reading, Source
+from cfree.formats.drawings.svg_paths import center_of
 from cfree.formats.readers import read_file
 from cfree.formats.shapes import Shapes
 from cfree.scene.reading import Note
@@ -142,6 +144,18 @@ def test_lengths_in_letters_are_read_and_said(tmp_path: Path) -> None:
 def test_shares_of_a_size_that_is_not_given_are_refused(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="give the svg a viewBox"):
         read(tmp_path, '<rect width="50%" height="5"/>', "<svg>{}</svg>")
+
+
+@pytest.mark.parametrize(
+    ("large", "sweep", "center", "quarters"),
+    [(False, True, (0, 1), 1), (True, True, (1, 0), 3), (False, False, (1, 0), -1), (True, False, (0, 1), -3)],
+)
+def test_the_flags_of_an_arc_choose_its_center_and_its_way(
+    large: bool, sweep: bool, center: tuple[int, int], quarters: int
+) -> None:
+    middle, _, _, first, last = center_of(1, 1, 1, 1, 0, large, sweep)
+    assert middle == pytest.approx(center, abs=1e-12)
+    assert last - first == pytest.approx(quarters * math.pi / 2)
 
 
 # styles
