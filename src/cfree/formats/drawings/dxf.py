@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from io import BytesIO
 from typing import Any, Literal
 
 from cfree.errors import FormatError
-from cfree.formats.drawings.dxf_tags import BINARY, described, essential, mended
+from cfree.formats.drawings.dxf_tags import BINARY, Tags, described, essential, mended
 from cfree.formats.drawings.dxf_walk import DRAWING, Layers, Place, Walk
 from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.signals import ask
@@ -51,8 +51,7 @@ def read_dxf(source: Source) -> Shapes:
 
     raw = read_bytes(source.findings.file, MOST_BYTES)
     tags = mended(raw)
-    for lost in tags.lost:
-        source.note("lost", f"{lost.kind}: {lost.fault}", "less", where=lost.layer, handle=described(lost))
+    _note_lost(source, tags)
     if tags.mended:
         source.note("mended", "entity without subclass markers", count=tags.mended)
     try:
@@ -82,18 +81,46 @@ def read_dxf(source: Source) -> Shapes:
     return shapes_of_drawing(source, "DXF", content, settings, 'call a layer "robot"')
 
 
+def _note_lost(source: Source, tags: Tags) -> None:
+    for lost in tags.lost:
+        what = f"{lost.kind} that cannot be read: {lost.fault}"
+        source.note("lost", what, "less", where=lost.layer, handle=described(lost))
+
+
 def _loaded(source: Source, raw: bytes) -> tuple[Any, int]:
-    """Return the document, and the number of faults that ezdxf mended; if needed, without tables and objects."""
+    """Return the document, and the number of faults that ezdxf mended.
+
+    A file that ezdxf refuses is tried without its tables and objects, and then without the entities that it refuses.
+    """
     from ezdxf import recover
 
     try:
         document, audit = recover.read(BytesIO(raw))
     except Exception:  # a damaged file raises any of them
-        if raw.startswith(BINARY):
+        if raw.startswith(BINARY) or b"ENTITIES" not in raw:
             raise
-        document, audit = recover.read(BytesIO(essential(raw)))
-        source.note("mended", "damaged tables, left out: all layers are visible", "more")
+        raw = essential(raw)
+        source.note("mended", "damaged file, read without tables: all layers are visible", "more")
+        try:
+            document, audit = recover.read(BytesIO(raw))
+        except Exception:
+            tags = mended(raw, _fault)
+            document, audit = recover.read(BytesIO(tags.raw))
+            _note_lost(source, tags)
     return document, len(audit.fixes)
+
+
+def _fault(tags: Sequence[tuple[int, bytes]]) -> str:
+    """Return the reason why ezdxf refuses an entity, or an empty text."""
+    from ezdxf.entities import factory
+    from ezdxf.lldxf.extendedtags import ExtendedTags
+
+    text = "".join(f"{code}\n{value.decode(errors='replace')}\n" for code, value in tags)
+    try:
+        factory.load(ExtendedTags.from_text(text))
+    except Exception as error:  # of many types
+        return str(error)[:80] or type(error).__name__
+    return ""
 
 
 def _object(text: str) -> Any:

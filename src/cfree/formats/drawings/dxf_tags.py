@@ -8,7 +8,7 @@ entity with a broken number is taken out, so that it does not cost the whole fil
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 BINARY = b"AutoCAD Binary DXF"
@@ -25,10 +25,12 @@ MARKERS: dict[bytes, tuple[bytes, ...]] = {
 """Subclass of each entity that came after R12."""
 _MEASURED = {b"LINE", b"ARC", b"CIRCLE", b"LWPOLYLINE", b"VERTEX", b"ELLIPSE", b"SPLINE"}
 _SEQUENCES = {b"POLYLINE": {b"VERTEX", b"SEQEND"}, b"INSERT": {b"ATTRIB", b"SEQEND"}}
+_PARTS = {b"VERTEX", b"ATTRIB", b"SEQEND"}
 _STRUCTURE = {b"SECTION", b"ENDSEC", b"BLOCK", b"ENDBLK", b"EOF"}
 _COMMON = {8, 6, 62, 67, 48, 60, 370, 410, 420}
 _POINTS, _RADIUS, _ANGLES = {10, 11, 20, 21}, 40, {50, 51}
 _FLOATS = {*range(10, 60), *range(110, 150), *range(210, 240), *range(460, 470), *range(1010, 1060)}
+_BINARY, _GROUP = {*range(310, 320), 1004}, 102
 _INTEGERS = {*range(60, 80), *range(90, 100), *range(170, 180), *range(270, 290), *range(370, 390)}
 
 
@@ -68,10 +70,19 @@ class Tags:
     mended: int = 0
 
 
-def mended(raw: bytes) -> Tags:
+Probe = Callable[[Sequence[tuple[int, bytes]]], str]
+
+
+def mended(raw: bytes, probe: Probe | None = None) -> Tags:
     """Return a file with markers and a version, without the entities that have broken numbers.
 
     A binary file and a file that is no list of tags come back unchanged.
+
+    Parameters
+    ----------
+    raw : bytes
+    probe : callable, optional
+        Called with the tags of each entity; a text is its fault, and the entity is taken out.
 
     Examples
     --------
@@ -83,23 +94,25 @@ def mended(raw: bytes) -> Tags:
     if raw.startswith(BINARY):
         return Tags(raw)
     codes, values, broken = _pairs(raw.splitlines())
-    return _Pass(raw, codes, values, broken).tags if len(broken) < len(codes) else Tags(raw)
+    return _Pass(raw, codes, values, broken, probe).tags if len(broken) < len(codes) else Tags(raw)
 
 
 def essential(raw: bytes) -> bytes:
     """Return a text file without tables and objects, which a file with damaged ones can be read without."""
     codes, values, _ = _pairs(raw.splitlines())
-    kept: list[bytes] = []
-    section: list[bytes] = []
-    name = b""
+    rows: list[bytes] = []
+    section = b""
     for k, (code, value) in enumerate(zip(codes, values, strict=True)):
         if code == 0 and value == b"SECTION":
-            section = []
-            name = values[k + 1] if k + 1 < len(values) else b""
-        section += (b"%d" % code, value)
-        if code == 0 and value == b"ENDSEC" and name in (b"HEADER", b"BLOCKS", b"ENTITIES"):
-            kept += section
-    return b"\n".join([*kept, b"0", b"EOF", b""])
+            section = values[k + 1] if k + 1 < len(values) else b""
+        if section in (b"BLOCKS", b"ENTITIES"):
+            rows += (b"%d" % code, value)
+    header: list[bytes] = []
+    for k, name in enumerate(values[:-1]):
+        if codes[k] == 9 and name in (b"$ACADVER", b"$INSUNITS") and codes[k + 1] in (1, 70) and name not in header:
+            header += (b"9", name, b"%d" % codes[k + 1], values[k + 1])
+    start = (b"0", b"SECTION", b"2", b"HEADER", *header, b"0", b"ENDSEC")
+    return b"\n".join([*start, *rows, b"0", b"EOF", b""])
 
 
 def _pairs(rows: Sequence[bytes]) -> tuple[list[int], list[bytes], list[int]]:
@@ -125,8 +138,10 @@ def _pairs(rows: Sequence[bytes]) -> tuple[list[int], list[bytes], list[int]]:
 class _Pass:
     """One pass over the tags of a file."""
 
-    def __init__(self, raw: bytes, codes: Sequence[int], values: Sequence[bytes], broken: Sequence[int]) -> None:
-        self.codes, self.values, self.broken = codes, values, broken
+    def __init__(
+        self, raw: bytes, codes: Sequence[int], values: Sequence[bytes], broken: Sequence[int], probe: Probe | None
+    ) -> None:
+        self.codes, self.values, self.broken, self.probe = codes, values, broken, probe
         self.lines: dict[str, int] = {}
         self.tags = Tags(raw, lines=self.lines)
         self.places, self.places_of_angles = 0, 0
@@ -182,15 +197,29 @@ class _Pass:
         place = bisect_left(self.broken, first + 1)
         if place < len(self.broken) and self.broken[place] <= end:
             return "a line is missing, or there is one too many"
+        kind, is_open = self.values[first], False
+        kinds = [first, *(j for j in range(first + 1, end) if self.codes[j] == 0)]
+        if kind in _PARTS or (self.values[kinds[-1]] != b"SEQEND" and (len(kinds) > 1 or kind == b"POLYLINE")):
+            return "a part of it is missing"
         for code, value in zip(self.codes[first:end], self.values[first:end], strict=True):
             try:
                 if code in _FLOATS:
                     float(value)
                 elif code in _INTEGERS:
                     int(float(value))
+                elif code in _BINARY:
+                    bytes.fromhex(value.decode("ascii"))
             except (ValueError, OverflowError):
                 return f"{value[:20].decode(errors='replace')!r} is no number"
-        return ""
+            if code == _GROUP:
+                if is_open != (value == b"}"):
+                    return "a group of tags that has no end"
+                is_open = not is_open
+        if self.probe:
+            ends = [*kinds[1:], end]
+            parts = (zip(self.codes[j:k], self.values[j:k], strict=True) for j, k in zip(kinds, ends, strict=True))
+            return next(filter(None, (self.probe(list(part)) for part in parts)), "")
+        return "a group of tags that has no end" if is_open else ""
 
     def lose(self, first: int, end: int, fault: str) -> None:
         row = dict(zip(reversed(self.codes[first:end]), reversed(self.values[first:end]), strict=True))
