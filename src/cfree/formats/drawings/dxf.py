@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import json
 import logging
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from io import BytesIO
 from typing import Any, Literal
 
 from cfree.errors import FormatError
-from cfree.formats.drawings.dxf_tags import BINARY, Tags, described, essential, mended
+from cfree.formats.drawings.dxf_tags import BINARY, Entity, Tags, described, essential, mended
 from cfree.formats.drawings.dxf_walk import DRAWING, Layers, Place, Walk
 from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.signals import ask
@@ -55,7 +56,7 @@ def read_dxf(source: Source) -> Shapes:
     if tags.mended:
         source.note("mended", "entity without subclass markers", count=tags.mended)
     try:
-        document, faults = _loaded(source, tags.raw)
+        document, faults = _loaded(source, tags)
         code = int(document.header.get("$INSUNITS", 0))
         text = next((value for tag, value in document.header.custom_vars if tag == PROPERTY), "{}")
         layers = _layers(document)
@@ -87,7 +88,7 @@ def _note_lost(source: Source, tags: Tags) -> None:
         source.note("lost", what, "less", where=lost.layer, handle=described(lost))
 
 
-def _loaded(source: Source, raw: bytes) -> tuple[Any, int]:
+def _loaded(source: Source, tags: Tags) -> tuple[Any, int]:
     """Return the document, and the number of faults that ezdxf mended.
 
     A file that ezdxf refuses is tried without its tables and objects, and then without the entities that it refuses.
@@ -95,11 +96,11 @@ def _loaded(source: Source, raw: bytes) -> tuple[Any, int]:
     from ezdxf import recover
 
     try:
-        document, audit = recover.read(BytesIO(raw))
+        document, audit = recover.read(BytesIO(tags.raw))
     except Exception:  # a damaged file raises any of them
-        if raw.startswith(BINARY) or b"ENTITIES" not in raw:
+        if tags.raw.startswith(BINARY) or b"ENTITIES" not in tags.raw:
             raise
-        raw = essential(raw)
+        raw = essential(tags.raw)
         source.note("mended", "damaged file, read without tables: all layers are visible", "more")
         try:
             document, audit = recover.read(BytesIO(raw))
@@ -107,7 +108,24 @@ def _loaded(source: Source, raw: bytes) -> tuple[Any, int]:
             tags = mended(raw, _fault)
             document, audit = recover.read(BytesIO(tags.raw))
             _note_lost(source, tags)
+    _note_removed(source, tags, document)
     return document, len(audit.fixes)
+
+
+def _note_removed(source: Source, tags: Tags, document: Any) -> None:
+    """Note the entities that ezdxf removed while it mended the file."""
+    left = [entity for block in document.blocks for entity in block]
+    handles, counts = {entity.dxf.handle for entity in left}, Counter(entity.dxftype() for entity in left)
+    of_kind: dict[str, list[Entity]] = defaultdict(list)
+    for entity in tags.entities:
+        if entity.kind in DRAWING:
+            of_kind[entity.kind].append(entity)
+    for kind, entities in of_kind.items():
+        removed = [entity for entity in entities if entity.handle not in handles or not entity.handle]
+        count = len(entities) - counts[kind]
+        for entity in sorted(removed, key=lambda entity: not entity.handle)[: max(count, 0)]:
+            what = f"{kind} that is removed, since it is not valid"
+            source.note("lost", what, "less", where=entity.layer, handle=described(entity))
 
 
 def _fault(tags: Sequence[tuple[int, bytes]]) -> str:

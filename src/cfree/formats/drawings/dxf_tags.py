@@ -34,15 +34,15 @@ _BINARY, _GROUP = {*range(310, 320), 1004}, 102
 _INTEGERS = {*range(60, 80), *range(90, 100), *range(170, 180), *range(270, 290), *range(370, 390)}
 
 
-@dataclass(slots=True)
-class Lost:
-    """An entity that was taken out, with its fault."""
+@dataclass(frozen=True, slots=True)
+class Entity:
+    """An entity of the file, and its fault if it was taken out."""
 
     kind: str
     handle: str
     layer: str
     line: int
-    fault: str
+    fault: str = ""
 
 
 @dataclass(slots=True)
@@ -57,7 +57,10 @@ class Tags:
         One in the last decimal place that is written for lengths, and for angles in degrees; 0 if none is written.
     lines : dict, optional
         Line of each entity in the file, by handle; None if the file has no lines.
-    lost : list of Lost
+    entities : list of Entity
+        All that are left, polylines with their vertices as one.
+    lost : list of Entity
+        All that were taken out.
     mended : int
         Number of entities that got markers.
     """
@@ -66,7 +69,8 @@ class Tags:
     unit: float = 0.0
     unit_of_angles: float = 0.0
     lines: dict[str, int] | None = None
-    lost: list[Lost] = field(default_factory=list)
+    entities: list[Entity] = field(default_factory=list)
+    lost: list[Entity] = field(default_factory=list)
     mended: int = 0
 
 
@@ -153,8 +157,9 @@ class _Pass:
             if section == b"HEADER":
                 self.look_at_header(first, end)
             elif section in (b"ENTITIES", b"BLOCKS") and values[first] not in _STRUCTURE:
-                if fault := self.fault(first, end):
-                    self.lose(first, end, fault)
+                entity = self.entity(first, end)
+                (self.tags.lost if entity.fault else self.tags.entities).append(entity)
+                if entity.fault:
                     pieces.append((first, end, []))
                     continue
                 newer = self.measure(first, end) or newer
@@ -221,11 +226,17 @@ class _Pass:
             return next(filter(None, (self.probe(list(part)) for part in parts)), "")
         return "a group of tags that has no end" if is_open else ""
 
-    def lose(self, first: int, end: int, fault: str) -> None:
-        row = dict(zip(reversed(self.codes[first:end]), reversed(self.values[first:end]), strict=True))
-        handle, layer = (row.get(code, b"").decode(errors="replace") for code in (5, 8))
+    def entity(self, first: int, end: int) -> Entity:
+        """Return an entity with its fault."""
+        end_of_head = next((j for j in range(first + 1, end) if self.codes[j] == 0), end)
+        handle = layer = ""
+        for code, value in zip(self.codes[first:end_of_head], self.values[first:end_of_head], strict=True):
+            if code == 5 and not handle:
+                handle = value.decode(errors="replace").upper()
+            elif code == 8 and not layer:
+                layer = value.decode(errors="replace")
         kind = self.values[first].decode(errors="replace")
-        self.tags.lost.append(Lost(kind, handle, layer or "0", 2 * first + 1, fault))
+        return Entity(kind, handle, layer or "0", 2 * first + 1, self.fault(first, end))
 
     def measure(self, first: int, end: int) -> bool:
         """Count decimal places, and keep lines; True if an entity came after R12."""
@@ -289,12 +300,12 @@ def _places(value: bytes) -> int:
     return min(max(places, 0), 17)
 
 
-def described(lost: Lost) -> str:
-    """Return the handle and the line of an entity that was taken out.
+def described(entity: Entity) -> str:
+    """Return the handle and the line of an entity.
 
     Examples
     --------
-    >>> described(Lost("ARC", "6E", "walls", 812, ""))
+    >>> described(Entity("ARC", "6E", "walls", 812))
     '6E, line 812'
     """
-    return ", ".join(filter(None, (lost.handle, f"line {lost.line}")))
+    return ", ".join(filter(None, (entity.handle, f"line {entity.line}")))

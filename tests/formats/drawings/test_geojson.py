@@ -1,0 +1,102 @@
+"""GeoJSON: lines with a width and points with a radius are walls; what forbids nothing is said."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from cfree.errors import FormatError
+from cfree.formats.drawings.source import Reading
+from cfree.formats.readers import read_file
+from cfree.formats.shapes import Shapes
+
+SQUARE = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]]}
+
+
+def feature(geometry: Any, **properties: Any) -> dict[str, Any]:
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def shape(kind: str, coordinates: Any) -> dict[str, Any]:
+    return {"type": kind, "coordinates": coordinates}
+
+
+def read(folder: Path, *features: Any, **options: Any) -> Shapes:
+    (folder / "a.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    shapes = read_file(folder / "a.geojson", Reading(**options))
+    assert isinstance(shapes, Shapes)
+    return shapes
+
+
+def noted(shapes: Shapes) -> list[tuple[str, str, str, int]]:
+    return [(note.kind, note.what, note.where, note.count) for note in shapes.reading]
+
+
+def test_a_line_with_a_width_is_a_wall(tmp_path: Path) -> None:
+    line = shape("LineString", [[0, 0], [10, 0]])
+    shapes = read(tmp_path, feature(line, name="wall", width=0.5))
+    (wall,) = shapes.of("obstacle")
+    assert wall.name == "wall"
+    assert float(wall.polygon.exact_area) == pytest.approx(5 + 3.1416 / 16, rel=0.01)
+    assert wall.polygon.bounds == (-0.25, -0.25, 10.25, 0.25)
+    again = read(tmp_path, feature(line), strokes=0.5)
+    assert again.shapes[0].polygon == wall.polygon
+    lines = shape("MultiLineString", [[[0, 0], [1, 0]], [[5, 0], [6, 0], [6, 2]]])
+    assert len(read(tmp_path, feature(lines, width="1/3")).shapes) == 3
+
+
+def test_a_point_with_a_radius_is_a_disc(tmp_path: Path) -> None:
+    shapes = read(tmp_path, feature(shape("Point", [1, 2]), name="tree", radius=0.5))
+    (tree,) = shapes.of("obstacle")
+    assert 0.7854 < float(tree.polygon.exact_area) < 0.79
+    assert tree.polygon.bounds == (0.5, 1.5, 1.5, 2.5)
+    assert len(read(tmp_path, feature(shape("MultiPoint", [[0, 0], [4, 4]]), radius=1)).shapes) == 2
+
+
+def test_geometries_without_a_width_are_said_and_cost_only_themselves(tmp_path: Path) -> None:
+    shapes = read(
+        tmp_path,
+        feature(SQUARE),
+        feature(shape("Point", [1, 1]), name="poi"),
+        feature(shape("LineString", [[0, 0], [9, 12]]), name="route"),
+        feature(None, name="nothing"),
+        feature(shape("MultiPolygon", [])),
+    )
+    assert len(shapes.shapes) == 1
+    assert noted(shapes) == [
+        ("lost", "point without a radius", "poi", 1),
+        ("lost", "open line", "route", 1),
+        ("info", "feature without a geometry", "nothing", 1),
+        ("info", "geometry without coordinates", "", 1),
+    ]
+    line = shapes.reading[1]
+    assert (line.size, line.at, line.remedy) == (15, (0, 0), "--strokes 0.1")
+
+
+def test_features_can_be_ignored_before_they_are_refused(tmp_path: Path) -> None:
+    bad = feature(shape("Polygon", [[[0, 0], [1, 0]]]), name="draft", role="ignore")
+    assert noted(read(tmp_path, feature(SQUARE), bad)) == [("hidden", "feature that is ignored", "draft", 1)]
+    bad["properties"].pop("role")
+    shapes = read(tmp_path, feature(SQUARE), bad, roles={"draft": "ignore"})
+    assert noted(shapes) == [("assumption", "feature that is ignored", "draft", 1)]
+    with pytest.raises(FormatError, match="outer ring: 2 points"):
+        read(tmp_path, feature(SQUARE), bad)
+
+
+def test_roles_by_name_count_before_the_property(tmp_path: Path) -> None:
+    shapes = read(tmp_path, feature(SQUARE, name="agv", role="obstacle"), roles={"agv": "robot"})
+    assert [shape.role for shape in shapes.shapes] == ["robot"]
+
+
+def test_collections_have_the_width_of_their_feature(tmp_path: Path) -> None:
+    both = {"type": "GeometryCollection", "geometries": [SQUARE, shape("LineString", [[9, 0], [9, 5]])]}
+    assert len(read(tmp_path, feature(both, width=1)).shapes) == 2
+    with pytest.raises(FormatError, match="a workspace needs a Polygon, and this is a LineString"):
+        read(tmp_path, feature(both, width=1, role="workspace"))
+
+
+@pytest.mark.parametrize("width", [-1, "wide", [1]])
+def test_a_width_that_is_none_is_a_fault(width: Any, tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=r"features\[0\].properties.width: expected a length, 0 or more, got"):
+        read(tmp_path, feature(shape("LineString", [[0, 0], [1, 0]]), width=width))
