@@ -194,6 +194,11 @@ def test_texts_are_paint_and_bodies_references_and_images_are_lost(tmp_path: Pat
     }
 
 
+def test_entities_of_other_kinds_are_named(tmp_path: Path) -> None:
+    (note,) = notes(read(plain(LWPOLYLINE, "0 ROBOTS 8 part 10 1"), tmp_path), "lost")
+    assert note.what == "ROBOTS entity"
+
+
 def test_blocks_that_nothing_inserts_are_said(tmp_path: Path) -> None:
     document = ezdxf.new()
     document.blocks.new("PART").add_circle((0, 0), 2)

@@ -53,6 +53,7 @@ def test_walls_contain_the_strokes_as_they_are_drawn() -> None:
         assert grown.difference(line.buffer(width / 2 + width / 8, quad_segs=64)).area < 1e-9
 
 
+@pytest.mark.slow
 def test_walls_of_curves_contain_their_strokes() -> None:
     curve = Cubic(((0, 0), (3, 6), (5, -4), (8, 1)))
     t = np.linspace(0, 1, 501)[:, None]
@@ -99,6 +100,7 @@ def test_lines_without_walls_are_noted_with_count_length_and_remedy() -> None:
         assert note.items[0].handle == "6E"
 
 
+@pytest.mark.slow
 def test_a_thin_line_around_a_curve_takes_few_pieces() -> None:
     curve = Cubic(((0, 0), (300, 600), (500, -400), (800, 100)))
     source = Source("a.dxf", reading=Reading(strokes=1e-9))

@@ -121,7 +121,7 @@ class Walk:
             self.source.refuse(f"blocks nested more than {DEEPEST} deep; explode them")
         for entity in entities:
             self.source.spend(COPYING if place.depth else 1)
-            layer = str(entity.dxf.get("layer", "0"))
+            layer = str(_value(entity, "layer", "0"))
             layer = place.layer if layer == "0" and place.layer is not None else layer
             try:
                 if self.is_shown(entity, layer):
@@ -141,7 +141,7 @@ class Walk:
             hidden = "entity on a frozen layer"
         elif name in self.layers.off and entity.dxftype() != "INSERT":  # a block's other layers stay visible
             hidden = "entity on a layer that is off"
-        elif entity.dxf.get("invisible", 0):
+        elif _value(entity, "invisible", 0):
             hidden = "invisible entity"
         else:
             if name in self.layers.not_plotted and entity.dxftype() in DRAWING:
@@ -387,6 +387,11 @@ DRAWING = {*READERS, *LOST, "INSERT"}
 """Entities that draw more than text."""
 COARSEST = 1e-5
 """Greatest unit of the last decimal place, per size of the drawing, that is taken for rounding."""
+
+
+def _value(entity: Any, name: str, default: Any) -> Any:
+    """Return an attribute of an entity of any type, also of those that ezdxf does not load."""
+    return entity.dxf.get(name, default) if entity.dxf.is_supported(name) else default
 
 
 def _is_clipped(entity: Any) -> bool:
