@@ -15,7 +15,7 @@ from typing import Any, Literal
 
 from cfree.errors import FormatError
 from cfree.formats.drawings.dxf_tags import BINARY, Entity, Tags, described, essential, mended
-from cfree.formats.drawings.dxf_walk import DRAWING, Layers, Place, Walk
+from cfree.formats.drawings.dxf_walk import DRAWING, PAINT, Layers, Place, Walk
 from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.signals import ask
 from cfree.formats.drawings.source import Source, read_bytes
@@ -118,13 +118,13 @@ def _note_removed(source: Source, tags: Tags, document: Any) -> None:
     handles, counts = {entity.dxf.handle for entity in left}, Counter(entity.dxftype() for entity in left)
     of_kind: dict[str, list[Entity]] = defaultdict(list)
     for entity in tags.entities:
-        if entity.kind in DRAWING:
+        if entity.kind not in PAINT:
             of_kind[entity.kind].append(entity)
     for kind, entities in of_kind.items():
         removed = [entity for entity in entities if entity.handle not in handles or not entity.handle]
         count = len(entities) - counts[kind]
         for entity in sorted(removed, key=lambda entity: not entity.handle)[: max(count, 0)]:
-            what = f"{kind} that is removed, since it is not valid"
+            what = f"{kind} that is removed, since it is not valid" if kind in DRAWING else f"{kind} entity"
             source.note("lost", what, "less", where=entity.layer, handle=described(entity))
 
 
