@@ -109,7 +109,7 @@ def enclosed(
     alone = faces if len(lines) == len(faces.edges) else Faces(layer.mesh.graph, lines)
     solid, inside = _plain(layer, faces, alone)
     if layer.guesses:
-        rings = _guessed_rings(layer, layer.lines(guess=True))
+        rings = _guessed_rings(layer, alone)
         _note_guesses(layer, rings)
         if workspace and rings and not any(solid):  # only guesses close it
             outer = max(rings, key=lambda ring: _width(layer, ring))
@@ -413,23 +413,28 @@ def _is_in(layer: Layer, join: int, ring: Iterable[int]) -> bool:
     return any(owner == layer.loose + join for edge in ring for owner, _ in layer.mesh.owners(edge))
 
 
-def _guessed_rings(layer: Layer, edges: list[int]) -> list[list[int]]:
-    """Return the outer contours with guesses; inside of a contour without one, those of the rest of its part."""
+def _guessed_rings(layer: Layer, alone: Faces) -> list[list[int]]:
+    """Return the outer contours with guesses; within a contour without one, those of the rest of its part.
+
+    A part that is apart from the contour without some guesses is a ring of its own then. So what the contour's own
+    ring among the lines `alone` is made of is left out, and the rest is searched again.
+    """
     graph, rings = layer.mesh.graph, list[list[int]]()
-    waiting = [edges]
+    drawn = _parts(layer, [edge for edge in alone.edges if alone.is_between(edge)])
+    waiting = [layer.lines(guess=True)]
     while waiting:
-        some = waiting.pop()
-        faces = Faces(graph, some)
-        core = [edge for edge in some if faces.is_between(edge)]
+        faces = Faces(graph, waiting.pop())
+        core = [edge for edge in faces.edges if faces.is_between(edge)]
         part = _parts(layer, core)
-        plain = _parts(layer, [edge for edge in core if not layer.is_guess(edge)])
+        members: dict[int, list[int]] = defaultdict(list)
+        for edge in core:
+            members[part[edge]].append(edge)
         rest: list[int] = []
         for contour in faces.outer_edges(core):
             if any(map(layer.is_guess, contour)):
                 rings.append(contour)
                 continue
-            own, drawn = part[contour[0]], plain[contour[0]]
-            others = [edge for edge in core if part[edge] == own and plain.get(edge) != drawn]
+            others = [edge for edge in members[part[contour[0]]] if drawn.get(edge) != drawn[contour[0]]]
             if any(map(layer.is_guess, others)):
                 rest += others
         if rest:

@@ -115,7 +115,9 @@ class Mesh:
                 self._rounding[node] = max(self.rounding[vertex], self._rounding.get(node, 0.0))
 
     def node(self, vertex: int) -> int:
-        """Return the point of the graph at a vertex."""
+        """Return the point of the graph at a vertex; -1 - k stands for point k itself."""
+        if vertex < 0:
+            return -1 - vertex
         vertex = self.first[vertex] if vertex < len(self.first) else vertex
         if vertex not in self._nodes:
             self._nodes[vertex] = self.graph.index(self.vertices[vertex])
@@ -129,7 +131,7 @@ class Mesh:
         """Add lines between two points of the graph, with their owners."""
         lines = list(lines)
         count = len(self.pieces)
-        self.pieces += [Piece(owner, start, end) for start, end, owner in lines]
+        self.pieces += [Piece(owner, -1 - start, -1 - end) for start, end, owner in lines]
         self.graph.join((start, end, count + k) for k, (start, end, _) in enumerate(lines))
 
     def outline(self, faces: Faces, cycle: Cycle) -> Ring:
