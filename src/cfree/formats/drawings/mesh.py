@@ -33,6 +33,8 @@ from cfree.polygons.noding import graph_of
 
 ROUNDS = 8
 """Maximum number of times that cut chords are divided."""
+WIDER = 8
+"""Growth of the distances between new ends of chords, away from a cut."""
 NEAR = 32
 """A node this many times the rounding of doubles away from a curve is on it."""
 Run = tuple[int, float, float]
@@ -369,12 +371,27 @@ class Mesh:
             self._draw([part for piece, between in cut for part in _cut(piece, between)])
 
     def _mark(self, piece: Piece, node: int, between: dict[float, int]) -> None:
-        """Find the point of a curve for a node on its chord, unless the node is on the curve."""
-        if self._parameter(piece, node) is None:
-            curve = self.carriers[piece.carrier]
-            t = nearest(curve, self.graph.place(node), piece.first, piece.last)
-            if t not in (piece.first, piece.last):
-                between[t] = self._vertex(point_of(*place_at(curve, t)), 0.0)
+        """Find points of a curve around a node on its chord, unless the node is on the curve.
+
+        Near the node the new chords are as short as the node is far from the curve, and longer away from it, so that
+        the distance falls about quadratically from round to round.
+        """
+        if self._parameter(piece, node) is not None:
+            return
+        curve, p = self.carriers[piece.carrier], self.graph.place(node)
+        start, end = (self.graph.place(self.node(vertex)) for vertex in (piece.start, piece.end))
+        low, high = sorted((piece.first, piece.last))
+        t = nearest(curve, p, low, high)
+        if t in (low, high):  # the curve's nearest point is beyond the chord
+            share = math.dist(start, p) / (math.dist(start, p) + math.dist(p, end))
+            t = piece.first + share * (piece.last - piece.first)
+        marks, reach = [t], 4 * math.dist(place_at(curve, t), p) / math.dist(start, end) * (high - low)
+        while reach > 0 and (t - reach > low or t + reach < high):
+            marks += t - reach, t + reach
+            reach *= WIDER
+        for mark in marks:
+            if low < mark < high:
+                between[mark] = self._vertex(point_of(*place_at(curve, mark)), 0.0)
 
 
 def _cut(piece: Piece, between: list[tuple[float, int]]) -> Iterator[Piece]:
