@@ -5,7 +5,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include "arrays.hpp"
-#include "cfree/geometry/side_curvature.hpp"
+#include "cfree/geometry/integrals.hpp"
 #include "watched.hpp"
 
 using namespace nb::literals;

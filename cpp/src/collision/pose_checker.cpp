@@ -1,6 +1,7 @@
 // Verdicts of poses by grids, then in doubles with a bound, then in integers; theory, "Poses, exactly".
 #include "cfree/collision/pose_checker.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -1,6 +1,7 @@
 // Grids of poses: obstacle pieces near the poses of a cell, and verdicts on all poses of a box.
 #include "collision/pose_grid.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>

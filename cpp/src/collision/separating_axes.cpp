@@ -1,5 +1,7 @@
 // Convex pieces of a scene, and separating axes between two: in doubles with a bound, and in integers.
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "cfree/support/elementary.hpp"
 #include "collision/placed_robot.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "cfree/contact/contact_curve.hpp"
-#include "cfree/geometry/quadrature.hpp"
+#include "cfree/geometry/integrals.hpp"
 
 namespace cfree {
 

@@ -4,10 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <vector>
-
-#include "cfree/forbidden/limits.hpp"
 
 namespace cfree {
 
@@ -44,20 +40,5 @@ Integral integral(const F& f, double from, double to, double coarse, double one,
     sum += integral(f, middle, to, right, one, halvings - 1);
     return sum;
 }
-
-// Limits of t on a trapezoid's line at an orientation, and the sines of the angles between it and its two curves' lines.
-struct TrapezoidLine {
-    Index trapezoid;
-    double theta, lower, upper, lower_sine, upper_sine;
-};
-TrapezoidLine trapezoid_line(const Limits& limits, Index trapezoid, double theta);
-
-// First and last orientation.
-std::array<double, 2> angles_of(const Boundary& boundary, Index trapezoid);
-
-// Integrals over theta of a function of such lines, for each trapezoid; `one` is the mean of all.
-std::vector<Integral> trapezoid_integrals(const Boundary& boundary, const std::function<double(const TrapezoidLine&)>& along_t);
-std::vector<Integral> trapezoid_areas(const Boundary& boundary, double angle_scale);
-std::vector<Integral> trapezoid_curvatures(const Boundary& boundary, double angle_scale);  // integrals of K
 
 }  // namespace cfree
