@@ -160,6 +160,24 @@ def distances(result: Boundary, trapezoid: Any, points: Any, scale: float, reach
     return least
 
 
+@pytest.mark.parametrize(
+    ("path", "error", "scale"),
+    [
+        (MESHES / "vertices_that_nearly_meet.json", 0.05, 2**0.5),
+        (MESHES / "vertices_that_nearly_meet.json", 0.055, 1.5),
+        (SCENES / "comb_hook.json", 0.2, 1.0),
+        (ROOT / "tests/cases/zero_width/needle.json", 0.23, 4.0),
+    ],
+    ids=lambda value: getattr(value, "stem", str(value)),
+)
+def test_chords_of_curves_are_as_short_as_faces_need(path: Path, error: float, scale: float) -> None:
+    """At these errors a chord within 7/10 of the error of its curve was beyond the bound of its face."""
+    result = boundary(load_scene(path), threads=1)
+    mesh = result.mesh(error, angle_scale=scale)
+    check_closed(mesh, result)
+    check_error(mesh, result)
+
+
 @pytest.mark.parametrize("name", ["nearly_collinear_chain", "few_doubles_between_angles", "sliver_between_boxes"])
 def test_triangles_of_thin_trapezoids_are_as_near_as_theory_says(name: str) -> None:
     result = boundary(load_scene(MESHES / f"{name}.json"), threads=1)

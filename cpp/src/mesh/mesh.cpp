@@ -16,6 +16,8 @@ namespace {
 
 using std::numbers::pi;
 constexpr double most_turn = pi / 4;  // greatest turn between two samples of a curve
+constexpr double shorter = 0.9;       // share of a chord's step that is tried next, if the bound of a face forbids the chord
+constexpr int most_tries = 16;        // then doubles tell too little of the curve: the face's triangles will show that
 constexpr double nearest_part = 0.05;    // share of a layout's step: an end of an edge so near to a point replaces it
 
 bool is_curve(std::uint8_t side) { return side == 1 || side == 3; }
@@ -101,7 +103,8 @@ private:
     FaceMesher filler;
 };
 
-// Samples of a curve: angles at which the rows of one of the faces end, with others between them if the curve bends too much.
+// Samples of a curve: angles at which the rows of one of the faces end, with others between them if the curve bends too much,
+// or if a face's bound forbids the chord, and so every triangle with it.
 Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     const Index first = order[start[edge]];
     const double a = std::min(angle(first), angle(after(first))), b = std::max(angle(first), angle(after(first)));
@@ -123,15 +126,35 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
             for (const ContactCurve& c : mesh_faces[in.face[order[k]]].curves) most = std::max(most, c.bend_near(from, to));
         return most;
     };
+    const bool rises = angle(first) < angle(after(first));
+    const Complex at_a = place(rises ? first : after(first)), at_b = place(rises ? after(first) : first);
+    const auto is_close = [&](double from, double to) {
+        return std::all_of(order.begin() + start[edge], order.begin() + start[edge + 1], [&](Index h) {
+            const MeshFace& sheet = mesh_faces[in.face[h]];
+            if (sheet.is_thin()) return true;
+            const bool upper = in.side[h] == 1;
+            const auto corner = [&](double phi) {
+                const Complex x = phi == a ? at_a : phi == b ? at_b : sheet.curves[upper].at(phi);
+                MeshPoint p = sheet.point(sheet.position(x, phi), phi);
+                p.inward[upper] = 0;
+                return p;
+            };
+            const MeshPoint p = corner(from), q = corner(to);
+            return sheet.excess({&p, &q, &p}) <= 1 - 1e-9;
+        });
+    };
     Samples samples;
     stops.push_back(b);
     double at = a;
     for (const double stop : stops) {
         while (at < stop - 1e-9) {
             double step = stop - at;
-            for (;;) {
-                const double most = std::min(most_turn, std::sqrt(8 * on_curves * error / std::max(bend(at, at + step), 1e-300)));
-                if (step <= most * (1 + 1e-9)) break;
+            for (int tries = 0;;) {
+                double most = std::min(most_turn, std::sqrt(8 * on_curves * error / std::max(bend(at, at + step), 1e-300)));
+                if (step <= most * (1 + 1e-9)) {
+                    if (is_close(at, at + step < stop ? at + step : stop) || ++tries > most_tries) break;
+                    most = shorter * step;
+                }
                 step = std::max((stop - at) / std::ceil((stop - at) / most), 0.5 * step);
                 if (step < 1e-12) break;
             }
