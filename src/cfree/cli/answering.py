@@ -108,10 +108,10 @@ class Answering:
         from cfree.exact.pose import Pose
         from cfree.scene.scene import required
 
-        asked_start, goals = ends[0], ends[1] or planner.scene.goals
+        requested_start, goals = ends[0], ends[1] or planner.scene.goals
         is_one = not goals or (len(goals) == 1 and isinstance(goals[0], Pose))
         start, goal = required(
-            planner.scene, asked_start, goals[0] if is_one and goals else None if is_one else Pose(0, 0)
+            planner.scene, requested_start, goals[0] if is_one and goals else None if is_one else Pose(0, 0)
         )
         free = None
         if nearest_free:
@@ -120,8 +120,8 @@ class Answering:
 
             with bar("nearest free poses"):
                 several = goal if is_one else to_goals(goals)
-                asked = [several] if isinstance(several, Pose) else several
-                free = free_ends(planner.scene, start, asked, options["clearance"])
+                requested = [several] if isinstance(several, Pose) else several
+                free = free_ends(planner.scene, start, requested, options["clearance"])
             start, goals = free.start, free.goals
             goal = goals[0] if isinstance(goals[0], Pose) else goal
         try:

@@ -32,16 +32,16 @@ class Ends:
     ----------
     start : Pose
     goals : tuple of Pose or place
-    asked_start : Pose or None
+    requested_start : Pose or None
         The requested start; None if it was not moved.
-    asked_goals : tuple of Pose, place or None
+    requested_goals : tuple of Pose, place or None
         The requested goals; None for those that were not moved.
     """
 
     start: Pose
     goals: tuple[Goal, ...]
-    asked_start: Pose | None
-    asked_goals: tuple[Goal | None, ...]
+    requested_start: Pose | None
+    requested_goals: tuple[Goal | None, ...]
 
     def marked(self, answer: Path | Separated | AllSeparated) -> Path | Separated | AllSeparated:
         """Return the answer with the requested ends that were moved."""
@@ -51,9 +51,9 @@ class Ends:
 
     def _of(self, goal: Pose) -> Moved | None:
         """Return the requested ends of an answer for one of the goals; None if none was moved."""
-        pairs = zip(self.goals, self.asked_goals, strict=True)
-        its_goal = next((asked for end, asked in pairs if end in (goal, (goal.x, goal.y))), None)
-        return None if its_goal is None and self.asked_start is None else Moved(self.asked_start, its_goal)
+        pairs = zip(self.goals, self.requested_goals, strict=True)
+        its_goal = next((requested for end, requested in pairs if end in (goal, (goal.x, goal.y))), None)
+        return None if its_goal is None and self.requested_start is None else Moved(self.requested_start, its_goal)
 
 
 def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Fraction | None) -> Ends:
@@ -101,5 +101,5 @@ def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Fract
     begin = moved(start, "start")
     ends = tuple(moved(goal, name_of(goals, k)) for k, goal in enumerate(goals))
     assert isinstance(begin, Pose)
-    asked = tuple(None if goal == end else goal for goal, end in zip(goals, ends, strict=True))
-    return Ends(begin, ends, None if begin == start else start, asked)
+    requested = tuple(None if goal == end else goal for goal, end in zip(goals, ends, strict=True))
+    return Ends(begin, ends, None if begin == start else start, requested)

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from cfree.exact.pose import Pose
     from cfree.formats.answers.answer_format import Read
 
-SCENE, ASKED, PIECES, TURNS, ROUND = "scene", "poses asked for", "convex pieces", "orientations", "round shapes"
+SCENE, QUERY, PIECES, TURNS, ROUND = "scene", "query", "convex pieces", "orientations", "round shapes"
 MOVED = "moved"
 NO_ROOM = {
     DECIMALS: 'they are claimed to be "free", and no room is enough for that; say "approximate"',
@@ -141,7 +141,7 @@ def answer(
     report(1.0)
     extents = {
         **_of_scene(outcome if read else None, whole, len(scene.obstacles)),
-        ASKED: "start and goal, where the scene has them",
+        QUERY: "start and goal, where the scene has them",
         **_of_moved(outcome),
         **(_of_curves(scene, outcome) if scene.curved else {}),
         PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them",
@@ -174,13 +174,13 @@ def _all_of(scene: Scene, outcome: AllSeparated, report: Callable[[float], objec
     polygons = outcome.scene if scene.curved else scene  # each proof checks that these are inside
     world = polygons and World(polygons)
     begun = outcome.proofs[0].moved
-    asked_start = outcome.start if begun is None or begun.start is None else begun.start
-    if scene.start not in (None, asked_start):
-        findings.append(Finding(ASKED, "start", f"it is {text_of(asked_start)}, and another in the scene"))
-    asked_goals = [outcome.moved_goals.get(goal, goal) for goal in outcome.goals]
+    requested_start = outcome.start if begun is None or begun.start is None else begun.start
+    if scene.start not in (None, requested_start):
+        findings.append(Finding(QUERY, "start", f"it is {text_of(requested_start)}, and another in the scene"))
+    requested_goals = [outcome.moved_goals.get(goal, goal) for goal in outcome.goals]
     for goal in (scene.goal, *scene.goals):
-        if goal is not None and goal not in asked_goals:
-            findings.append(Finding(ASKED, "goal", f"{text_of(goal)} in the scene is none of them"))
+        if goal is not None and goal not in requested_goals:
+            findings.append(Finding(QUERY, "goal", f"{text_of(goal)} in the scene is none of them"))
     without = Scene(scene.robot, scene.obstacles, bounds=scene.bounds, workspace=scene.workspace)
     for k, proof in enumerate(outcome.proofs):
         report(k / len(outcome.proofs))
@@ -188,7 +188,7 @@ def _all_of(scene: Scene, outcome: AllSeparated, report: Callable[[float], objec
         findings += [Finding(fault.kind, f"proof {k}: {fault.where}", fault.text) for fault in result.findings]
         checks.append(Check(f"proof {k}", PROVED if result.verified else REFUTED, result.proved or "see below"))
         if proof.start != outcome.start or (outcome.of == "closed" and proof.of != "closed"):
-            findings.append(Finding(ASKED, f"proof {k}", "its start differs, or it proves less than all claim"))
+            findings.append(Finding(QUERY, f"proof {k}", "its start differs, or it proves less than all claim"))
     for place in outcome.places:
         there = [proof for proof in outcome.proofs if (proof.goal.x, proof.goal.y) == place]
         where = f"({float(place[0]):g}, {float(place[1]):g})"
@@ -232,24 +232,24 @@ def _since(begin: float) -> float:
 
 def _other_poses(scene: Scene, outcome: Path | Separated) -> list[Finding]:
     """Findings for a start and a goal that are not the scene's, or were moved from there."""
-    asked = outcome.moved or Moved()
-    pairs = {"start": (scene.start, outcome.start, asked.start), "goal": (scene.goal, outcome.goal, asked.goal)}
+    requested = outcome.moved or Moved()
+    pairs = {"start": (scene.start, outcome.start, requested.start), "goal": (scene.goal, outcome.goal, requested.goal)}
     findings = [
-        Finding(ASKED, name, f"it is {text_of_move(moved, its)}, and {text_of(pose)} in the scene")
+        Finding(QUERY, name, f"it is {text_of_move(moved, its)}, and {text_of(pose)} in the scene")
         for name, (pose, its, moved) in pairs.items()
         if pose is not None and pose != (its if moved is None else moved)
     ]
-    reached = (outcome.goal, (outcome.goal.x, outcome.goal.y)) if asked.goal is None else (asked.goal,)
+    reached = (outcome.goal, (outcome.goal.x, outcome.goal.y)) if requested.goal is None else (requested.goal,)
     if scene.goals and not any(goal in reached for goal in scene.goals):
         goals = ", ".join(map(text_of, scene.goals))
-        findings.append(Finding(ASKED, "goal", f"it is {text_of(outcome.goal)}, and one of {goals} in the scene"))
+        findings.append(Finding(QUERY, "goal", f"it is {text_of(outcome.goal)}, and one of {goals} in the scene"))
     return findings
 
 
 def _of_moved(outcome: Path | Separated) -> dict[str, str]:
     """Moves of start and goal, in words."""
-    asked = outcome.moved or Moved()
-    pairs = (("start", asked.start, outcome.start), ("goal", asked.goal, outcome.goal))
+    requested = outcome.moved or Moved()
+    pairs = (("start", requested.start, outcome.start), ("goal", requested.goal, outcome.goal))
     texts = [f"{name} from {text_of(end)} to {text_of(to)}" for name, end, to in pairs if end is not None]
     why = "the need to move it was not checked" if _is_left(outcome) else "it is forbidden there"
     return {MOVED: f"{', '.join(texts)}; {why}; a nearer one is not excluded"} if texts else {}
@@ -272,8 +272,8 @@ def _is_left(outcome: Path | Separated) -> bool:
 
 def _needless(outcome: Path | Separated, world: World) -> list[Finding]:
     """Findings for ends that were moved although their poses are free."""
-    asked, findings = outcome.moved or Moved(), list[Finding]()
-    for name, end in (("start", asked.start), ("goal", asked.goal)):
+    requested, findings = outcome.moved or Moved(), list[Finding]()
+    for name, end in (("start", requested.start), ("goal", requested.goal)):
         if end is None or _is_left(outcome):
             continue
         is_free = fault_at(end, world) is None if isinstance(end, Pose) else _has_room(world, end)
@@ -347,8 +347,8 @@ def _of_separation(proof: Separated) -> dict[str, str]:
 
 
 def _sentence(outcome: Path | Separated, read: Read | None) -> str:
-    asked, far = outcome.moved or Moved(), f"{float(outcome.clearance):g} from obstacles and workspace"
-    ends = text_of_move(asked.start, outcome.start), text_of_move(asked.goal, outcome.goal)
+    requested, far = outcome.moved or Moved(), f"{float(outcome.clearance):g} from obstacles and workspace"
+    ends = text_of_move(requested.start, outcome.start), text_of_move(requested.goal, outcome.goal)
     if isinstance(outcome, Path):
         count = counted(len(outcome.motions), "motion")
         only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
