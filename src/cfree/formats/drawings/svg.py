@@ -10,12 +10,10 @@ The steps: `xml_tree` reads the elements, `svg_style` the style sheets, `svg_wal
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
 from cfree.curves.drawn import IDENTITY, Affine, compose
-from cfree.formats.drawings.content import Drawn, Lines
 from cfree.formats.drawings.outlines import shapes_of_drawing
 from cfree.formats.drawings.source import Source
 from cfree.formats.drawings.svg_lengths import UNITS, Measure, unit_of
@@ -40,20 +38,7 @@ def read_svg(source: Source) -> Shapes:
     content = Walk(source, root, compose(_FLIP, scale), size).content()
     settings = _settings(source, root) if "data-cfree" in root.attributes else {"units": unit}
     remedy = 'call a group, a layer or an element "robot"'
-    return shapes_of_drawing(source, "SVG", list(_filled(source, content)), settings, remedy)
-
-
-def _filled(source: Source, content: Iterable[Drawn | Lines]) -> Iterator[Drawn]:
-    """Yield filled elements, and unfilled ones whose curves are closed."""
-    for item in content:
-        if isinstance(item, Drawn):
-            yield item
-            continue
-        for curve in item.curves:
-            if not curve.closed:
-                source.note("lost", "open line", "less", where=item.names[0] if item.names else "", handle=curve.handle)
-        if rings := [curve.segments for curve in item.curves if curve.closed]:
-            yield Drawn(rings, item.names, item.line)
+    return shapes_of_drawing(source, "SVG", content, settings, remedy)
 
 
 def _settings(source: Source, root: Node) -> dict[str, Any]:
