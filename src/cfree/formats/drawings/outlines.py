@@ -19,6 +19,7 @@ from cfree.formats.drawings.source import Source, role_of, shapes_of, tolerance_
 from cfree.formats.drawings.strokes import walls
 from cfree.formats.shapes import IGNORE, Shape, Shapes
 from cfree.formats.text.findings import InvalidFileError, Problem
+from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import explained
 
 PIVOT = "pivot"
@@ -99,7 +100,17 @@ class _Makers:
             except UndecidedError as error:
                 self._fail(place, f"{error}; draw it wider, or leave it out")
             else:
-                self.shapes.append(Shape(place.role, place.name, polygon))
+                if not self._is_dust(place, polygon):
+                    self.shapes.append(Shape(place.role, place.name, polygon))
+
+    def _is_dust(self, place: _Place, polygon: Polygon) -> bool:
+        """True if an obstacle is smaller than the option says; it is noted."""
+        if place.role != "obstacle" or not polygon.area < self.source.reading.min_area:
+            return False
+        x, y = polygon.vertices[0].tolist()
+        where = place.name or place.role
+        self.source.note("assumption", "shape below the least area", "less", where=where, at=(x, y), size=polygon.area)
+        return True
 
     def _outlines(self, place: _Place, item: Drawn | Lines, hatched: bool) -> list[Outline]:
         if isinstance(item, Drawn):
