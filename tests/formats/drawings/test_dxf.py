@@ -302,6 +302,46 @@ def test_reading_is_limited_by_steps_and_tells_them(tmp_path: Path, monkeypatch:
         read_dxf(Source(str(tmp_path / "a.dxf")))
 
 
+def test_line_weights_are_no_widths(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    document.modelspace().add_line((0, 0), (9, 0), dxfattribs={"lineweight": 50})
+    shapes = read(written(document), tmp_path, strokes="drawn")
+    assert [note.what for note in shapes.reading] == [
+        "line without a width",
+        "line weight, which is paint and no width",
+    ]
+
+
+def test_closed_polylines_with_a_width_are_solids_unless_strokes_are_walls(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    document.modelspace().add_lwpolyline(SQUARE, close=True, dxfattribs={"const_width": 1})
+    shapes = read(written(document), tmp_path)
+    assert dxf_drawings.region(shapes).area == 25
+    (guess,) = notes(shapes, "guess")
+    assert (guess.what, guess.effect) == ("closed polyline with a width, read as a solid", "more")
+    shapes = read(written(document), tmp_path, strokes=guess.remedy.split()[1])
+    assert dxf_drawings.region(shapes).area == 25 - 9
+
+
+def test_hostile_blocks_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    document = ezdxf.new()
+    document.blocks.new("B0").add_circle((0, 0), 1)
+    for k in range(1, 9):
+        block = document.blocks.new(f"B{k}")
+        for _ in range(20):
+            block.add_blockref(f"B{k - 1}", (0, 0))
+    document.modelspace().add_blockref("B8", (0, 0))
+    monkeypatch.setattr(source_module, "MOST_STEPS", 10_000)
+    with pytest.raises(FormatError, match="elements and points, references expanded"):
+        read(written(document), tmp_path)
+    document = ezdxf.new()
+    document.blocks.new("B").add_circle((0, 0), 1)
+    rows = {"row_count": 30000, "column_count": 30000, "row_spacing": 1, "column_spacing": 1}
+    document.modelspace().add_blockref("B", (0, 0), dxfattribs=rows)
+    with pytest.raises(FormatError, match="elements and points, references expanded"):
+        read(written(document), tmp_path)
+
+
 def test_a_room_of_lines_is_asked_about(tmp_path: Path) -> None:
     room = ezdxf.new()
     space = room.modelspace()

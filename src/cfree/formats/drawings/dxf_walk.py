@@ -217,6 +217,8 @@ class Walk:
         """Keep an unfilled curve; its ends are rounded by an angle in degrees at a radius, and by a share of a unit."""
         if not ring:
             return
+        if self.source.reading.strokes == "drawn" and _value(entity, "lineweight", -1) > 0:
+            self.source.note("info", "line weight, which is paint and no width", where=layer)
         largest = max(abs(x) for segment in ring for p in ends(segment) for x in p)
         point_of(largest, largest)  # raises an error if it is no coordinate
         unit = self.tags.unit * place.scale
