@@ -19,7 +19,7 @@ from cfree.scene.reading import Effect, Item, Kind, Note, Notes, Place, thinned,
 
 MOST_BYTES = 1 << 26
 """Maximum size of a drawing or a map."""
-MOST_STEPS = 4_000_000
+MOST_STEPS = 3_000_000
 """Maximum number of elements, points and pieces of curves of a file, blocks and references expanded."""
 REPORTED = 10_000
 """Number of steps between two reports of progress."""
