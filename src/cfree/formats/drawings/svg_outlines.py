@@ -37,12 +37,14 @@ class Outlines:
     def content(self) -> list[Drawn | Lines]:
         """Return filled elements in the order of the file, then unfilled curves by their groups."""
         note_painted(self.source, self.painted)
+        groups = [group for group in self.groups if group.elements]
+        if not groups:
+            return self.filled
         rings = [ring for item in self.painted for ring in item.drawn.rings]
-        rings += [curve.segments for group in self.groups for item in group.elements for curve in item.curves]
+        rings += [curve.segments for group in groups for item in group.elements for curve in item.curves]
         x0, y0, x1, y1 = box_of(rings)
         size = max(x1 - x0, y1 - y0)
-        unfilled = [lines for group in self.groups if group.elements for lines in group.lines(self.source, size)]
-        return self.filled + unfilled
+        return self.filled + [lines for group in groups for lines in group.lines(self.source, size)]
 
     def add(self, element: Element) -> None:
         """Add the outline of a path or a basic shape."""
