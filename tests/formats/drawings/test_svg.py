@@ -365,6 +365,12 @@ def test_strokes_have_the_width_and_the_form_that_is_drawn(tmp_path: Path) -> No
     assert [type(item).__name__ for item in filled] == ["Drawn", "Lines"]
 
 
+def test_outlines_that_paint_nothing_are_solids_and_this_is_said(tmp_path: Path) -> None:
+    shapes = read(tmp_path, '<path fill="none" d="M0 0h24v24H0z"/><path fill="none" stroke="red" d="M30 0h4v4z"/>')
+    assert [(note.count, note.effect) for note in notes(shapes, "guess")] == [(1, "more")]
+    assert len(shapes.shapes) == 2
+
+
 def test_the_width_of_a_stroke_that_is_no_length_costs_no_file(tmp_path: Path) -> None:
     body = '<line stroke="red" stroke-width="thick" x2="5" y2="5"/>'
     body += '<rect stroke="red" stroke-width="2em" width="5" height="5"/>'

@@ -108,6 +108,13 @@ class Outlines:
     def _lines(self, element: Element, parts: list[Subpath], role: str) -> None:
         """Add an unfilled element to its group; by itself, if a clip cuts it or was not applied."""
         lines = Lines(self._curves(element, parts), element.state.names, element.node.line)
+        if (
+            role == "obstacle"
+            and element.state.style["stroke"].lower() == "none"
+            and any(c.closed for c in lines.curves)
+        ):
+            what = "outline that paints nothing, without fill and stroke: read as a solid"
+            self.source.note("guess", what, "more", where=element.name, handle=element.handle)
         rings = [curve.segments for curve in lines.curves]
         whole, left, _ = False, rings, True
         if element.state.clips:
