@@ -77,8 +77,8 @@ class Walk:
         self._node(self.root, self.begin, 0)
         return self.outlines.content()
 
-    def _node(self, node: Node, state: State, depth: int, used: bool = False, chosen: bool = False) -> None:
-        """Walk an element: the target of a use, or the chosen branch of a switch, or any other."""
+    def _node(self, node: Node, state: State, depth: int, used: bool = False) -> None:
+        """Walk an element; a symbol only if a use refers to it."""
         self.source.spend(4)
         tag = node.tag
         if depth > DEEPEST:
@@ -101,19 +101,17 @@ class Walk:
         element = Element(self.source, node, state, declared)
         if style["display"].lower() == "none":
             self.source.note("hidden", f"hidden {tag[:40]}", "less", where=element.name)
-        elif not chosen and not applies(self.source, node):
+        elif not applies(self.source, node):
             self.source.note("hidden", f"{tag[:40]} for other languages or programs", "less", where=element.name)
         else:
             try:
                 self._drawn(self._placed(element), depth)
             except InvalidFileError:
                 raise
-            except (ValueError, ArithmeticError) as error:
-                element.refuse(
-                    str(error)[:200]
-                    if isinstance(error, ValueError)
-                    else "a coordinate beyond 1e308; scale the drawing"
-                )
+            except ValueError as error:
+                element.refuse(str(error)[:200])
+            except ArithmeticError:
+                element.refuse("a coordinate beyond 1e308; scale the drawing")
 
     def _drawn(self, element: Element, depth: int) -> None:
         tag, state = element.node.tag, element.state
@@ -321,4 +319,4 @@ class Walk:
         others = len(branches) - (chosen is not None)
         self.source.note("hidden", "branch of a switch", "less", count=others, where=element.name)
         if chosen is not None:
-            self._node(chosen, element.state, depth + 1, chosen=True)
+            self._node(chosen, element.state, depth + 1)
