@@ -164,22 +164,22 @@ class Outlines:
                 element.refuse(f"a workspace with a {clip.what} would be larger than drawn; draw what is left of it")
             whole = True
             x0, y0, x1, y1 = box_of(rings)
-            at = (x0 + x1) / 2, (y0 + y1) / 2
-            self.source.note("guess", f"{clip.what} not applied: larger than drawn", "more", where=where, at=at)
+            middle = (x0 + x1) / 2, (y0 + y1) / 2
+            self.source.note("guess", f"{clip.what} not applied: larger than drawn", "more", where=where, at=middle)
         return whole, rings, even_odd
 
     # elements without an outline
 
     def text(self, element: Element) -> None:
         """Note a text with its place."""
-        at, _ = _box(element)
-        self.source.note("paint", "text", "less", where=element.name, at=at)
+        middle, _ = _box(element)
+        self.source.note("paint", "text", "less", where=element.name, at=middle)
 
     def picture(self, element: Element) -> None:
         """Note a picture or a piece of another language, with its middle and its longer side."""
-        at, size = _box(element)
+        middle, size = _box(element)
         remedy = "trace it in the drawing"
-        self.source.note("lost", element.node.tag, "less", where=element.name, at=at, size=size, remedy=remedy)
+        self.source.note("lost", element.node.tag, "less", where=element.name, at=middle, size=size, remedy=remedy)
 
 
 def _box(element: Element) -> tuple[tuple[float, float] | None, float | None]:
