@@ -61,6 +61,7 @@ PARAMETERS = [
     for name, function in callables()
     for parameter in inspect.signature(function).parameters.values()
     if parameter.name not in ("self", "cls") and not parameter.name.startswith("_")
+    if parameter.kind is not inspect.Parameter.VAR_KEYWORD
 ]
 
 
@@ -100,7 +101,7 @@ def fitting(name: str, function: Callable[..., Any], pool: list[Any]) -> dict[st
         if other.name == "self":
             owner = NAMES.get(name) or NAMES[name.rpartition(".")[0]]
             arguments["self"] = owner.__new__(owner)
-        elif other.default is inspect.Parameter.empty:
+        elif other.default is inspect.Parameter.empty and other.kind is not inspect.Parameter.VAR_KEYWORD:
             hint = hints.get(other.name, Any)
             words = words_of(hint)
             value = words[0] if words else SQUARE if hint is Any else next(v for v in pool if fits(hint, v))

@@ -3,15 +3,17 @@
 Each part imports only from those before it:
 
 1. `text/`: a file's text, the places in it, its faults; files replaced as a whole.
-2. `shapes.py`: what a file of shapes holds, before it is a scene.
-3. `scenes/`: the JSON scene.
-4. `drawings/`: drawings, maps and other files of shapes, one file a format.
-5. `readers.py`: the reader for each file.
-6. `scene_file.py`: `load_scene`, `load_shapes` and `save_scene`.
-7. `conversion.py`: `convert`.
-8. `boundaries/`: boundaries, their tables, meshes and slices.
-9. `answers/`: paths and separations.
-10. `files.py`: `save` and `load`.
+2. `units.py`: names of units of length, and factors between them.
+3. `fitting.py`: scale and reference point of shapes and poses.
+4. `shapes.py`: the content of a file of shapes, before it is a scene.
+5. `scenes/`: the JSON scene.
+6. `drawings/`: drawings, maps and other files of shapes, one file a format.
+7. `readers.py`: the reader for each file.
+8. `scene_file.py`: `load_scene`, `load_shapes` and `save_scene`.
+9. `conversion.py`: `convert`.
+10. `boundaries/`: boundaries, their tables, meshes and slices.
+11. `answers/`: paths and separations.
+12. `files.py`: `save` and `load`.
 """
 
 from typing import TYPE_CHECKING

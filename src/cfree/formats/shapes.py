@@ -132,9 +132,12 @@ class Shapes:
         >>> cfree.load_shapes("examples/scenes/flat.json").scaled("1/1000").scene().robot[0].bounds[2]
         0.0015
         """
-        factor = to_fraction(ratio)
+        try:
+            factor = to_fraction(ratio)
+        except (TypeError, ValueError) as error:
+            raise type(error)(f"ratio: {error}") from None
         if factor <= 0:
-            raise ValueError(f"scale: {ratio}; give a number above 0")
+            raise ValueError(f"ratio: {ratio}; give a number above 0")
         if factor == 1:
             return self
         return replace(
@@ -162,15 +165,15 @@ class Shapes:
         FormatError
             If there is no robot, or more than one workspace.
         """
-        settings = self.settings
         if isinstance(robot, Shapes):
+            settings = self.settings
             other, alike = in_units_of(robot, self)
             parts = [shape.polygon for shape in other.of("robot") or other.shapes]
             its = together(without_places(of_file(other.record, other.file)), alike)  # its places are in another frame
             settings = {"units": other.settings["units"], **settings} if other.settings.get("units") else settings
         else:
             parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
-            its = ()
+            settings, its = self.settings, ()
         rooms = self.of("workspace")
         if not parts:
             raise InvalidFileError(self.file, [whole(f"there is no robot; {self.remedy}")])
