@@ -348,7 +348,7 @@ def test_a_room_of_lines_is_asked_about(tmp_path: Path) -> None:
     space.add_lwpolyline([(0, 0), (12, 0), (12, 8), (0, 8)], close=True, dxfattribs={"layer": "A-WALL"})
     for k in range(4):
         space.add_circle((2 + 2 * k, 3), 0.5, dxfattribs={"layer": "FURNITURE"})
-    asked = [note for note in read(written(room), tmp_path).reading if note.kind != "near" and note.remedy]
+    asked = [note for note in read(written(room), tmp_path).reading if "around nearly" in note.what]
     assert [(note.what, note.where, note.remedy) for note in asked] == [
         ("line around nearly everything, read as a solid", "A-WALL", "--role A-WALL=workspace or --strokes 0.1")
     ]
