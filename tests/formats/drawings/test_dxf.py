@@ -7,6 +7,7 @@ from typing import Any
 import ezdxf
 import ezdxf.recover
 import pytest
+import shapely
 
 import dxf_drawings
 from cfree.errors import FormatError
@@ -321,6 +322,21 @@ def test_closed_polylines_with_a_width_are_solids_unless_strokes_are_walls(tmp_p
     assert (guess.what, guess.effect) == ("closed polyline with a width, read as a solid", "more")
     shapes = read(written(document), tmp_path, strokes=guess.remedy.split()[1])
     assert dxf_drawings.region(shapes).area == 25 - 9
+
+
+@pytest.mark.parametrize("width", [0, 1])
+def test_walls_around_a_workspace_are_obstacles_and_a_robot_stays_solid(width: int, tmp_path: Path) -> None:
+    document = ezdxf.new()
+    for layer in ("workspace", "robot"):
+        document.modelspace().add_lwpolyline(
+            SQUARE, close=True, dxfattribs={"layer": layer, **({"const_width": width} if width else {})}
+        )
+    shapes = read(written(document), tmp_path, strokes=1)
+    assert [float(shape.polygon.exact_area) for shape in shapes.of("workspace")] == [16]
+    room = shapely.Polygon(SQUARE).difference(dxf_drawings.region(shapes))
+    assert room.area == 9
+    robot = shapely.unary_union([shape.polygon.to_shapely() for shape in shapes.of("robot")])
+    assert robot.contains(shapely.box(0, 0, 4, 4)) and robot.area > 24.7
 
 
 def test_hostile_blocks_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

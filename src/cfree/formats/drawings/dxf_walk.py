@@ -229,7 +229,7 @@ class Walk:
     def fill(self, entity: Any, layer: str, place: Place, rings: list[Ring], *, even_odd: bool = True) -> None:
         """Keep rings that are filled together."""
         if rings:
-            self.filled.append(Drawn(rings, (layer,), self.found(entity, place)[1] or 1, even_odd))
+            self.filled.append(Drawn(rings, (layer,) if layer else (), self.found(entity, place)[1] or 1, even_odd))
 
     def content(self) -> list[Drawn | Lines]:
         """Return the unfilled curves of each layer, and the fills."""
@@ -295,26 +295,32 @@ class Walk:
             self.source.note("info", "polyline that is a point", where=layer)
             return
         if any(max(pair) > 0 for pair in widths):
-            self.wide(entity, layer, place, Curve(ring, corners.closed, cap="butt"), widths)
-            if not corners.closed or self.source.reading.strokes != "ignore":
-                return
-            self.source.note(
-                "guess",
-                "closed polyline with a width, read as a solid",
-                "more",
-                where=layer,
-                at=ends(ring[0])[0],
-                handle=self.named(entity, place),
-                remedy="--strokes drawn",
-            )
+            role = role_of(self.source, layer)[0]
+            self.wide(entity, layer, place, Curve(ring, corners.closed, cap="butt"), widths, role)
+            if role == "obstacle":
+                if not corners.closed or self.source.reading.strokes != "ignore":
+                    return
+                self.source.note(
+                    "guess",
+                    "closed polyline with a width, read as a solid",
+                    "more",
+                    where=layer,
+                    at=ends(ring[0])[0],
+                    handle=self.named(entity, place),
+                    remedy="--strokes drawn",
+                )
         self.add(entity, layer, place, ring, corners.closed)
 
-    def wide(self, entity: Any, layer: str, place: Place, curve: Curve, widths: list[tuple[float, float]]) -> None:
+    def wide(
+        self, entity: Any, layer: str, place: Place, curve: Curve, widths: list[tuple[float, float]], role: str
+    ) -> None:
+        """Keep the walls of a polyline; those of a workspace's outline are obstacles in it."""
         if any(min(pair) < 0 for pair in widths):
             raise ValueError("a width below zero")
         self.source.note("info", "polyline with a width, read as a wall", where=layer)
         for polygon in wall(self.source, curve, widths, "drawn", layer):
-            self.fill(entity, layer, place, [polyline(polygon.exact_vertices)])
+            name = layer if role != "workspace" else ""
+            self.fill(entity, name, place, [polyline(polygon.exact_vertices)])
 
     def spline(self, entity: Any, layer: str, place: Place) -> None:
         tool = entity.construction_tool()

@@ -80,9 +80,11 @@ class _Makers:
     def add(self, place: _Place, item: Drawn | Lines, *, hatched: bool) -> None:
         """Make shapes of an item; `hatched` if its layer has filled items, too."""
         if isinstance(item, Lines) and self.source.reading.strokes != "ignore":
+            role = "obstacle" if place.role == "workspace" else place.role
             solids = walls(self.source, item.curves, place.name or place.role)
-            self.shapes += [Shape(place.role, place.name, solid) for solid in solids]
-            return
+            self.shapes += [Shape(role, place.name, solid) for solid in solids]
+            if role == "obstacle" and place.role != "workspace":
+                return  # outlines of robot and workspace keep their meaning
         try:
             outlines = self._outlines(place, item, hatched)
         except InvalidPolygonError as error:
