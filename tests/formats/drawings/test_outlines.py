@@ -1,0 +1,68 @@
+"""The content of a drawing becomes shapes: layers, hatches, roles, strokes."""
+
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+from cfree.formats.drawings import outlines
+from cfree.formats.drawings.content import Drawn, Lines
+from cfree.formats.drawings.outlines import shapes_of_drawing
+from cfree.formats.drawings.source import Reading, Source
+from cfree.formats.shapes import Shapes
+from cfree.polygons.polygon import Polygon
+from enclosures import box, closed, lines, pieces
+
+
+def shapes(*content: Drawn | Lines, **options: object) -> Shapes:
+    return shapes_of_drawing(Source("a.dxf", reading=Reading(**options)), "DXF", content, {}, "")  # type: ignore[arg-type]
+
+
+def areas(found: Shapes) -> list[tuple[str, str | None, float]]:
+    return [(shape.role, shape.name, float(shape.polygon.exact_area)) for shape in found.shapes]
+
+
+def test_layers_and_hatches_are_apart() -> None:
+    walls = Lines(pieces(box(0, 0, 9, 9), box(2, 2, 5, 5)), ("walls",))
+    robot = Lines(closed(box(0, 0, 1, 1)), ("robot",))
+    hatch = Drawn([box(2, 2, 5, 5)], ("walls",))
+    assert areas(shapes(walls, robot, hatch)) == [
+        ("obstacle", "walls", 56),
+        ("robot", None, 1),
+        ("obstacle", "walls", 25),
+    ]
+
+
+def test_hatches_alone_are_solid_if_the_option_says_so() -> None:
+    walls, hatch = Lines(closed(box(0, 0, 9, 9)), ("walls",)), Drawn([box(2, 2, 5, 5)], ("walls",))
+    others = Lines(closed(box(20, 0, 1, 1)), ("others",))
+    assert [area for *_, area in areas(shapes(walls, hatch, others, fills="hatches"))] == [25, 1]
+
+
+def test_the_joining_distance_is_a_share_of_the_whole_drawing() -> None:
+    gap = Lines(lines((0, 0, 9, 0), (9, 0, 9, 9), (9, 9, 0, 9), (0, 9, 0, "0.00005")), ("walls",))
+    assert not shapes(gap).shapes
+    assert len(shapes(gap, Drawn([box(100, 0, 1, 1)], ("far",))).shapes) == 2
+
+
+def test_a_layer_to_ignore_is_noted_and_refuses_nothing() -> None:
+    crossing = Lines(closed([*box(0, 0, 1, 1)]), ("notes",))
+    found = shapes(crossing, Lines(closed(box(0, 0, 2, 2)), ("walls",)), roles={"notes": "ignore"})
+    assert len(found.shapes) == 1
+    (note,) = found.reading
+    assert (note.kind, note.what, note.where) == ("hidden", "ignored shape", "notes")
+
+
+def test_lines_are_walls_with_the_option_strokes(monkeypatch: pytest.MonkeyPatch) -> None:
+    wall = Polygon([(0, 0), (9, 0), (9, 1)])
+    strokes = SimpleNamespace(walls=lambda source, curves: [wall] * len(curves))
+    monkeypatch.setitem(sys.modules, f"cfree.formats.drawings.{outlines.STROKES}", strokes)  # type: ignore[arg-type]
+    walls, hatch = Lines(closed(box(0, 0, 9, 9), box(2, 2, 5, 5)), ("walls",)), Drawn([box(0, 0, 1, 1)], ("desk",))
+    found = shapes(walls, hatch, strokes=0.1)
+    assert [shape.polygon for shape in found.shapes[:2]] == [wall, wall]
+    assert len(found.shapes) == 3
+
+
+def test_a_workspace_with_an_ambiguous_outline_is_not_larger() -> None:
+    room = Lines(closed(box(0, 0, 9, 9), box(5, 5, 9, 9)), ("workspace",))
+    assert sum(area for *_, area in areas(shapes(room))) == 2 * 65
