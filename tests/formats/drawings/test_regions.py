@@ -3,6 +3,7 @@
 import math
 import random
 from fractions import Fraction
+from itertools import pairwise
 
 import pytest
 import shapely
@@ -349,6 +350,16 @@ def test_polygons_contain_every_drawn_point_of_an_obstacle(seed: int) -> None:
             if isinstance(segment, Arc):
                 samples = [segment.at(segment.first + (segment.last - segment.first) * k / 16) for k in range(17)]
                 assert all(found.distance(shapely.Point(p)) < 1e-6 for p in samples)
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_arcs_of_one_circle_keep_their_direction(turn: int) -> None:
+    def disc(radius: float, sense: int) -> Ring:
+        angles = [sense * math.tau * k / 3 for k in range(4)]
+        return [arc_of_circle((0, 0), radius, *pair) for pair in pairwise(angles)]
+
+    assert area(filled([disc(5, turn), disc(3, -turn)])) == pytest.approx(16 * math.pi, rel=0.01)
+    assert area(filled([disc(5, turn), disc(3, turn)])) == pytest.approx(25 * math.pi, rel=0.01)
 
 
 # --- clips ---

@@ -323,8 +323,10 @@ class Mesh:
             begin, count = place[start], len(marks)
             for k in range(begin, begin + ((place[end] - begin) % count or count)):
                 p, q = marks[k % count], marks[(k + 1) % count]
-                last = angle[q] or math.tau
-                yield from self._divided(Piece(piece.owner, p, q, carrier, angle[p], last), between)
+                first, last = angle[p], angle[q] or math.tau
+                if not forward:
+                    (p, q), (first, last) = (q, p), (last, first)
+                yield from self._divided(Piece(piece.owner, p, q, carrier, first, last), between)
 
     def _beside(self, chords: list[Piece], loose: set[int], reach: float) -> list[Piece]:
         """Divide chords beside loose vertices."""
