@@ -68,6 +68,15 @@ def test_components_are_nested_in_faces() -> None:
     assert (len(ring), len(holes)) == (4, 2)
 
 
+@pytest.mark.parametrize("flip", [1, -1])
+def test_a_component_right_above_a_corner_is_outside(flip: int) -> None:
+    corners = [(0, 0), (10, 5 * flip), (10, -5 * flip)]
+    graph = graph_of([])
+    graph.add([(corners[k - 1], corners[k], 0) for k in range(3)])
+    graph.add([((0, 3), (1, 3), 1), ((1, 3), (1, 4), 1), ((1, 4), (0, 3), 1)])
+    assert Faces(graph).around == [0, 0]
+
+
 def test_tails_and_bridges_are_beside_one_face() -> None:
     graph = squares((0, 0, 4), (10, 0, 4))
     graph.add([((4, 2), (10, 2), 9), ((0, 4), (0, 9), 9)])

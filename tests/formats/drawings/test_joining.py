@@ -85,9 +85,16 @@ def test_overshoots_are_not_joined() -> None:
     assert notes(source) == {"near line shorter than the joining distance": 2}
 
 
+def test_an_overshoot_is_not_joined_to_the_line_that_it_crosses() -> None:
+    (outline,), _ = outlines(lines((0, 0, "40.00003", 0), (30, -20, 50, 20), (50, 20, 0, 0)))
+    assert len(outline.outer) == 3
+
+
 def test_an_end_joins_the_inside_of_a_line() -> None:
     wall = [*pieces(box(0, 0, 40, 40)), *lines((20, "40.00003", 20, 60), (20, 60, 40, 60), (40, 60, 40, "40.00001"))]
-    assert area(region(wall)) == pytest.approx(1600 + 400)
+    found = region(wall)
+    assert area(found) == pytest.approx(1600 + 400)
+    assert point(20, 40) in {p for polygon in found for p in polygon.exact_vertices}
 
 
 def test_a_curve_that_nearly_closes_joins_its_own_end() -> None:

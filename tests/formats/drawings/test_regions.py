@@ -126,6 +126,7 @@ DRAWN = {
     "short of a side": [*pieces(box(0, 0, 40, 40)), *lines((10, "0.00002", 10, 40))],
     "closed": closed(box(0, 0, 40, 40)),
     "closed twice": closed(box(0, 0, 40, 40), reversed_ring(box(0, 0, 40, 40))),
+    "closed and in pieces": [*closed(box(0, 0, 40, 40)), *pieces(box(0, 0, 40, 40))],
     "a closed ring, and a wall in it": [*closed(box(0, 0, 40, 40)), *lines((10, 0, 10, 40))],
     "a closed ring, and lines that go on": [
         *closed(box(0, 0, 40, 20)),
