@@ -8,14 +8,15 @@ Renderers are compared with the reader: a pixel is filled if a shape covers its 
 from __future__ import annotations
 
 import importlib.util
-import resource
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:  # the process that renders needs neither
+    import numpy as np
+    from numpy.typing import NDArray
 
 SECONDS = 10
 MEMORY = 1 << 30
@@ -24,6 +25,8 @@ PACKAGES = {"resvg": "resvg_py", "cairosvg": "cairosvg"}
 
 def missing(renderer: str) -> str:
     """Return the reason why a renderer cannot be used; the empty string if it can."""
+    if sys.platform == "win32":
+        return "processes have no limits on this system"
     package = PACKAGES[renderer]
     if importlib.util.find_spec(package) is None:
         return f"{package} is not installed"
@@ -36,6 +39,7 @@ def missing(renderer: str) -> str:
 
 def picture(renderer: str, text: str, width: int) -> NDArray[np.float64]:
     """Return the share of each pixel that is painted, rows from above."""
+    import numpy as np
     from PIL import Image
 
     with tempfile.TemporaryDirectory() as folder:
@@ -48,6 +52,8 @@ def picture(renderer: str, text: str, width: int) -> NDArray[np.float64]:
 
 
 def _limit() -> None:
+    import resource
+
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
