@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from cfree.curves.drawn import IDENTITY, Affine, compose, decimal, translation
@@ -197,6 +198,7 @@ def shortened(by: Affine) -> Affine:
     return a, b, c, d, e, f
 
 
+@lru_cache(maxsize=64)
 def placing(by: Affine) -> Point:
     """Return the function that maps a point exactly; its coordinates are decimals or fractions."""
     common = math.lcm(*(entry.denominator for entry in by))
