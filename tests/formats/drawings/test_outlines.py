@@ -1,8 +1,5 @@
 """The content of a drawing becomes shapes: layers, hatches, roles, strokes."""
 
-import sys
-from types import SimpleNamespace
-
 import pytest
 
 from cfree.formats.drawings import outlines
@@ -55,8 +52,7 @@ def test_a_layer_to_ignore_is_noted_and_refuses_nothing() -> None:
 
 def test_lines_are_walls_with_the_option_strokes(monkeypatch: pytest.MonkeyPatch) -> None:
     wall = Polygon([(0, 0), (9, 0), (9, 1)])
-    strokes = SimpleNamespace(walls=lambda source, curves: [wall] * len(curves))
-    monkeypatch.setitem(sys.modules, f"cfree.formats.drawings.{outlines.STROKES}", strokes)  # type: ignore[arg-type]
+    monkeypatch.setattr(outlines, "walls", lambda source, curves, where: [wall] * len(curves))
     walls, hatch = Lines(closed(box(0, 0, 9, 9), box(2, 2, 5, 5)), ("walls",)), Drawn([box(0, 0, 1, 1)], ("desk",))
     found = shapes(walls, hatch, strokes=0.1)
     assert [shape.polygon for shape in found.shapes[:2]] == [wall, wall]
