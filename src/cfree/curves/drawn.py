@@ -155,6 +155,28 @@ def middle(segment: Segment) -> Vector:
             return (a[0] + 3 * b[0] + 3 * c[0] + d[0]) / 8, (a[1] + 3 * b[1] + 3 * c[1] + d[1]) / 8
 
 
+def chord_points(segment: Segment, count: int) -> list[Vector]:
+    """Points of a segment, evenly in its parameter, without the last one; of a line only the first."""
+    match segment:
+        case Line():
+            return [ends(segment)[0]]
+        case Arc(_, _, _, first, last):
+            return [segment.at(first + (last - first) * k / count) for k in range(count)]
+        case Cubic(points, _):
+            return [_at(points, k / count) for k in range(count)]
+
+
+def _at(p: Sequence[Vector], t: float) -> Vector:
+    weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3)
+    x, y = (sum(w * q[k] for w, q in zip(weights, p, strict=True)) for k in (0, 1))
+    return x, y
+
+
+def points_along(ring: Sequence[Segment], count: int = 16) -> list[Vector]:
+    """Points along connected segments, `count` on each curve, with both ends."""
+    return [*(p for segment in ring for p in chord_points(segment, count)), *(ends(s)[1] for s in ring[-1:])]
+
+
 def reversed_ring(ring: Sequence[Segment]) -> Ring:
     """Reverse the direction of a ring."""
     return [_reversed(segment) for segment in reversed(ring)]

@@ -223,7 +223,7 @@ def test_a_line_that_divides_a_hole_is_noted() -> None:
     curves = [*closed(box(0, 0, 90, 90), box(10, 10, 70, 70)), *lines((40, 10, 40, 80))]
     found, source = outlines(curves)
     assert area(polygon_of(outline, 0.01) for outline in found) == 8100 - 4900
-    assert notes(source) == {"lost line that divides what is free": 1}
+    assert notes(source) == {"lost line between free regions": 1}
 
 
 def test_a_ring_that_crosses_itself_is_solid_as_a_whole_but_a_hole_only_where_it_is_odd() -> None:

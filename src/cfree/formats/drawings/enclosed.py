@@ -17,8 +17,9 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+from cfree.curves.drawn import points_along
 from cfree.formats.drawings.content import Curve
 from cfree.formats.drawings.crossings import refuse_crossings
 from cfree.formats.drawings.joining import Ends, Join, square
@@ -26,7 +27,7 @@ from cfree.formats.drawings.mesh import Mesh
 from cfree.formats.drawings.source import Source
 from cfree.polygons.faces import Faces, root
 from cfree.polygons.noding import CrowdedError
-from cfree.scene.reading import Item, Note
+from cfree.scene.reading import Item, Note, thinned
 
 DEFAULT_JOIN = 1e-6
 """Default joining distance, per size of the drawing."""
@@ -483,10 +484,11 @@ def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
         is_open = any(not faces.is_between(edge) for edge in edges)
         nodes = ends[owner] or [graph.edges[edges[0]][0]]
         items = tuple(Item(handle, graph.place(node), gaps.get(node)) for node in nodes)
+        items = (replace(items[0], points=thinned(points_along(layer.curves[owner].segments))), *items[1:])
         layer.source.notes.add(
             Note(
                 "lost",
-                "open line" if is_open else "line that divides what is free",
+                "open line" if is_open else "line between free regions",
                 "less",
                 1,
                 layer.name,

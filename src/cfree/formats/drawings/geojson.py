@@ -207,7 +207,10 @@ class _Flat:
             else:
                 remedy = f"--strokes {usual_width([curve]):g}" if segments else ""
                 size = length_of(curve.segments) if segments else 0.0
-                self.source.note("lost", "open line", "less", where=name, at=at, size=size, remedy=remedy)
+                points = [(float(x), float(y)) for x, y in line]
+                self.source.note(
+                    "lost", "open line", "less", where=name, at=at, size=size, remedy=remedy, points=points
+                )
             return []
         if self.feature.role == "workspace":
             self.findings.under(self.path[:-1], f"a workspace needs a Polygon, and this is a {self.kind}")

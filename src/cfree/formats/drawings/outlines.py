@@ -7,19 +7,20 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from cfree.curves.curved import Curved
-from cfree.curves.drawn import IDENTITY, Affine, Ring, carried, decimal, translation
+from cfree.curves.drawn import IDENTITY, Affine, Ring, carried, decimal, ends, points_along, translation
 from cfree.curves.from_drawing import curved_of
-from cfree.curves.hulls import Outline, box_of, in_range, polygon_of
+from cfree.curves.hulls import Outline, area, box_of, in_range, polygon_of, rough
 from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.formats.drawings.content import Drawn, Lines
+from cfree.formats.drawings.content import Curve, Drawn, Lines
 from cfree.formats.drawings.regions import filled_outlines, layer_outlines
 from cfree.formats.drawings.source import Source, role_of, shapes_of, tolerance_of
-from cfree.formats.drawings.strokes import walls
+from cfree.formats.drawings.strokes import chords_of, wall, walls
 from cfree.formats.shapes import IGNORE, Shape, Shapes
 from cfree.formats.text.findings import InvalidFileError, Problem
 from cfree.polygons.polygon import Polygon
+from cfree.polygons.repair import repaired
 from cfree.scene.scene import explained
 
 PIVOT = "pivot"
@@ -45,7 +46,8 @@ def shapes_of_drawing(
     makers = _Makers(source, size, tolerance)
     for item, role, name in items:
         if role == IGNORE:
-            source.note("hidden", "ignored shape", "less", count=len(rings[id(item)]), where=name or "")
+            for ring in rings[id(item)]:
+                source.note("hidden", "ignored shape", "less", where=name or "", points=points_along(ring))
             continue
         shift = translation(-pivot[0], -pivot[1]) if role == "robot" and pivot else IDENTITY
         makers.add(_Place(item.line, role, name), _moved(item, shift), hatched=item.names[:1] in hatched)
@@ -91,28 +93,48 @@ class _Makers:
             self._fail(place, explained(error))
             return
         for outline in outlines:
-            if outline.curved and self.source.reading.curves and (shape := _round_shape(outline)):
-                self.shapes.append(Shape(place.role, place.name, shape))
-                continue
-            self.curves += outline.curved
-            try:
-                polygon = polygon_of(outline, self.tolerance, place.role == "workspace", self.source.spend)
-            except InvalidPolygonError as error:
-                self._fail(place, explained(error))
-            except UndecidedError as error:
-                self._fail(place, f"{error}; draw it wider, or leave it out")
-            else:
-                if not self._is_dust(place, polygon):
-                    self.shapes.append(Shape(place.role, place.name, polygon))
+            if not self._is_dust(place, outline):
+                self.shapes += [Shape(place.role, place.name, shape) for shape in self._shapes(place, outline)]
 
-    def _is_dust(self, place: _Place, polygon: Polygon) -> bool:
+    def _shapes(self, place: _Place, outline: Outline) -> Sequence[Polygon | Curved]:
+        """Return the round shape of an outline, or polygons around it; for a workspace one inside of it."""
+        if outline.curved and self.source.reading.curves and (shape := _round_shape(outline)):
+            return [shape]
+        self.curves += outline.curved
+        try:
+            polygon = polygon_of(outline, self.tolerance, place.role == "workspace", self.source.spend)
+        except (InvalidPolygonError, UndecidedError) as error:
+            if place.role != "workspace" and outline.curved:
+                return self._bands(outline)
+            remedy = "; draw it wider, or leave it out" if isinstance(error, UndecidedError) else ""
+            self._fail(
+                place, explained(error) + remedy if isinstance(error, InvalidPolygonError) else f"{error}{remedy}"
+            )
+            return []
+        if len(polygon.rings) <= len(outline.holes) and place.role != "workspace":
+            return self._bands(outline)  # no polygon inside of a hole was proved
+        return [polygon]
+
+    def _bands(self, outline: Outline) -> Sequence[Polygon]:
+        """Return a polygon of chords united with walls around the curves: around the shape, within the tolerance."""
+        import shapely
+
+        error, parts = self.tolerance / 4, list[Any]()
+        for ring in outline.rings:
+            parts += wall(self.source, Curve(list(ring), True), [(4 * error, 4 * error)] * len(ring), "round")
+        rings = [chords_of(ring, error, self.source.spend) for ring in outline.rings]
+        return repaired([shapely.Polygon(rings[0], rings[1:]), *parts])
+
+    def _is_dust(self, place: _Place, outline: Outline) -> bool:
         """True if an obstacle is smaller than the option says; it is noted."""
-        if place.role != "obstacle" or not polygon.area < self.source.reading.min_area:
+        least = self.source.reading.min_area
+        if place.role != "obstacle" or not least:
             return False
-        x, y = polygon.vertices[0].tolist()
-        where = place.name or place.role
-        self.source.note("assumption", "shape below the least area", "less", where=where, at=(x, y), size=polygon.area)
-        return True
+        size = abs(area(rough(outline.outer))) - sum(abs(area(rough(hole))) for hole in outline.holes)
+        if size < least:
+            at, where = ends(outline.outer[0])[0], place.name or place.role
+            self.source.note("assumption", "shape below the least area", "less", where=where, at=at, size=size)
+        return size < least
 
     def _outlines(self, place: _Place, item: Drawn | Lines, hatched: bool) -> list[Outline]:
         if isinstance(item, Drawn):

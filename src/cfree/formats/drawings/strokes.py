@@ -21,7 +21,19 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Literal
 
-from cfree.curves.drawn import Arc, Cubic, Line, Ring, Segment, Vector, decimal, ends, turn
+from cfree.curves.drawn import (
+    Arc,
+    Cubic,
+    Line,
+    Ring,
+    Segment,
+    Vector,
+    chord_points,
+    decimal,
+    ends,
+    points_along,
+    turn,
+)
 from cfree.curves.hulls import box_of
 from cfree.exact.number import ExactPoint
 from cfree.formats.drawings.content import Curve
@@ -88,6 +100,7 @@ def walls(source: Source, curves: Sequence[Curve], where: str = "") -> list[Poly
                 size=length,
                 handle=curve.handle,
                 remedy=f"--strokes {width:g}",
+                points=points_along(curve.segments),
             )
     return polygons
 
@@ -103,6 +116,7 @@ def note_open(source: Source, curve: Curve, where: str, width: float) -> None:
         size=length_of(curve.segments),
         handle=curve.handle,
         remedy="--strokes drawn" if curve.width > 0 else f"--strokes {width:g}",
+        points=points_along(curve.segments),
     )
 
 
@@ -122,9 +136,7 @@ def usual_width(curves: Sequence[Curve]) -> float:
 
 def length_of(ring: Ring) -> float:
     """Return the length of a curve, by chords."""
-    points = [p for segment in ring for p in _chord_points(segment, 32)]
-    last = ends(ring[-1])[1]
-    return sum(math.dist(a, b) for a, b in zip(points, [*points[1:], last], strict=True))
+    return sum(math.dist(a, b) for a, b in pairwise(points_along(ring, 32)))
 
 
 def wall(
@@ -369,15 +381,9 @@ def _tangent(segment: Segment, end: int) -> Vector:
     return u / size, v / size
 
 
-def _chord_points(segment: Segment, count: int) -> list[Vector]:
-    """Return points of a segment, evenly in its parameter, without the last one."""
-    match segment:
-        case Line():
-            return [ends(segment)[0]]
-        case Arc(_, _, _, first, last):
-            return [segment.at(first + (last - first) * k / count) for k in range(count)]
-        case Cubic(points, _):
-            return [_at(points, k / count) for k in range(count)]
+def chords_of(ring: Ring, error: float, spend: Callable[[int], object]) -> list[Vector]:
+    """Return the corners of a closed chain of chords within an error of a ring."""
+    return [p for segment in ring for p in _chords(segment, error, spend)[:-1]]
 
 
 def _chords(segment: Segment, error: float, spend: Callable[[int], object]) -> list[Vector]:
@@ -393,10 +399,4 @@ def _chords(segment: Segment, error: float, spend: Callable[[int], object]) -> l
     # a chord is within h^2 / 8 times the second derivative
     count = max(1, math.ceil(min(math.sqrt(bend / 8 / error), 1e9)))
     spend(PIECE * count)
-    return [*_chord_points(segment, count), ends(segment)[1]]
-
-
-def _at(p: Sequence[Vector], t: float) -> Vector:
-    weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3)
-    x, y = (sum(w * q[k] for w, q in zip(weights, p, strict=True)) for k in (0, 1))
-    return x, y
+    return [*chord_points(segment, count), ends(segment)[1]]
