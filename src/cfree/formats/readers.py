@@ -11,7 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from cfree.formats.drawings.source import Reading, Source, shapes_of
+from cfree.formats.drawings.source import Progress, Reading, Source, shapes_of
 from cfree.formats.scenes.scene_values import Fault, scene_from_plain
 from cfree.formats.shapes import Shapes
 from cfree.formats.text.archive import is_archive
@@ -41,13 +41,16 @@ def is_drawing(path: str | PathLike[str]) -> bool:
     return Path(path).suffix.lower() in DRAWINGS
 
 
-def read_file(path: str | PathLike[str], reading: Reading | None = None) -> Shapes | Scene:
-    """Read a file: a scene if it is complete, else shapes."""
+def read_file(
+    path: str | PathLike[str], reading: Reading | None = None, progress: Progress | None = None
+) -> Shapes | Scene:
+    """Read a file: a scene if it is complete, else shapes; drawings report their progress, see `Source`."""
     file = os.fspath(path)
     refuse_other_kinds(file)
     if is_drawing(file):
         module, name = DRAWINGS[Path(file).suffix.lower()].split(".")
-        shapes: Shapes = getattr(import_module(f"cfree.formats.drawings.{module}"), name)(Source(file, reading=reading))
+        reader = getattr(import_module(f"cfree.formats.drawings.{module}"), name)
+        shapes: Shapes = reader(Source(file, reading=reading, progress=progress))
         return shapes
     findings = Findings(file, read_text(Path(file)))
     return (

@@ -296,7 +296,7 @@ def test_reading_is_limited_by_steps_and_tells_them(tmp_path: Path, monkeypatch:
     (tmp_path / "a.dxf").write_text(written(document))
     monkeypatch.setattr(source_module, "REPORTED", 50)
     told: list[int] = []
-    read_dxf(Source(str(tmp_path / "a.dxf"), progress=told.append))
+    read_file(tmp_path / "a.dxf", progress=told.append)
     assert told == sorted(told) and len(told) > 3
     monkeypatch.setattr(source_module, "MOST_STEPS", 100)
     with pytest.raises(FormatError, match="more than 100 elements and points"):
