@@ -18,6 +18,7 @@ from cfree.curves.drawn import Line
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
 from cfree.formats.drawings.content import Curve
+from cfree.formats.drawings.mending import mended, repairable
 from cfree.formats.drawings.source import CURVE_SHARE, Source
 from cfree.formats.drawings.strokes import disc, length_of, usual_width, wall
 from cfree.formats.scenes.json_types import Coordinate, Point
@@ -103,8 +104,8 @@ def geojson_shapes(
             parts: list[tuple[Any, Path]] = [(coordinates, place)]
             if kind == "MultiPolygon" and isinstance(coordinates, list):
                 parts = [(rings, (*place, k)) for k, rings in enumerate(coordinates)]
-            polygons = [_polygon(findings, rings, where) for rings, where in parts]
-            shapes += [Shape(feature.role, feature.name, polygon) for polygon in polygons if polygon]
+            polygons = _polygons(findings, parts, feature, source)
+            shapes += [Shape(feature.role, feature.name, polygon) for polygon in polygons]
         elif kind in _FLAT:
             if source is None:
                 findings.under(path, flat_shape(kind))
@@ -135,15 +136,33 @@ def _feature(findings: Findings, properties: object, path: Path, source: Source 
     return _Feature(wanted or role, name, properties, path)
 
 
-def _polygon(findings: Findings, rings: object, path: Path) -> Polygon | None:
+def _polygons(
+    findings: Findings, parts: list[tuple[Any, Path]], feature: _Feature, source: Source | None
+) -> list[Polygon]:
+    """Return the polygons of a geometry; with the option `repair`, their union."""
+    rings = [(_rings(findings, part, path), path) for part, path in parts]
+    if source is not None and source.reading.repair:
+        whole = [part for part, _ in rings if part]
+        return mended(source, whole, feature.role, feature.name) if whole else []
+    return [polygon for part, path in rings if part is not None and (polygon := _polygon(findings, part, path, source))]
+
+
+def _rings(findings: Findings, value: object, path: Path) -> list[list[ExactPoint]] | None:
     try:
-        outer, *holes = _RINGS.validate_python(rings) or [[]]
-        return Polygon(outer, holes)
+        return _RINGS.validate_python(value) or [[]]
     except ValidationError as error:
         for item in error.errors(include_url=False, include_input=False):
             report(findings, (*path, *item["loc"]), item)
+    return None
+
+
+def _polygon(findings: Findings, rings: list[list[ExactPoint]], path: Path, source: Source | None) -> Polygon | None:
+    try:
+        outer, *holes = rings
+        return Polygon(outer, holes)
     except InvalidPolygonError as error:
-        findings.under((*path, error.ring) if error.ring is not None and rings else path, explained(error))
+        message = repairable(error) if source else explained(error)
+        findings.under((*path, error.ring) if error.ring is not None and rings != [[]] else path, message)
     return None
 
 

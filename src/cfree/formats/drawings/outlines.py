@@ -13,14 +13,14 @@ from cfree.curves.hulls import Outline, area, box_of, in_range, polygon_of, roug
 from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.formats.drawings.content import Curve, Drawn, Lines
-from cfree.formats.drawings.regions import filled_outlines, layer_outlines
+from cfree.formats.drawings.chord_polygons import chord_polygons
+from cfree.formats.drawings.content import Drawn, Lines
+from cfree.formats.drawings.regions import FINER, filled_outlines, layer_outlines
 from cfree.formats.drawings.source import Source, role_of, shapes_of, tolerance_of
-from cfree.formats.drawings.strokes import chords_of, wall, walls
+from cfree.formats.drawings.strokes import walls
 from cfree.formats.shapes import IGNORE, Shape, Shapes
 from cfree.formats.text.findings import InvalidFileError, Problem
 from cfree.polygons.polygon import Polygon
-from cfree.polygons.repair import repaired
 from cfree.scene.scene import explained
 
 PIVOT = "pivot"
@@ -97,33 +97,26 @@ class _Makers:
                 self.shapes += [Shape(place.role, place.name, shape) for shape in self._shapes(place, outline)]
 
     def _shapes(self, place: _Place, outline: Outline) -> Sequence[Polygon | Curved]:
-        """Return the round shape of an outline, or polygons around it; for a workspace one inside of it."""
+        """Return the round shape of an outline, or polygons; more than one only if its curves nearly touch."""
         if outline.curved and self.source.reading.curves and (shape := _round_shape(outline)):
             return [shape]
         self.curves += outline.curved
+        inside, message = place.role == "workspace", ""
         try:
-            polygon = polygon_of(outline, self.tolerance, place.role == "workspace", self.source.spend)
-        except (InvalidPolygonError, UndecidedError) as error:
-            if place.role != "workspace" and outline.curved:
-                return self._bands(outline)
-            remedy = "; draw it wider, or leave it out" if isinstance(error, UndecidedError) else ""
-            self._fail(
-                place, explained(error) + remedy if isinstance(error, InvalidPolygonError) else f"{error}{remedy}"
-            )
-            return []
-        if len(polygon.rings) <= len(outline.holes) and place.role != "workspace":
-            return self._bands(outline)  # no polygon inside of a hole was proved
-        return [polygon]
-
-    def _bands(self, outline: Outline) -> Sequence[Polygon]:
-        """Return a polygon of chords united with walls around the curves: around the shape, within the tolerance."""
-        import shapely
-
-        error, parts = self.tolerance / 4, list[Any]()
-        for ring in outline.rings:
-            parts += wall(self.source, Curve(list(ring), True), [(4 * error, 4 * error)] * len(ring), "round")
-        rings = [chords_of(ring, error, self.source.spend) for ring in outline.rings]
-        return repaired([shapely.Polygon(rings[0], rings[1:]), *parts])
+            polygon = polygon_of(outline, self.tolerance, inside, self.source.spend)
+            if inside or len(polygon.rings) > len(outline.holes):  # else a hole is filled
+                return [polygon]
+        except InvalidPolygonError as error:
+            message = explained(error)
+        except UndecidedError as error:
+            message = f"{error}; draw it wider, or leave it out"
+        polygons = chord_polygons(outline, self.tolerance / FINER, inside=inside) if outline.curved else ()
+        if polygons:
+            what = "outline with curves that nearly touch"
+            self.source.note("near", what, "near", where=place.name or place.role, size=self.tolerance)
+        else:
+            self._fail(place, message)
+        return polygons
 
     def _is_dust(self, place: _Place, outline: Outline) -> bool:
         """True if an obstacle is smaller than the option says; it is noted."""

@@ -381,11 +381,6 @@ def _tangent(segment: Segment, end: int) -> Vector:
     return u / size, v / size
 
 
-def chords_of(ring: Ring, error: float, spend: Callable[[int], object]) -> list[Vector]:
-    """Return the corners of a closed chain of chords within an error of a ring."""
-    return [p for segment in ring for p in _chords(segment, error, spend)[:-1]]
-
-
 def _chords(segment: Segment, error: float, spend: Callable[[int], object]) -> list[Vector]:
     """Return points of a curve whose chords are within an error of it."""
     match segment:
