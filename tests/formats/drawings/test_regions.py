@@ -328,6 +328,13 @@ def test_lines_that_end_on_arcs_are_joined_to_them() -> None:
     assert notes(source)["lost open line"] == 1  # the rest of the arc
 
 
+def test_an_arc_that_is_a_point_is_no_circle() -> None:
+    half, speck = [arc_of_circle((0, 0), 20, 0, math.pi)], [arc_of_circle((0, 0), 20, 1, 1 + 1e-9)]
+    curves = [Curve(part, False, "", 1e-6) for part in (half, speck)]
+    found, _ = outlines([*curves, *lines((-20, 0, 20, 0))])
+    assert area(polygon_of(outline, 0.01) for outline in found) == pytest.approx(200 * math.pi, rel=1e-2)
+
+
 def test_thin_rings_between_circles_keep_their_hole() -> None:
     (outline,), _ = outlines(closed([arc_of_circle((0, 0), 50)], [arc_of_circle((0.0003, 0), 49.999)]))
     assert [sweep(part) for part in outline.rings] == [math.tau, math.tau]

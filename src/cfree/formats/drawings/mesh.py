@@ -318,6 +318,8 @@ class Mesh:
         for piece, segment in group:
             assert isinstance(segment, Arc)
             (a, b), (c, d) = segment.u, segment.v
+            if piece.start == piece.end and abs(segment.last - segment.first) < math.pi:
+                continue  # so short that it is a point
             forward = ((a * d - b * c) > 0) == (segment.last > segment.first)
             start, end = (piece.start, piece.end) if forward else (piece.end, piece.start)
             begin, count = place[start], len(marks)
