@@ -58,7 +58,7 @@ def test_faults_of_geojson_are_placed(tmp_path: Path) -> None:
         "map.geojson:2:62 features[0].properties.name: expected text in quotes, got 5",
         'map.geojson:3:69 features[0].geometry.coordinates[0][2][0]: expected a number or "p/q", got "a"',
         "map.geojson:7:46 features[3].coordinates[0][1]: "
-        "hole 0: it lies outside the outer ring; move it, or leave it out",
+        "hole 0: it lies outside the outer ring; move it, or leave it out, or give --repair",
         "map.geojson:7:74 features[3].coordinates[1][0]: outer ring: 2 points; give at least 3: "
         "shapes are closures of their interiors: a segment or a point forbids nothing",
         'map.geojson:8:2 features[4]: a Polygon needs "coordinates"',

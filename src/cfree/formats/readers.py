@@ -17,6 +17,7 @@ from cfree.formats.shapes import Shapes
 from cfree.formats.text.archive import is_archive
 from cfree.formats.text.findings import Findings, InvalidFileError, read_text, whole
 from cfree.formats.text.json_text import read_literals, with_numbers
+from cfree.scene.reading import together
 from cfree.scene.scene import Scene, with_reading
 
 DRAWINGS = {
@@ -136,8 +137,14 @@ def read_json_file(findings: Findings, data: object, reading: Reading | None = N
 
         instance: Shapes = read_nesting(source, with_numbers(data))
         return instance
-    if not findings and (scene := quick_scene(data)):
+    if not source.reading.repair and not findings and (scene := quick_scene(data)):
         return scene
     from cfree.formats.scenes.scene_format import scene_from_models
 
-    return scene_from_models(findings, with_numbers(data))
+    data = with_numbers(data)
+    if not source.reading.repair or not isinstance(data, Mapping):
+        return scene_from_models(findings, data)
+    from cfree.formats.drawings.scene_repair import repaired_scene
+
+    scene = scene_from_models(findings, repaired_scene(source, data))
+    return with_reading(scene, together(scene.reading, tuple(source.notes)))
