@@ -86,8 +86,10 @@ def walls(source: Source, curves: Sequence[Curve], where: str = "") -> list[Poly
         if strokes == "ignore":
             note_open(source, curve, where, width)
         elif strokes != "drawn":
+            source.note("info", "line read as a wall of the width given", where=where, size=float(strokes))
             polygons += wall(source, curve, [(strokes, strokes)] * len(curve.segments), "round", where)
         elif curve.width > 0:
+            source.note("info", "line read as a wall of its width", where=where, size=curve.width)
             polygons += wall(source, curve, [(curve.width, curve.width)] * len(curve.segments), "drawn", where)
         else:
             at, length = ends(curve.segments[0])[0], length_of(curve.segments)
