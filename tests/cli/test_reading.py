@@ -253,3 +253,14 @@ def test_all_commands_that_read_take_strict() -> None:
     commands = {name for name, command in app.commands.items() for p in command.params if "--strict" in p.opts}
     assert commands == readers
     assert isinstance(app, click.Group)
+
+
+def test_a_start_in_a_closed_line_names_the_options_that_make_walls_or_a_room_of_it(tmp_path: Path) -> None:
+    file = tmp_path / "room.svg"
+    wall = '<rect width="12" height="8" fill="none" stroke="black" stroke-width="0.2"/>'
+    file.write_text(f'<svg width="12m" height="8m" viewBox="0 0 12 8"><g id="A-WALL">{wall}</g></svg>')
+    robot = "[[0.3, 0.2], [-0.3, 0.2], [-0.3, -0.2], [0.3, -0.2]]"
+    question = "plan", file, "--robot", robot, "--start", "2,-2,0", "--goal", "9,-2,0"
+    error = run(*question).stderr
+    assert "if the lines of A-WALL are walls: --strokes drawn" in error and "--role A-WALL=workspace" in error
+    assert run(*question, "--strokes", "drawn").exit_code == run(*question, "--role", "A-WALL=workspace").exit_code == 0

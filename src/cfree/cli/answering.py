@@ -10,6 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cfree.cli import drawing
 from cfree.cli.faults import BAD_INPUT, INCOMPLETE, REFUTED, fail
 from cfree.cli.files import bar
 from cfree.cli.reading import AS_READ
@@ -135,7 +136,9 @@ class Answering:
             fail(str(error), INCOMPLETE)
         except ForbiddenPoseError as error:
             is_folder = isinstance(planner, FolderPlanner)  # it moves no pose
-            fail(str(error) if is_folder else f"{error}; or give --nearest-free", BAD_INPUT)
+            both = [start, *([goal] if goal else [])]
+            remedy = drawing.remedy_for_solids(planner.scene, [pose for pose in both if isinstance(pose, Pose)])
+            fail(str(error) if is_folder else f"{error}; or give --nearest-free{remedy}", BAD_INPUT)
 
     @property
     def path(self) -> Motions | None:

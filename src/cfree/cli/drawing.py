@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -12,10 +12,12 @@ from click.core import ParameterSource
 from cfree.cli.options import Word
 
 if TYPE_CHECKING:
+    from cfree.exact.pose import Pose
     from cfree.formats.drawings.source import Reading
     from cfree.formats.fitting import Pivot
+    from cfree.scene.scene import Scene
 
-_VALUES, _NAMED = "cfree.drawing", "cfree.drawing.named"
+_VALUES, _NAMED, _FORM = "cfree.drawing", "cfree.drawing.named", "cfree.drawing.form"
 SECTION = "Reading SCENE and ROBOT"
 _DRAWINGS = ("SVG", "DXF")
 _MAPS = ("ROS map",)
@@ -211,6 +213,32 @@ def robot(reading: Reading) -> Any:
     if text.lstrip()[:1] in ("[", "("):
         return footprint(text)
     return read_shapes(text, replace(reading, units="", scale=None))
+
+
+def remedy_for_solids(scene: Scene, poses: Sequence[Pose]) -> str:
+    """Return the options that change a closed line of a drawing around a pose, or nothing if there is none."""
+    context = click.get_current_context()
+    if context.meta.get(_FORM) not in _DRAWINGS or _values().get("strokes") != "ignore":
+        return ""
+    from shapely import Point
+
+    from cfree.scene.scene import polygons_for, size_of
+
+    names = [
+        name
+        for name, shape in zip(scene.obstacle_names, scene.obstacles, strict=True)
+        for polygon in polygons_for(shape, size_of(shape) / 100, True)
+        if any(polygon.to_shapely().contains(Point(float(pose.x), float(pose.y))) for pose in poses)
+    ]
+    if not names:
+        return ""
+    role = f"--role {names[0]!r}=workspace".replace("'", '"') if " " in names[0] else f"--role {names[0]}=workspace"
+    return f"; if the lines of {names[0]} are walls: --strokes drawn, or --strokes WIDTH; if they are the room: {role}"
+
+
+def keep_form(form: str) -> None:
+    """Keep the format of SCENE for `remedy_for_solids`."""
+    click.get_current_context().meta[_FORM] = form
 
 
 def _values() -> dict[str, Any]:

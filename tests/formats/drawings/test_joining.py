@@ -61,7 +61,7 @@ def test_an_open_line_names_the_least_distance_that_closes_it() -> None:
 def test_lines_that_nothing_closes_want_a_width() -> None:
     _, source = outlines(lines((0, 0, 40, 0), (0, 9, 40, 9)))
     (note,) = source.notes
-    assert note.remedy == "--strokes WIDTH"
+    assert note.remedy == "--strokes 0.1"
 
 
 def test_a_bridge_moves_no_curve() -> None:

@@ -25,6 +25,7 @@ from cfree.formats.drawings.crossings import refuse_crossings
 from cfree.formats.drawings.joining import Ends, Join, square
 from cfree.formats.drawings.mesh import Mesh
 from cfree.formats.drawings.source import Source
+from cfree.formats.drawings.strokes import usual_width
 from cfree.polygons.faces import Faces, root
 from cfree.polygons.noding import CrowdedError
 from cfree.scene.reading import Item, Note, thinned
@@ -505,6 +506,7 @@ def _remedy(layer: Layer, gaps: list[float]) -> str:
     used = layer.source.reading.join or DEFAULT_JOIN * layer.size
     wider = [gap for gap in gaps if gap >= used]
     if not wider:
-        return "--strokes WIDTH"
+        own = any(curve.width > 0 for curve in layer.curves)
+        return "--strokes drawn" if own else f"--strokes {usual_width(layer.curves):g}"
     unit = 10.0 ** (math.floor(math.log10(max(wider))) - 2)
     return f"--join {math.ceil(max(wider) / unit + 1e-6) * unit:.3g}"
