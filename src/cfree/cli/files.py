@@ -41,8 +41,10 @@ def read_shapes(source: Path) -> tuple[Shapes, Any]:
     from cfree.formats import scene_file
 
     wanted = drawing.options_of_reading()
-    with bar("reading"):
-        return scene_file.read_shapes(source, wanted), drawing.robot(wanted)
+    with status() as say:
+        say("reading ...")
+        shapes = scene_file.read_shapes(source, wanted, lambda steps: say(f"reading, {steps:,} pieces of curves ..."))
+        return shapes, drawing.robot(wanted)
 
 
 def scene_of(shapes: Shapes, robot: Any, source: Path, most: int | None = MOST_LINES) -> Scene:

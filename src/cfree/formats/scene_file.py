@@ -22,7 +22,7 @@ from cfree.curves.curved import Curved
 from cfree.exact.half_angle import Angle
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose
-from cfree.formats.drawings.source import Reading
+from cfree.formats.drawings.source import Progress, Reading
 from cfree.formats.readers import read_file, read_json_file
 from cfree.formats.scenes.reading_text import records
 from cfree.formats.shapes import Shape, Shapes
@@ -170,10 +170,10 @@ def load_shapes(
     return read_shapes(path, Reading(**options))
 
 
-def read_shapes(path: str | PathLike[str], reading: Reading) -> Shapes:
-    """Read the shapes of a file with these options."""
+def read_shapes(path: str | PathLike[str], reading: Reading, progress: Progress | None = None) -> Shapes:
+    """Read the shapes of a file with these options; `progress` as for `Source`."""
     with collection_paused():
-        content = read_file(path, reading)
+        content = read_file(path, reading, progress)
         shapes = shapes_in(content, os.fspath(path)) if isinstance(content, Scene) else content
         return _sized(shapes, reading.units, reading.scale)
 
