@@ -86,3 +86,14 @@ def test_boundaries_are_written_as_tables(tmp_path: Path) -> None:
     assert table["contact_robot"].to_pylist() == built.contact_robot[built.trapezoids.patch].tolist()
     (tmp_path / "scene.json").write_bytes(table.schema.metadata[b"scene"])
     assert cfree.load_scene(tmp_path / "scene.json") == built.scene
+
+
+def test_a_robot_drawn_by_an_outline_is_solid_also_with_strokes(tmp_path: Path) -> None:
+    svg = '<svg xmlns="http://www.w3.org/2000/svg"><path fill="none" d="M 0 0 H {0} V {0} H 0 Z"/></svg>'
+    (tmp_path / "plan.svg").write_text(svg.format(90))
+    (tmp_path / "robot.svg").write_text(svg.format(1))
+    options = ["--robot", tmp_path / "robot.svg", "--strokes", 0.1, "--min-area", 2]
+    result = run("convert", tmp_path / "plan.svg", tmp_path / "a.json", *options)
+    assert result.exit_code == 0, result.output
+    scene = cfree.load_scene(tmp_path / "a.json")
+    assert [part.area for part in scene.robot] == [1] and len(scene.obstacles) == 4

@@ -73,3 +73,17 @@ def test_polygons_around_and_inside_are_written(tmp_path: Path) -> None:
     assert not around.curved and not inside.curved and around != inside
     record = json.loads((tmp_path / "b.json").read_text())["reading"][0]
     assert (record["what"], record["size"]) == ("polygon inside a round shape", 0.01)
+
+
+def test_options_about_the_scene_alone_have_no_effect_on_a_robot_file(tmp_path: Path) -> None:
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm" viewBox="0 0 9 9">{}</svg>'
+    drawn = '<path fill="none" d="M 0 0 L 5 5"/><rect x="6" width="2" height="2"/>'
+    (tmp_path / "plan.svg").write_text(svg.format(drawn))
+    (tmp_path / "robot.svg").write_text(svg.format('<path fill="none" d="M 0 0 H 1 V 1 H 0 Z M 3 3 H 4"/>'))
+    options: dict[str, Any] = {"strokes": 0.1, "min_area": 2.0, "scale": 2, "units": "mm"}
+    scene = cfree.convert(tmp_path / "plan.svg", tmp_path / "a.json", robot=tmp_path / "robot.svg", **options)
+    (robot,) = scene.robot
+    assert robot.area == 1, "an outline with strokes would be hollow"
+    assert any(shape.area == 16 for shape in scene.obstacles) and len(scene.obstacles) > 1
+    (lost,) = (note for note in scene.reading if note.kind == "lost")
+    assert lost.file == "robot.svg" and lost.remedy == "close the outline in the drawing"

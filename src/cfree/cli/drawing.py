@@ -21,7 +21,7 @@ _VALUES, _NAMED, _FORM = "cfree.drawing", "cfree.drawing.named", "cfree.drawing.
 SECTION = "Reading SCENE and ROBOT"
 _DRAWINGS = ("SVG", "DXF")
 _MAPS = ("ROS map",)
-_POLYGONS = (*_DRAWINGS, "GeoJSON", "WKT", "scene", "nesting")
+_POLYGONS = (*_DRAWINGS, "GeoJSON", "WKT")
 FORMS: dict[str, tuple[str, ...]] = {
     "tolerance": (*_DRAWINGS, "URDF", "nav2 parameters"),
     "unknown": _MAPS,
@@ -94,19 +94,19 @@ _OPTIONS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
      "help": "Close gaps of a drawing up to D; 0 closes none."}),
     (("--join-holes",), {"is_flag": True, "help": "Let outlines that --join closes be holes."}),
     (("--strokes",), {"metavar": "WIDTH", "default": "ignore", "show_default": True,
-     "help": "Make walls of unfilled lines, of this width or as drawn; ignore: none."}),
+     "help": "Make walls of unfilled lines of SCENE, of this width or as drawn; ignore: none."}),
     (("--holes",), {"type": Word(["outlines", "nested"]), "default": "outlines", "show_default": True,
      "help": "Make holes in SVG of outlines drawn in pieces alone, or of all nested unfilled elements."}),
     (("--fills",), {"type": Word(["outlines", "hatches"]), "default": "outlines", "show_default": True,
      "help": "Fill DXF outlines, or the hatches of a layer alone."}),
-    (("--space",), {"metavar": "LAYOUT", "help": "Read this layout of DXF.", "default": "",
+    (("--space",), {"metavar": "LAYOUT", "help": "Read this layout of SCENE, a DXF file.", "default": "",
      "show_default": "model space"}),
     (("--language",), {"metavar": "LANG", "default": "en", "show_default": True,
      "help": "Choose branches of SVG by this language."}),
     (("--repair/--no-repair",), {"default": None, "show_default": "in drawings, not in JSON",
      "help": "Mend outlines that cross themselves by their fill rule."}),
     (("--min-area",), {"type": click.FloatRange(min=0), "default": 0.0, "metavar": "A",
-     "help": "Leave out shapes of a drawing of less area; an assumption of the answer."}),
+     "help": "Leave out obstacles of a drawing of less area; an assumption of the answer."}),
     (("--unknown",), {"type": Word(["obstacle", "free"]), "default": "obstacle", "show_default": True,
      "help": "Treat unknown cells of a map as this."}),
     (("--map-rules",), {"type": Word(["strict", "nav2", "nav2-old", "ros1"]), "default": "strict", "show_default": True,
@@ -202,8 +202,6 @@ def pivot() -> Pivot | None:
 
 def robot(reading: Reading) -> Any:
     """Read the polygon of a footprint, or the shapes of a file; None if there is no --robot."""
-    from dataclasses import replace
-
     from cfree.formats.drawings.footprints import footprint
     from cfree.formats.scene_file import read_shapes
 
@@ -212,7 +210,7 @@ def robot(reading: Reading) -> Any:
         return None
     if text.lstrip()[:1] in ("[", "("):
         return footprint(text)
-    return read_shapes(text, replace(reading, units="", scale=None))
+    return read_shapes(text, reading.of_robot)
 
 
 def remedy_for_solids(scene: Scene, poses: Sequence[Pose]) -> str:

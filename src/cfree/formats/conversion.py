@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from cfree.arguments import checked
 from cfree.exact.number import Number
-from cfree.formats.drawings.source import CURVE_SHARE
+from cfree.formats.drawings.source import CURVE_SHARE, SCENE_ALONE
 from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, save_scene
 from cfree.formats.shapes import Shapes
 from cfree.scene.reading import Note, together
@@ -47,7 +47,8 @@ def convert(
     pivot : "centroid" or (x, y), optional
         The robot's reference point, see `Shapes.scene`.
     options
-        All other options of `load_shapes`.
+        All other options of `load_shapes`. Those about walls, small shapes, layout and unit of the scene (`strokes`,
+        `min_area`, `space`, `units`, `scale`) have no effect on a robot's file.
 
     Returns
     -------
@@ -74,7 +75,8 @@ def convert(
     is_file, is_made = isinstance(robot, str | PathLike), robot is None or isinstance(robot, Shapes)
     other = robot if is_file or is_made else shapes_in(robot, "robot")
     check_scene_path(target)
-    other = load_shapes(robot, curves=True, **options) if is_file else other
+    its_options = {name: value for name, value in options.items() if name not in SCENE_ALONE}
+    other = load_shapes(robot, curves=True, **its_options) if is_file else other
     scene, notes = written(
         load_shapes(source, curves=True, **options).scene(other, pivot), Path(target), outer, inner, tolerance
     )

@@ -169,7 +169,8 @@ class Shapes:
             settings = self.settings
             other, alike = in_units_of(robot, self)
             parts = [shape.polygon for shape in other.of("robot") or other.shapes]
-            its = together(without_places(of_file(other.record, other.file)), alike)  # its places are in another frame
+            record = without_places(of_file(map(_for_robot, other.record), other.file))  # places are in another frame
+            its = together(record, alike)
             settings = {"units": other.settings["units"], **settings} if other.settings.get("units") else settings
         else:
             parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
@@ -217,6 +218,11 @@ def in_units_of(robot: Shapes, scene: Shapes) -> tuple[Shapes, tuple[Note, ...]]
 
 _ORDER = (*ROLES, PART)
 _NOTHING_FORBIDS = Note("info", "nothing forbids a pose: no obstacle and no workspace")
+
+
+def _for_robot(note: Note) -> Note:
+    """Return a note about a robot's file; lines of a robot have no option that makes walls of them."""
+    return replace(note, remedy="close the outline in the drawing") if note.remedy.startswith("--strokes") else note
 
 
 def _line(note: Note) -> str:

@@ -1,5 +1,6 @@
-"""The option `repair`: on for drawings, off for WKT, and noted."""
+"""The option `repair`: on for drawings, off for WKT and GeoJSON, and noted."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -34,6 +35,19 @@ def test_repaired_polygons_are_noted(tmp_path: Path) -> None:
     ]
     (note,) = shapes.reading
     assert (note.kind, note.where, note.at) == ("mended", "desk", (0, 0))
+
+
+def test_geojson_is_repaired_by_the_option_alone(tmp_path: Path) -> None:
+    bow_tie, overlapping = [[0, 0], [4, 4], [4, 0], [0, 4]], [[[[0, 0], [4, 0], [4, 4]]], [[[3, 0], [4, 0], [4, 9]]]]
+    text = json.dumps({"type": "Polygon", "coordinates": [bow_tie]})
+    with pytest.raises(FormatError, match=r"edges 0 and 2 cross at \(2, 2\); split it .*, or give --repair"):
+        read(tmp_path / "a.geojson", text)
+    shapes = read(tmp_path / "a.geojson", text, repair=True)
+    assert [shape.polygon.exact_area for shape in shapes.shapes] == [4, 4]
+    assert [note.kind for note in shapes.reading] == ["mended"]
+    several = json.dumps({"type": "MultiPolygon", "coordinates": overlapping})
+    assert len(read(tmp_path / "a.geojson", several).shapes) == 2
+    assert len(read(tmp_path / "a.geojson", several, repair=True).shapes) == 1
 
 
 def test_overlapping_parts_are_united(tmp_path: Path) -> None:

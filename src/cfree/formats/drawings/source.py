@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal, NoReturn
@@ -30,6 +30,10 @@ CURVE_SHARE = 1000
 _DRAWN = ("lost", "guess", "hidden", "paint")
 """Kinds of notes about things that are drawn and that may be in no shape."""
 _MARK = re.compile(r"(robot|obstacle|workspace)(?![a-z])", re.IGNORECASE)
+
+
+SCENE_ALONE = ("strokes", "min_area", "space", "units", "scale")
+"""Options that have no effect on a robot's file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +78,15 @@ class Reading:
             raise ValueError(f"scale: {self.scale}; give a number above 0")
         for name, role in self.roles.items():
             one_of(f"roles: {name}", role, (*ROLES, IGNORE))
+
+    @property
+    def of_robot(self) -> Reading:
+        """The options for a robot's file: none about walls, small shapes, layout and unit of the scene.
+
+        A robot drawn by an unfilled outline is solid, so that no obstacle fits into it.
+        """
+        defaults = {option.name: option.default for option in fields(self) if option.name in SCENE_ALONE}
+        return replace(self, **defaults)
 
 
 Progress = Callable[[int], object]
