@@ -34,7 +34,7 @@ def test_a_map_and_a_footprint_become_a_scene(folder: Path) -> None:
     text = "[[0.1, 0], [0, 0.1], [-0.1, 0]]"
     given = ("--robot", text, "--unknown", "free", "--json")
     facts = json.loads(run("convert", folder / "map.yaml", folder / "a.svg", *given).stdout)
-    assert facts["changed"] == ["unknown cell: free", "map rules"]
+    assert facts["changed"] == ["unknown cell: free", "cells by the strict rules"]
     assert facts["files"] == {"scene": str(folder / "a.svg")}
     assert cfree.load_scene(folder / "a.svg").robot == (cfree.footprint(text),)
 

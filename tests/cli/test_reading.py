@@ -161,7 +161,7 @@ def test_the_claim_that_a_note_harms_is_told(folder: Path) -> None:
     guessed = run("plan", folder / "guessed.json").stdout.splitlines()[-1]
     assert guessed == (
         "no path at all, proved, in the scene as read: "
-        "2 outlines of desk closed only by a join may forbid more than drawn"
+        "more may be forbidden than drawn (2 outlines of desk closed only by a join)"
     )
 
 
@@ -231,6 +231,7 @@ def test_check_draws_what_was_lost_in_red(folder: Path) -> None:
         assert run("check", folder / f"{name}.json", "--picture", folder / f"{name}.png").exit_code == 0
     red = {name: count_of_red(folder / f"{name}.png") for name in ("a", "plain")}
     assert red["plain"] == 0 and red["a"] > 100
+    assert f"picture    {folder / 'b.png'}" in run("check", folder / "a.json", "--picture", folder / "b.png").stdout
 
 
 def test_check_draws_a_file_without_a_robot_before_it_is_refused(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from cfree.errors import FormatError
 from cfree.formats.drawings.source import Source, shapes_of
-from cfree.formats.scene_file import load_polygons, load_scene
+from cfree.formats.scene_file import load_polygons, load_scene, load_shapes
 from cfree.formats.shapes import Shape, Shapes
 from cfree.polygons.polygon import Polygon
 from cfree.scene.reading import MOST_POINTS, Note
@@ -174,3 +174,23 @@ def test_items_of_notes_have_places_and_lines_for_pictures() -> None:
     first, second = note.items
     assert (first.handle, first.at, first.size, len(first.points)) == ("5F", (0, 0), 499, MOST_POINTS)
     assert second.points == ((0, 0), (0, 1))
+
+
+def test_a_missing_robot_names_the_option_that_gives_one(tmp_path: Path) -> None:
+    svg = '<svg xmlns="http://www.w3.org/2000/svg">{}</svg>'
+    (tmp_path / "a.svg").write_text(svg.format('<rect width="9" height="9"/>'))
+    (tmp_path / "line.svg").write_text(svg.format('<path fill="none" d="M 0 0 H 9"/>'))
+    shapes = load_shapes(tmp_path / "a.svg")
+    with pytest.raises(FormatError, match=r'a\.svg: there is no robot; call .* "robot", or give --robot with a file'):
+        shapes.scene()
+    with pytest.raises(FormatError, match=r"line\.svg: nothing in it can be the robot; draw its outline closed"):
+        shapes.scene(load_shapes(tmp_path / "line.svg"))
+
+
+def test_a_scene_without_a_known_unit_has_that_of_its_robot(tmp_path: Path) -> None:
+    svg = '<svg xmlns="http://www.w3.org/2000/svg"{}><rect width="9" height="9"/></svg>'
+    (tmp_path / "plan.svg").write_text(svg.format(""))
+    (tmp_path / "robot.svg").write_text(svg.format(' width="9mm" height="9mm" viewBox="0 0 9 9"'))
+    plan, robot = (load_shapes(tmp_path / f"{name}.svg") for name in ("plan", "robot"))
+    assert (plan.settings["units"], plan.scene(robot).units, robot.scene(plan).units) == ("px", "mm", "mm")
+    assert "no unit in plan.svg, taken as mm" in [note.what for note in plan.scene(robot).reading]

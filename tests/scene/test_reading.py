@@ -62,6 +62,11 @@ def test_notes_of_one_kind_and_layer_share_a_line() -> None:
     assert len(lines([LOST, replace(point, where="B")])) == 2
 
 
+def test_the_largest_loss_is_the_first() -> None:
+    layout, short = Note("lost", "entity in paper space", "less", 2), Note("lost", "open line", "less", 1, size=3.0)
+    assert in_order([MORE, layout, short, LOST]) == (LOST, short, layout, MORE)
+
+
 def test_hidden_things_and_text_share_a_line() -> None:
     notes = [Note("paint", "text", count=14), Note("hidden", "line", count=30, where="off"), Note("paint", "dimension")]
     assert lines(notes) == ["left out  30 lines of off; 14 texts; 1 dimension"]
@@ -104,12 +109,12 @@ def test_an_answer_ends_with_the_worst_note_that_harms_it() -> None:
     )
     assert qualified(none, [LOST], "no path") == f"{none}; what was left out could only forbid more"
     assert qualified(none, [LOST, MORE], "no path") == (
-        f"{none}, in the scene as read: 2 outlines of desk closed only by a join may forbid more than drawn"
+        f"{none}, in the scene as read: more may be forbidden than drawn (2 outlines of desk closed only by a join)"
     )
     assert qualified(free, [MORE, PLAIN], "path") == qualified(none, [PLAIN], "no path") == ""
     assert as_read([NEAR]) == "in the scene as read: 61 outlines with curves are within 0.08 of the drawn"
     assumed = Note("assumption", "speck", "less", 250)
-    assert as_read([assumed], "path") == "in the scene as read: 250 specks are as assumed"
+    assert as_read([assumed], "path") == "in the scene as read: by assumption (250 specks)"
 
 
 def test_losses_are_what_a_strict_reader_refuses() -> None:

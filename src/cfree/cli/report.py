@@ -63,6 +63,8 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
             yield f"{name:<10} {facts[name]}"
     for name, value in facts["source"].items():
         yield f"source     {name}: {value}"
+    for name, file in facts.get("files", {}).items():
+        yield f"{name:<10} {file}"
     if line := last_line():
         yield line
 

@@ -171,13 +171,17 @@ class Shapes:
             parts = [shape.polygon for shape in other.of("robot") or other.shapes]
             record = without_places(of_file(map(_for_robot, other.record), other.file))  # places are in another frame
             its = together(record, alike)
-            settings = {"units": other.settings["units"], **settings} if other.settings.get("units") else settings
+            theirs, own = (str(some.get("units") or "") for some in (other.settings, settings))
+            if theirs and (not own or (unit_of(theirs) and not unit_of(own))):
+                settings = {**settings, "units": theirs}
+            if not parts:
+                raise InvalidFileError(other.file, [whole("nothing in it can be the robot; draw its outline closed")])
         else:
             parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
             settings, its = self.settings, ()
         rooms = self.of("workspace")
         if not parts:
-            raise InvalidFileError(self.file, [whole(f"there is no robot; {self.remedy}")])
+            raise InvalidFileError(self.file, [whole(f"there is no robot; {self._remedy}")])
         if len(rooms) > 1:
             raise InvalidFileError(self.file, [whole(f"{len(rooms)} workspaces; give one polygon")])
         if pivot is not None:
@@ -194,6 +198,11 @@ class Shapes:
             reading=together(self.record, its, nothing),
             **settings,
         )
+
+    @property
+    def _remedy(self) -> str:
+        named = "--robot" in self.remedy or self.form == "nesting"
+        return self.remedy if named else f"{self.remedy}, or give --robot with a file or a footprint"
 
     @property
     def record(self) -> tuple[Note, ...]:

@@ -183,8 +183,8 @@ def _merged(before: Note, note: Note) -> Note:
 
 
 def in_order(notes: Iterable[Note]) -> tuple[Note, ...]:
-    """Return notes, the most serious first; the order of the file among equals."""
-    return tuple(sorted(notes, key=lambda note: note.severity))
+    """Return notes, the most serious first; among losses the largest, else the order of the file."""
+    return tuple(sorted(notes, key=lambda note: (note.severity, -(note.size or 0) if note.kind == "lost" else 0)))
 
 
 def together(*records: Iterable[Note]) -> tuple[Note, ...]:

@@ -114,6 +114,6 @@ def _harm(note: Note) -> str:
     if note.kind in ("lost", *_LEFT_OUT):
         return f"{things} {are} not in it"
     if note.kind == "assumption":
-        return f"{things} {are} as assumed"
+        return f"by assumption ({things})"
     amount = {"less": "less", "more": "more"}.get(note.effect, "less or more")
-    return f"{things} may forbid {amount} than drawn"
+    return f"{amount} may be forbidden than drawn ({things})"

@@ -369,6 +369,12 @@ def test_a_room_of_lines_is_asked_about(tmp_path: Path) -> None:
         ("line around nearly everything, read as a solid", "A-WALL", "--role A-WALL=workspace or --strokes 0.1")
     ]
     assert not [note for note in read(written(room), tmp_path, strokes=0.1).reading if "solid" in note.what]
+    loose = ezdxf.new()
+    for ends in (((0, 0), (12, 0)), ((12, 1), (12, 8)), ((12, 8), (0, 8)), ((0, 8), (0, 0))):
+        loose.modelspace().add_line(*ends, dxfattribs={"layer": "A-WALL"})
+    loose.modelspace().add_circle((2, 3), 0.5, dxfattribs={"layer": "FURNITURE"})
+    asked = [note for note in read(written(loose), tmp_path).reading if "around nearly" in note.what]
+    assert [note.what for note in asked] == ["line around nearly everything, with others a possible solid"]
     for entity in space.query("LWPOLYLINE"):
         entity.dxf.layer = "plate"
     assert not [note for note in read(written(room), tmp_path).reading if "around nearly" in note.what]

@@ -65,12 +65,12 @@ def test_geometries_without_a_width_are_said_and_cost_only_themselves(tmp_path: 
     )
     assert len(shapes.shapes) == 1
     assert noted(shapes) == [
-        ("lost", "point without a radius", "poi", 1),
         ("lost", "open line", "route", 1),
+        ("lost", "point without a radius", "poi", 1),
         ("info", "feature without a geometry", "nothing", 1),
         ("info", "geometry without coordinates", "", 1),
     ]
-    line = shapes.reading[1]
+    line = shapes.reading[0]
     assert (line.size, line.at, line.remedy) == (15, (0, 0), "--strokes 0.1")
 
 

@@ -64,6 +64,18 @@ def test_lines_that_nothing_closes_want_a_width() -> None:
     assert note.remedy == "--strokes 0.1"
 
 
+def test_lost_lines_and_guessed_outlines_have_points_for_pictures() -> None:
+    _, source = outlines(lines((0, 0, 40, 0), (40, 0, 40, 9), (5, 20, 9, 20)))
+    (note,) = source.notes
+    assert [item.points for item in note.items if item.points] == [
+        ((0, 0), (40, 0)), ((40, 0), (40, 9)), ((5, 20), (9, 20)),
+    ]  # fmt: skip
+    _, source = outlines(with_gap(box(0, 0, 40, 40), 0.05, side=1), join=0.1)
+    (guess,) = (note for note in source.notes if note.kind == "guess")
+    ring = guess.items[0].points
+    assert ring[0] == ring[-1] and {(0, 0), (40, 40), (0, 40)} <= set(ring)
+
+
 def test_a_bridge_moves_no_curve() -> None:
     curves = with_gap(box(0, 0, 1000, 40), 0.05, side=1)  # a side of 1000 that turned would lose 25
     joined = region(curves, join=0.1)

@@ -48,8 +48,9 @@ def check(scene: Path, picture: Path | None, as_json: bool) -> None:
             facts = {"file": str(scene)} | describe(loaded) | _facts(shapes) | reading.facts(loaded.reading)
         if picture:
             _draw(loaded, picture)
+        facts |= {"files": written} if written else {}
         if as_json:
-            print_json(facts | ({"files": written} if written else {}))
+            print_json(facts)
         else:
             from cfree.cli.report import print_scene
 

@@ -76,7 +76,7 @@ def cell_shapes(
     if edge == "always" or unknown_forbids:
         corners = place.ring([(0, 0), (columns, 0), (columns, rows), (0, rows)])
         shapes.append(Shape("workspace", None, Polygon(corners)))
-        source.note("info", "map's edge: the workspace", "more")
+        source.note("info", "map's edge as the workspace", "more")
     return shapes
 
 

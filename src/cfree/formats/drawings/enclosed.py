@@ -17,9 +17,8 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
-from cfree.curves.drawn import points_along
 from cfree.formats.drawings.content import Curve
 from cfree.formats.drawings.crossings import refuse_crossings
 from cfree.formats.drawings.joining import Ends, Join, square
@@ -28,7 +27,7 @@ from cfree.formats.drawings.source import Source
 from cfree.formats.drawings.strokes import usual_width
 from cfree.polygons.faces import Faces, root
 from cfree.polygons.noding import CrowdedError
-from cfree.scene.reading import Item, Note, thinned
+from cfree.scene.reading import Item, Note, Place, thinned
 
 DEFAULT_JOIN = 1e-6
 """Default joining distance, per size of the drawing."""
@@ -408,7 +407,27 @@ def _note_guesses(layer: Layer, rings: list[list[int]]) -> None:
         layer.source.note(
             "guess", "outline that only a join closes: solid, and no hole", "more", where=layer.name,
             at=graph.place(graph.edges[ring[0]][0]), size=max(gaps, default=None), remedy="--join-holes",
+            points=next(iter(_chains(layer, ring)), ()),
         )  # fmt: skip
+
+
+def _chains(layer: Layer, edges: Iterable[int]) -> list[list[Place]]:
+    """Return edges as lines for pictures; each begins at a loose end if there is one."""
+    graph, star = layer.mesh.graph, defaultdict[int, list[int]](list)
+    for edge in edges:
+        for node in graph.edges[edge]:
+            star[node].append(edge)
+    left, chains = set(edges), list[list[Place]]()
+    for first in sorted(star, key=lambda node: len(star[node])):
+        node, chain = first, [first]
+        while onward := [edge for edge in star[node] if edge in left]:
+            left.discard(onward[0])
+            u, v = graph.edges[onward[0]]
+            node = v if node == u else u
+            chain.append(node)
+        if len(chain) > 1:
+            chains.append([graph.place(node) for node in chain])
+    return chains
 
 
 def _is_in(layer: Layer, join: int, ring: Iterable[int]) -> bool:
@@ -485,7 +504,7 @@ def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
         is_open = any(not faces.is_between(edge) for edge in edges)
         nodes = ends[owner] or [graph.edges[edges[0]][0]]
         items = tuple(Item(handle, graph.place(node), gaps.get(node)) for node in nodes)
-        items = (replace(items[0], points=thinned(points_along(layer.curves[owner].segments))), *items[1:])
+        items += tuple(Item(handle, points=thinned(chain)) for chain in _chains(layer, edges))
         layer.source.notes.add(
             Note(
                 "lost",

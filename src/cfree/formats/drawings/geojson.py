@@ -14,7 +14,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, TypeAdapter, ValidationError
 
-from cfree.curves.drawn import Line
+from cfree.curves.drawn import Line, points_along
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
 from cfree.formats.drawings.content import Curve
@@ -225,8 +225,7 @@ class _Flat:
                 self.source.note("lost", "point without a radius", "less", where=name, at=at)
             else:
                 remedy = f"--strokes {usual_width([curve]):g}" if segments else ""
-                size = length_of(curve.segments) if segments else 0.0
-                points = [(float(x), float(y)) for x, y in line]
+                size, points = (length_of(curve.segments), points_along(curve.segments)) if segments else (0.0, [])
                 self.source.note(
                     "lost", "open line", "less", where=name, at=at, size=size, remedy=remedy, points=points
                 )

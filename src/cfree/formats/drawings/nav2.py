@@ -186,7 +186,7 @@ class _Reader:
             return None
         ring: Ring = [arc_of_circle((x, 0.0), radius)]
         tolerance = tolerance_of(self.source, [ring])
-        self.source.note("near", "polygon, around a disc", "near", where=key, size=tolerance, remedy="--tolerance")
+        self.source.note("near", "polygon around a disc", "near", where=key, size=tolerance, remedy="--tolerance")
         return polygon_of(Outline(ring), tolerance, spend=self.source.spend)
 
     def number(self, keys: dict[str, Any], key: str) -> Fraction:

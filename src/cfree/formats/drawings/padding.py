@@ -52,7 +52,7 @@ def padded(source: Source, polygon: Polygon, by: Fraction, is_disc: bool = False
         source.note("guess", what, "more", size=size)
         return [Curved(ring, holes, grown=by * _ROOT_OF_TWO)]
     if is_disc or contains(larger, polygon):
-        source.note("info", "footprint_padding, as nav2 adds it", "more", size=size)
+        source.note("info", "footprint_padding by nav2's rule", "more", size=size)
         return [larger]
     what = "padded outline, beside the drawn one: both are the robot"
     source.note("guess", what, "more", size=size)

@@ -49,9 +49,10 @@ def ask(source: Source, content: Sequence[Drawn | Lines]) -> None:
         if (others and inside > MOST_OF * others) or (others and _area(box) > MOST_OF * _area(whole)):
             name = item.names[0] if item.names else ""
             if NAMES.search(name) or _has_doors(item, whole) or _junctions(source, item, whole) >= JUNCTIONS:
+                solid = "read as a solid" if outline[0].closed else "with others a possible solid"
                 source.note(
                     "info",
-                    "line around nearly everything, read as a solid",
+                    f"line around nearly everything, {solid}",
                     "more",
                     where=name,
                     at=ends(outline[0].segments[0])[0],

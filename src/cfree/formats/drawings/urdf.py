@@ -52,7 +52,7 @@ def read_urdf(source: Source) -> Shapes:
             source.note("lost", "shape without an area from above", "less", where=name)
         else:
             shapes += [Shape("robot", None, part) for part in padded(source, outline, padding)]
-    what = "polygon, around a round shape"
+    what = "polygon around a round shape"
     source.note("near", what, "near", count=len(round_ones), size=tolerance, remedy="--tolerance")
     remedy = "its links have no box, cylinder or sphere as collision geometry; add one"
     if not shapes:
