@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal, NoReturn
@@ -85,8 +85,8 @@ class Reading:
 
         A robot drawn by an unfilled outline is solid, so that no obstacle fits into it.
         """
-        defaults = {option.name: option.default for option in fields(self) if option.name in SCENE_ALONE}
-        return replace(self, **defaults)
+        plain = Reading()
+        return replace(self, **{name: getattr(plain, name) for name in SCENE_ALONE})
 
 
 Progress = Callable[[int], object]
