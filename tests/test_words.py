@@ -26,6 +26,14 @@ NOUNS = "polygon|vert|patch|motion|piece|hole|goal|proof|cell|surface|trapezoid|
         ("box", "boxes"),
         ("key", "keys"),
         ("POLYLINE: no outline", "POLYLINEs: no outline"),
+        ("number rounded to 14 digits", "numbers rounded to 14 digits"),
+        ("line shorter than the joining distance", "lines shorter than the joining distance"),
+        ("shape below the least area", "shapes below the least area"),
+        ("gap that is closed, and may make holes", "gaps that are closed, and may make holes"),
+        ("outline that crosses or touches itself: solid", "outlines that cross or touch themselves: solid"),
+        ("end that misses its begin", "ends that miss their begin"),
+        ("entity on a layer that is off", "entities on a layer that is off"),
+        ("polyline with a width, read as a wall", "polylines with a width, read as walls"),
     ],
 )
 def test_one_is_singular_and_all_else_plural(noun: str, plural: str) -> None:

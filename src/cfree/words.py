@@ -25,9 +25,16 @@ def counted(count: int, noun: str, plural: str | None = None) -> str:
 
 
 _AFTER_THE_NOUN = re.compile(
-    r"(?<=.)(?=[,:(]|\s+(?:around|in|of|on|at|by|with|without|within|from|to|for|that|which|whose|so|as|after|before|beyond|outside|"
-    r"inside|between|under|over|through|not|and|or|drawn|closed|read|made|left|joined|painted|used|than|is|are|forbids?)\b)"
+    r"(?<=.)(?=[,:(]|\s+(?:around|in|of|on|at|by|with|without|within|from|to|for|that|which|whose|so|as|after|before|beside|below|"
+    r"beyond|outside|inside|between|under|over|through|not|and|or|drawn|closed|read|made|left|joined|painted|rounded|"
+    r"stretched|used|shorter|far|than|is|are|forbids?)\b)"
 )
+_VERB = re.compile(
+    r"(?<=^ that )(is|has|does|crosses or touches|crosses|misses|stands|paints|divides|overlaps)\b( itself| its)?"
+)
+"""The verb of a clause about the noun, and what refers to the noun."""
+_PLURALS = {"is": "are", "has": "have", "does": "do", "crosses or touches": "cross or touch", "crosses": "cross"}
+_PLURALS |= {"misses": "miss", " itself": " themselves", " its": " their", "": ""}
 
 
 def noun_and_rest(phrase: str) -> tuple[str, str]:
@@ -49,8 +56,12 @@ def plural_of(phrase: str) -> str:
     --------
     >>> plural_of("open line"), plural_of("entity in paper space"), plural_of("ring drawn twice"), plural_of("vertex")
     ('open lines', 'entities in paper space', 'rings drawn twice', 'vertices')
+    >>> plural_of("ring that crosses itself"), plural_of("line with a width, read as a wall")
+    ('rings that cross themselves', 'lines with a width, read as walls')
     """
     noun, rest = noun_and_rest(phrase)
+    rest = _VERB.sub(lambda verb: _PLURALS.get(verb[1], verb[1].removesuffix("s")) + _PLURALS[verb[2] or ""], rest)
+    rest = re.sub(r"read as a (solid|wall)\b", r"read as \1s", rest)
     if word := re.search(r"\b(vertex|patch)$", noun):
         return f"{noun[: word.start()]}{ENDINGS[word[1]]}{rest}"
     if re.search(r"[^aeiou]y$", noun):

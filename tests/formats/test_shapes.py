@@ -194,3 +194,16 @@ def test_a_scene_without_a_known_unit_has_that_of_its_robot(tmp_path: Path) -> N
     plan, robot = (load_shapes(tmp_path / f"{name}.svg") for name in ("plan", "robot"))
     assert (plan.settings["units"], plan.scene(robot).units, robot.scene(plan).units) == ("px", "mm", "mm")
     assert "no unit in plan.svg, taken as mm" in [note.what for note in plan.scene(robot).reading]
+
+
+def test_a_role_of_a_name_that_no_file_has_is_warned_of(tmp_path: Path) -> None:
+    svg = '<svg xmlns="http://www.w3.org/2000/svg"><rect id="{}" width="9" height="9"/></svg>'
+    (tmp_path / "plan.svg").write_text(svg.format("walls"))
+    (tmp_path / "body.svg").write_text(svg.format("body"))
+    roles = {"wall": "workspace", "walls": "workspace", "body": "robot"}
+    plan, body = (load_shapes(tmp_path / f"{name}.svg", roles=roles) for name in ("plan", "body"))
+    assert plan.roles == {"wall": False, "walls": True, "body": False}
+    scene = plan.scene(body)
+    assert scene.workspace and [note.what for note in scene.reading if note.kind == "warning"] == [
+        'role without effect: nothing is called "wall"'
+    ]

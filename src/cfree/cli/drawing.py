@@ -25,7 +25,7 @@ _POLYGONS = (*_DRAWINGS, "GeoJSON", "WKT")
 FORMS: dict[str, tuple[str, ...]] = {
     "tolerance": (*_DRAWINGS, "URDF", "nav2 parameters"),
     "unknown": _MAPS,
-    "roles": (*_DRAWINGS, "URDF", "nesting", "nav2 parameters"),
+    "roles": (*_DRAWINGS, "GeoJSON", "URDF", "nesting", "nav2 parameters"),
     "join": _DRAWINGS,
     "join_holes": _DRAWINGS,
     "strokes": (*_DRAWINGS, "GeoJSON"),

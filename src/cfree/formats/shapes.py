@@ -6,7 +6,7 @@ and is in no scene.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 from typing import Any, Literal
@@ -57,6 +57,8 @@ class Shapes:
         The file's other members of a scene: bounds, start, goal, units and so on, as arguments of `Scene`.
     reading : tuple of Note
         Losses, guesses and changes of reading, the most serious first.
+    roles : mapping of str to bool
+        The names that the option `roles` gives a role; False for those that nothing in the file has.
 
     Examples
     --------
@@ -74,6 +76,7 @@ class Shapes:
     reading: tuple[Note, ...] = ()
     file: str = ""
     remedy: str = ""
+    roles: Mapping[str, bool] = field(default_factory=dict, hash=False, compare=False)
 
     def __repr__(self) -> str:
         roles = [shape.role for shape in self.shapes]
@@ -179,6 +182,7 @@ class Shapes:
         else:
             parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
             settings, its = self.settings, ()
+        its = together(its, _unused([self.roles, *([robot.roles] if isinstance(robot, Shapes) else [])]))
         rooms = self.of("workspace")
         if not parts:
             raise InvalidFileError(self.file, [whole(f"there is no robot; {self._remedy}")])
@@ -227,6 +231,13 @@ def in_units_of(robot: Shapes, scene: Shapes) -> tuple[Shapes, tuple[Note, ...]]
 
 _ORDER = (*ROLES, PART)
 _NOTHING_FORBIDS = Note("info", "nothing forbids a pose: no obstacle and no workspace")
+
+
+def _unused(roles: Sequence[Mapping[str, bool]]) -> Iterator[Note]:
+    """Yield a warning for each name with a role that no file has, which is probably misspelt."""
+    for name in dict.fromkeys(name for some in roles for name in some):
+        if not any(some.get(name) for some in roles):
+            yield Note("warning", f'role without effect: nothing is called "{name}"', remedy="--role")
 
 
 def _for_robot(note: Note) -> Note:

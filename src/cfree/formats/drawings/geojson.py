@@ -125,7 +125,7 @@ def _feature(findings: Findings, properties: object, path: Path, source: Source 
     if not isinstance(name, str | None) or not is_encodable(name or ""):
         findings.under((*path, "name"), "expected text in quotes, got {got}")
         name = None
-    wanted = source.reading.roles.get(name) if source and name else None
+    wanted = source.wanted_role(name) if source and name else None
     if wanted == IGNORE or (wanted is None and role == IGNORE):
         if source is not None:
             kind: Kind = "assumption" if wanted else "hidden"

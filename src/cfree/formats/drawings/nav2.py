@@ -152,7 +152,7 @@ class _Reader:
 
     def zone(self, name: str, keys: dict[str, Any]) -> None:
         """Read a polygon or circle of the collision monitor, if it has a role."""
-        role = self.source.reading.roles.get(name)
+        role = self.source.wanted_role(name)
         if role is None:
             self.others.append(name)
             remedy = f'--role "{name}=robot"'

@@ -39,13 +39,12 @@ def read_nesting(source: Source, data: Any) -> Shapes:
     items = reader.items(data)
     placed = [shape for layout, path in reader.layouts(data) for shape in reader.placed(layout, path, items)]
     shapes = [shape for shape in placed if shape.role != IGNORE]
-    wanted = source.reading.roles
-    free = [(name, part, wanted.get(name, PART)) for name, _, parts in items.values() for part in parts]
+    free = [(name, part, source.wanted_role(name) or PART) for name, _, parts in items.values() for part in parts]
     shapes += [Shape(role, name, part) for name, part, role in free if role != IGNORE and (role != PART or not placed)]
     parts = {name for name, _, role in free if role == PART} - {shape.name for shape in placed}
     remedy = '--role "item 0=robot"'
     source.note("lost", "item without a place, in no scene", "less", count=len(parts), remedy=remedy)
-    for name in dict.fromkeys(name for name, _, _ in free if wanted.get(name) == IGNORE):
+    for name in dict.fromkeys(name for name, _, role in free if role == IGNORE):
         source.note("assumption", "ignored item", "less", where=name)
     shapes += reader.strip(data)
     name = _member(data, "name")[0]
@@ -175,7 +174,7 @@ class _Reader:
                 continue
             name, allowed, parts = items[number]
             pose = self.pose(_member(one, "transformation")[0], allowed, place)
-            role = self.source.reading.roles.get(name, "obstacle")
+            role = self.source.wanted_role(name) or "obstacle"
             if role == "robot":  # it stays in its own frame
                 is_first, robots = name not in robots, robots | {name}
                 if is_first:

@@ -111,12 +111,20 @@ class Source:
         self.findings = Findings(file, text)
         self.reading = reading or Reading()
         self.notes = Notes()
+        self.roles = dict.fromkeys(self.reading.roles, False)  # True once something has the name
         self._steps = 0
         self._progress = progress
 
     @property
     def folder(self) -> Path:
         return Path(self.findings.file).parent
+
+    def wanted_role(self, name: str | None) -> str | None:
+        """Return the role that the options give a name; None if they give none."""
+        if name is None or name not in self.roles:
+            return None
+        self.roles[name] = True
+        return self.reading.roles[name]
 
     def spend(self, steps: int = 1) -> None:
         """Count steps; refuse a file that takes too many of them. The count is the same on every machine."""
@@ -190,7 +198,7 @@ def shapes_of(source: Source, form: str, shapes: list[Shape], settings: Mapping[
     if not shapes and not any(note.kind in _DRAWN or note.where or note.items for note in source.notes):
         source.note("info", f"nothing is drawn in {Path(source.findings.file).name}")
     reading = together(settings.get("reading", ()), source.notes)
-    return Shapes(form, tuple(shapes), own, reading, source.findings.file, remedy)
+    return Shapes(form, tuple(shapes), own, reading, source.findings.file, remedy, source.roles)
 
 
 def role_of(source: Source, *names: str | None) -> tuple[str, str | None]:
@@ -205,7 +213,7 @@ def role_of(source: Source, *names: str | None) -> tuple[str, str | None]:
     """
     named = [name for name in names if name]
     for name in named:
-        if wanted := source.reading.roles.get(name):
+        if wanted := source.wanted_role(name):
             return wanted, name
     for name in named:
         if mark := _MARK.match(name):

@@ -137,7 +137,7 @@ Solid = tuple[Any, ...]
 def _of_link(source: Source, link: Node, matrix: Matrix) -> list[Solid]:
     """Return the solids of a link: of its collision geometry, else of its visual geometry."""
     name = link.attributes.get("name", "")
-    if source.reading.roles.get(name) == IGNORE:
+    if source.wanted_role(name) == IGNORE:
         source.note("assumption", "ignored link", "less", where=name)
         return []
     for tag in ("collision", "visual"):
