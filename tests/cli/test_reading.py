@@ -1,6 +1,7 @@
 """The record of reading on the screen: lines on standard error, the last line of a result, `--strict`, pictures."""
 
 import json
+import shlex
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -134,6 +135,11 @@ def test_more_lines_than_eight_are_counted_and_check_prints_them(folder: Path) -
     lines = run("slice", file, "--theta", "0").stderr.splitlines()
     assert len(lines) == MOST_LINES + 1 and lines[-1] == f"and 5 more: cfree check {file}"
     assert len(run("check", file).stderr.splitlines()) == MOST_LINES + 5
+    robot = "[[0.3, 0], [0, 0.3], [0, 0]]"
+    named = run("slice", file, "--theta", "0", "--robot", robot, "--pivot", "0,0").stderr.splitlines()[-1]
+    command = shlex.split(named.partition(": ")[2])
+    assert command == ["cfree", "check", str(file), "--robot", robot, "--pivot", "0,0"]
+    assert run(*command[1:]).exit_code == 0
 
 
 @pytest.mark.slow

@@ -51,6 +51,7 @@ def test_a_line_has_count_layer_size_place_and_remedy() -> None:
     assert lines([MORE]) == ["guess     2 outlines of desk closed only by a join"]
     joined = Note("joined", "end", "near", 12, at=(88.1, 20.4), size=1.4e-5)
     assert lines([joined]) == ["joined    12 ends, the widest gap 1.4e-05 at 88.1, 20.4"]
+    assert lines([replace(LOST, at=(-6e-17, 499.0))])[0].endswith("(the largest 140 at 0, 499): --join 0.0004")
     assert lines([NEAR]) == ["near      61 outlines with curves within 0.08"]
     assert lines([Note("assumption", "hole", "less", 4, remedy="--join-holes")]) == ["assumed   4 holes: --join-holes"]
 

@@ -239,6 +239,18 @@ def keep_form(form: str) -> None:
     click.get_current_context().meta[_FORM] = form
 
 
+def words() -> list[str]:
+    """Return the options about reading that are on the command line."""
+    result = []
+    for name, option in _named().items():
+        value = _values()[name]
+        if isinstance(value, bool):
+            result.append(option if value else f"--no-{option.removeprefix('--')}")
+        else:
+            result += [word for one in (value if isinstance(value, tuple) else [value]) for word in (option, str(one))]
+    return result
+
+
 def _values() -> dict[str, Any]:
     context = click.get_current_context(silent=True)
     return {} if context is None else context.meta.get(_VALUES, {})

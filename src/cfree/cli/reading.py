@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from cfree.cli import drawing
 from cfree.cli.faults import BAD_INPUT, fail, tell
 from cfree.formats.text.archive import is_archive
 
@@ -95,7 +97,8 @@ def report(notes: Sequence[Note], source: Path, most: int | None = MOST_LINES) -
             BAD_INPUT,
         )
     if len(shown) < len(texts):
-        tell(f"and {len(texts) - len(shown):,} more: cfree check {source}")
+        again = shlex.join(["cfree", "check", str(source), *drawing.words()])
+        tell(f"and {len(texts) - len(shown):,} more: {again}")
 
 
 def is_strict() -> bool:

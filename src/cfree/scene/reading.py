@@ -23,6 +23,8 @@ MOST_POINTS = 100
 """Maximum number of points of one of these."""
 MOST_LETTERS = 80
 """Maximum length of the name of a layer in a line."""
+NOISE = 1e-13
+"""Coordinates up to this are written as 0."""
 Place = tuple[float, float]
 
 
@@ -118,7 +120,7 @@ class Note:
     def worst(self) -> str:
         """Size and place of the worst of the things, as an attribute of them."""
         size = None if self.size is None else f"{self.size:.3g}"
-        place = f" at {self.at[0]:.6g}, {self.at[1]:.6g}" if self.at else ""
+        place = f" at {', '.join(map(_short, self.at))}" if self.at else ""
         if self.kind == "joined" and size:
             return f", the widest gap {size}{place}"
         if self.effect == "near" and size:
@@ -145,6 +147,11 @@ class Note:
 _LABELS = {"lost": "LOST", "assumption": "assumed", "hidden": "left out", "paint": "left out"}
 _COUNTED = ("lost", "guess", "assumption", "joined", "hidden", "paint")
 """Kinds whose notes begin with their count also if it is 1."""
+
+
+def _short(coordinate: float) -> str:
+    """Write a coordinate with six digits; noise around 0 is 0."""
+    return f"{coordinate if abs(coordinate) > NOISE else 0:.6g}"
 
 
 def _named(where: str) -> str:

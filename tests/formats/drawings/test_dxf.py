@@ -339,6 +339,31 @@ def test_walls_around_a_workspace_are_obstacles_and_a_robot_stays_solid(width: i
     assert robot.contains(shapely.box(0, 0, 4, 4)) and robot.area > 24.7
 
 
+def test_lines_that_divide_a_workspace_are_lost_unless_they_are_walls(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    space = document.modelspace()
+    for k in range(4):
+        space.add_line(SQUARE[k - 1], SQUARE[k])
+    space.add_line((2, 0), (2, 4))
+    space.add_line((0, 2), (1, 2))
+    shapes = read(written(document), tmp_path, roles={"0": "workspace"})
+    assert [float(shape.polygon.exact_area) for shape in shapes.shapes] == [16]
+    assert [(note.what, note.effect, note.size, note.remedy) for note in shapes.reading if note.kind == "lost"] == [
+        ("line that divides what is free", "less", 4, "--strokes 0.01"),
+        ("open line", "less", 1, "--strokes 0.01"),
+    ]
+    walled = read(written(document), tmp_path, roles={"0": "workspace"}, strokes=0.01)
+    assert len(walled.of("obstacle")) == 6 and not [note for note in walled.reading if note.kind == "lost"]
+
+
+def test_lines_in_a_workspace_that_are_walls_are_no_losses(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    document.modelspace().add_lwpolyline(SQUARE, close=True, dxfattribs={"layer": "workspace"})
+    document.modelspace().add_line((2, 0), (2, 3), dxfattribs={"layer": "workspace"})
+    assert [note.kind for note in read(written(document), tmp_path, strokes=1).reading if note.kind == "lost"] == []
+    assert [note.kind for note in read(written(document), tmp_path).reading if note.kind == "lost"] == ["lost"]
+
+
 def test_hostile_blocks_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     document = ezdxf.new()
     document.blocks.new("B0").add_circle((0, 0), 1)

@@ -479,11 +479,14 @@ def _parts(layer: Layer, edges: list[int]) -> dict[int, int]:
 
 
 def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
-    """Note the parts of curves that bound nothing solid and are in nothing solid."""
+    """Note the parts of curves that bound nothing and are in nothing solid; lines in a workspace are lost as well."""
+    if layer.source.reading.strokes != "ignore":
+        return  # all curves are walls
     graph, mesh = layer.mesh.graph, layer.mesh
     lost: dict[int, list[int]] = defaultdict(list)
     for edge in faces.edges:
-        if not (solid[faces.face[2 * edge]] or solid[faces.face[2 * edge + 1]]):
+        sides = solid[faces.face[2 * edge]], solid[faces.face[2 * edge + 1]]
+        if not any(sides) or (layer.workspace and all(sides)):
             for owner in {owner for owner, _ in mesh.owners(edge) if owner < layer.loose}:
                 lost[owner].append(edge)
     if not lost:
