@@ -28,7 +28,7 @@ def test_gaps_up_to_a_millionth_of_the_size_are_joined_and_listed() -> None:
     found, source = outlines(curves)
     assert len(found) == 1
     (note,) = source.notes
-    assert (note.kind, note.what, note.where, note.count) == ("joined", "gap that is closed", "A", 1)
+    assert (note.kind, note.what, note.where, note.count) == ("joined", "closed gap", "A", 1)
     assert note.size == pytest.approx(3e-5)
     assert note.at == pytest.approx((40, 0), abs=1e-4)
     assert note.items[0].handle == "line 0"
@@ -56,6 +56,21 @@ def test_an_open_line_names_the_least_distance_that_closes_it() -> None:
     assert first.size == pytest.approx(0.0123)
     assert note.remedy == "--join 0.0124"
     assert region(curves, join=float(note.remedy.removeprefix("--join ")))
+
+
+@pytest.mark.parametrize("gap", ["0.1", "0.2", "0.3", "0.7", "1.1"])
+def test_a_gap_is_closed_by_a_distance_of_the_same_decimals(gap: str) -> None:
+    curves = lines((20 + float(gap), 20, 60, 20), (60, 20, 60, 40), (60, 40, 20, 40), (20, 40, 20, 20))
+    assert not region(curves, join=float(gap) - 1e-6)
+    assert len(region(curves, join=float(gap))) == 1
+
+
+def test_lost_lines_and_guessed_outlines_have_their_points_for_pictures() -> None:
+    curves = [*with_gap(box(0, 0, 40, 40), 0.05), *lines((50, 0, 60, 0))]
+    notes = {note.kind: note for note in outlines(curves, join=0.1)[1].notes}
+    assert notes["lost"].items[0].points == ((50, 0), (60, 0))
+    points = notes["guess"].items[0].points
+    assert points[0] == points[-1] and {(0, 0), (40, 0), (40, 40), (0, 40)} <= {*points}
 
 
 def test_lines_that_nothing_closes_want_a_width() -> None:

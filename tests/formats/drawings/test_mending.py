@@ -6,11 +6,13 @@ from pathlib import Path
 import pytest
 
 import cfree
+from cfree import load_shapes
 from cfree.errors import FormatError
 from cfree.formats.drawings.source import Reading
 from cfree.formats.readers import read_file
 from cfree.formats.shapes import Shapes
 
+RING = "[[0, 0], [4, 4], [4, 0], [0, 4]]"
 BOW_TIE = "((0 0, 4 4, 4 0, 0 4, 0 0))"
 
 
@@ -92,3 +94,33 @@ def test_shapes_below_the_least_area_are_an_assumption(tmp_path: Path) -> None:
 
 def test_repaired_is_public() -> None:
     assert "repaired" in dir(cfree)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.geojson", '{"type": "Polygon", "coordinates": [RING]}'),
+        ("a.json", '{"robot": [[0, 0], [1, 0], [0, 1]], "obstacles": [{"name": "desk", "outer": RING}, RING]}'),
+        ("b.json", '{"robot": RING, "obstacles": [[[9, 0], [10, 0], [9, 1]]]}'),
+        ("n.json", '{"items": [{"id": 0, "shape": {"type": "simple_polygon", "data": RING}}]}'),
+    ],
+)
+def test_rings_of_json_are_repaired_with_the_option_alone(name: str, text: str, tmp_path: Path) -> None:
+    file = tmp_path / name
+    file.write_text(text.replace("RING", RING))
+    with pytest.raises(FormatError, match=r"edges 0 and 2 cross at \(2, 2\)"):
+        load_shapes(file)
+    shapes = load_shapes(file, repair=True)
+    assert {float(shape.polygon.exact_area) for shape in shapes.shapes} <= {4, 0.5}
+    assert "mended" in {note.kind for note in shapes.reading}
+
+
+def test_scenes_without_faults_are_the_same_with_repair(tmp_path: Path) -> None:
+    file = tmp_path / "a.json"
+    file.write_text(
+        '{"robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "obstacles": [{"grown": 1, "circle": [3, 3], "radius": 1}]}'
+    )
+    with pytest.raises(FormatError):
+        load_shapes(file, repair=True)
+    plain = load_shapes("examples/scenes/flat.json")
+    assert load_shapes("examples/scenes/flat.json", repair=True) == plain

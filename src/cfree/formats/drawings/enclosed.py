@@ -19,6 +19,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
+from cfree.curves.hulls import traced
 from cfree.formats.drawings.content import Curve
 from cfree.formats.drawings.crossings import refuse_crossings
 from cfree.formats.drawings.joining import Ends, Join, square
@@ -31,6 +32,8 @@ from cfree.scene.reading import Item, Note, Place, thinned
 
 DEFAULT_JOIN = 1e-6
 """Default joining distance, per size of the drawing."""
+ROUNDING = 1e-12
+"""Bound of the rounding of a computed gap, per size of the drawing: a gap of 0.3 is closed by a distance of 0.3."""
 SHORT = "line shorter than the joining distance"
 MOST_NESTED = 20_000_000
 """Maximum number of pairs of a face and a ring around it."""
@@ -148,7 +151,7 @@ def _join(layer: Layer) -> None:
     _bridge(layer, Ends(mesh).joins(plain), guess=False)
     if wanted is None or wanted <= default:
         return
-    _bridge(layer, Ends(mesh).joins(wanted), guess=not source.reading.join_holes)
+    _bridge(layer, Ends(mesh).joins(wanted + ROUNDING * layer.size), guess=not source.reading.join_holes)
     if layer.guesses:
         _surround(layer)
 
@@ -164,7 +167,7 @@ def _bridge(layer: Layer, found: list[Join], *, guess: bool) -> None:
         beyond = join.gap > max(DEFAULT_JOIN * layer.size, 2 * mesh.rounding_at(join.start))
         source.note(
             "assumption" if beyond and not guess else "joined",
-            "gap that is closed, and may make holes" if beyond and not guess else "gap that is closed",
+            "closed gap that may make holes" if beyond and not guess else "closed gap",
             "unknown" if beyond and not guess else "near",
             where=layer.name, at=mesh.graph.place(join.start), size=join.gap, handle=_handle(layer, join.owner),
             remedy="--join 0" if not guess else "",

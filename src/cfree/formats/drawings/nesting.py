@@ -18,13 +18,13 @@ from pydantic import TypeAdapter, ValidationError
 from cfree.errors import InvalidPolygonError, InvalidPoseError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
+from cfree.formats.drawings.mending import mended, repairable
 from cfree.formats.drawings.source import Source, shapes_of
 from cfree.formats.scenes.json_types import Coordinate, Point
 from cfree.formats.scenes.scene_format import report
 from cfree.formats.shapes import IGNORE, PART, Shape, Shapes
 from cfree.formats.text.json_positions import Path
 from cfree.polygons.polygon import Polygon
-from cfree.scene.scene import explained
 
 _RING = TypeAdapter(list[Point])
 _POINT = TypeAdapter(Point)
@@ -130,10 +130,12 @@ class _Reader:
         """Return one polygon, or none if it has a fault."""
         if not rings:
             return []
+        if self.source.reading.repair:
+            return mended(self.source, [[ring for ring, _ in rings]], "obstacle")
         try:
             return [Polygon(rings[0][0], [ring for ring, _ in rings[1:]])]
         except InvalidPolygonError as error:
-            self.findings.under(path if error.ring is None else rings[error.ring][1], explained(error))
+            self.findings.under(path if error.ring is None else rings[error.ring][1], repairable(error))
             return []
 
     def number(self, data: Any, name: str, path: Path) -> Fraction:
