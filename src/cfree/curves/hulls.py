@@ -171,11 +171,6 @@ def rough(ring: Ring) -> list[Vector]:
     return [p for segment in ring for piece in _halved(segment, 3) for p in piece[:1]]
 
 
-def traced(ring: Ring) -> list[Vector]:
-    """Some points along connected segments, from begin to end, enough for a picture."""
-    return [*rough(ring), tuple(map(float, ends(ring[-1])[1]))] if ring else []  # type: ignore[list-item]
-
-
 def area(points: Sequence[Vector]) -> float:
     """Signed area: positive if counter-clockwise."""
     return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, [*points[1:], *points[:1]], strict=True)) / 2

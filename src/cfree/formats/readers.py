@@ -144,7 +144,7 @@ def read_json_file(findings: Findings, data: object, reading: Reading | None = N
     data = with_numbers(data)
     if not source.reading.repair or not isinstance(data, Mapping):
         return scene_from_models(findings, data)
-    from cfree.formats.drawings.scene_repair import repaired_scene
+    from cfree.formats.drawings.mending import mended_scene
 
-    scene = scene_from_models(findings, repaired_scene(source, data))
+    scene = scene_from_models(findings, mended_scene(source, dict(data)))
     return with_reading(scene, together(scene.reading, tuple(source.notes)))

@@ -19,7 +19,6 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from cfree.curves.hulls import traced
 from cfree.formats.drawings.content import Curve
 from cfree.formats.drawings.crossings import refuse_crossings
 from cfree.formats.drawings.joining import Ends, Join, square

@@ -30,7 +30,7 @@ from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_positions import Path
 from cfree.polygons.polygon import Polygon
 from cfree.scene.reading import Kind
-from cfree.scene.scene import flat_shape
+from cfree.scene.scene import explained, flat_shape
 
 # further coordinates, such as heights, are ignored as the RFC allows
 _POINT = Annotated[Point, BeforeValidator(lambda p: p[:2] if isinstance(p, list) else p)]
