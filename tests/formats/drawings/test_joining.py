@@ -233,3 +233,11 @@ def test_guesses_never_free_what_a_subset_forbids_in_a_mess(seed: int) -> None:
         for chosen in combinations(gaps, size):
             reading = region([*curves, *chosen], join=0)
             assert all(is_in(joined, p) for p in probes if is_in(reading, p))
+
+
+@pytest.mark.parametrize("wall", [(20, 0, 20, 15), (20, 0, 20, 40), (15, 20, 25, 20)])
+def test_lines_inside_of_a_workspace_are_lost(wall: tuple[float, float, float, float]) -> None:
+    room = [*closed(box(0, 0, 40, 40)), *lines(wall)]
+    losses = [note for note in outlines(room, workspace=True)[1].notes if note.kind == "lost"]
+    assert [(note.effect, note.count, note.items[0].handle) for note in losses] == [("less", 1, "line 0")]
+    assert not notes(outlines(closed(box(0, 0, 40, 40)), workspace=True)[1])

@@ -351,6 +351,16 @@ def test_closed_elements_are_solids_of_their_own_unless_nested_holes_are_wanted(
     assert [len(item.curves) for item in lines_of(tmp_path, body, holes="nested")] == [3]
 
 
+def test_a_room_of_lines_is_asked_about(tmp_path: Path) -> None:
+    room = '<path id="walls" d="M0 0H90V60H0z"/>'
+    inside = '<rect x="9" y="9" width="9" height="9" fill="red"/><circle cx="50" cy="30" r="9" fill="red"/>'
+    body = '<g fill="none" stroke="black" stroke-width="2">{}</g>'
+    (note,) = [note for note in read(tmp_path, body.format(room + inside)).reading if "nearly everything" in note.what]
+    assert (note.effect, note.where, note.remedy) == ("more", "walls", "--role walls=workspace or --strokes drawn")
+    for quiet in (room.replace("walls", "plate") + inside, inside):
+        assert not [note for note in read(tmp_path, body.format(quiet)).reading if "nearly everything" in note.what]
+
+
 def test_strokes_have_the_width_and_the_form_that_is_drawn(tmp_path: Path) -> None:
     body = (
         '<g transform="scale(2 3)" stroke="red" stroke-linejoin="round"><line stroke-width="1.5" x2="9" y2="4"/>'

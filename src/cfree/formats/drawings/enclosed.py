@@ -498,7 +498,7 @@ def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
     for node, owner in loose.owners.items():
         ends[owner].append(node)
     gaps = loose.least_distances(layer.size)
-    remedy = _remedy(layer, [gaps[node] for owner in lost for node in ends[owner] if node in gaps])
+    remedy = _remedy(layer, lost, [gaps[node] for owner in lost for node in ends[owner] if node in gaps])
     for owner, edges in sorted(lost.items()):
         length = sum(math.dist(*map(graph.place, graph.edges[edge])) for edge in edges)
         handle = _handle(layer, owner)
@@ -525,12 +525,12 @@ def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
         )
 
 
-def _remedy(layer: Layer, gaps: list[float]) -> str:
+def _remedy(layer: Layer, lost: Iterable[int], gaps: list[float]) -> str:
     """Option that closes the most gaps, or makes walls of lines."""
     used = layer.source.reading.join or DEFAULT_JOIN * layer.size
     wider = [gap for gap in gaps if gap >= used]
     if not wider:
-        own = any(curve.width > 0 for curve in layer.curves)
+        own = all(layer.curves[owner].width > 0 for owner in lost)
         return "--strokes drawn" if own else f"--strokes {usual_width(layer.curves):g}"
     unit = 10.0 ** (math.floor(math.log10(max(wider))) - 2)
     return f"--join {math.ceil(max(wider) / unit + 1e-6) * unit:.3g}"

@@ -48,6 +48,7 @@ def ask(source: Source, content: Sequence[Drawn | Lines]) -> None:
         inside = sum(_contains(box, other) for other in boxes) - len(outline)
         if (others and inside > MOST_OF * others) or (others and _area(box) > MOST_OF * _area(whole)):
             name = item.names[0] if item.names else ""
+            role = f"--role {name}=workspace or " if name else ""
             if NAMES.search(name) or _has_doors(item, whole) or _junctions(source, item, whole) >= JUNCTIONS:
                 solid = "read as a solid" if outline[0].closed else "with others a possible solid"
                 source.note(
@@ -58,8 +59,13 @@ def ask(source: Source, content: Sequence[Drawn | Lines]) -> None:
                     at=ends(outline[0].segments[0])[0],
                     size=max(box[2] - box[0], box[3] - box[1]),
                     handle=outline[0].handle,
-                    remedy=f"--role {name}=workspace or --strokes {usual_width(item.curves):g}",
+                    remedy=f"{role}--strokes {_width(item.curves)}",
                 )
+
+
+def _width(curves: Sequence[Curve]) -> str:
+    """Return a value for the option `strokes`."""
+    return "drawn" if all(curve.width > 0 for curve in curves) else f"{usual_width(curves):g}"
 
 
 def _outline(item: Lines) -> list[Curve]:

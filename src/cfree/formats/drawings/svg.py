@@ -15,6 +15,7 @@ from typing import Any
 
 from cfree.curves.drawn import IDENTITY, Affine, compose
 from cfree.formats.drawings.outlines import shapes_of_drawing
+from cfree.formats.drawings.signals import ask
 from cfree.formats.drawings.source import Source
 from cfree.formats.drawings.svg_lengths import UNITS, Measure, unit_of
 from cfree.formats.drawings.svg_viewports import box_of_view
@@ -36,6 +37,7 @@ def read_svg(source: Source) -> Shapes:
     except (ValueError, ZeroDivisionError) as error:
         source.refuse(f"{error}", root.line, place="svg")
     content = Walk(source, root, compose(_FLIP, scale), size).content()
+    ask(source, content)
     settings = _settings(source, root) if "data-cfree" in root.attributes else {"units": unit}
     remedy = 'call a group, a layer or an element "robot"'
     return shapes_of_drawing(source, "SVG", content, settings, remedy)
