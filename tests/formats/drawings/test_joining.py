@@ -28,7 +28,7 @@ def test_gaps_up_to_a_millionth_of_the_size_are_joined_and_listed() -> None:
     found, source = outlines(curves)
     assert len(found) == 1
     (note,) = source.notes
-    assert (note.kind, note.what, note.where, note.count) == ("joined", "closed gap", "A", 1)
+    assert (note.kind, note.what, note.where, note.count) == ("joined", "bridged gap", "A", 1)
     assert note.size == pytest.approx(3e-5)
     assert note.at == pytest.approx((40, 0), abs=1e-4)
     assert note.items[0].handle == "line 0"

@@ -119,7 +119,7 @@ def test_what_nesting_leaves_out_is_said(folder: Path) -> None:
 
     often = ("info", "item, wanted several times and read once", 1, "")
     assert notes({}) == [often]
-    assert notes({"item 0": "robot"})[1:] == [("info", "place of the robot's item, not read", 1, "item 0")]
+    assert notes({"item 0": "robot"})[1:] == [("info", "unread place: its item is the robot", 1, "item 0")]
     assert notes({"item 1": "ignore"})[0] == ("assumption", "ignored item", 1, "item 1")
     again = drawings.NESTING.replace('"placed_items": [', '"placed_items": [{"item_id": 0},')
     lost = ("lost", "further copy of the robot's item", 1, "item 0")

@@ -166,7 +166,7 @@ def _bridge(layer: Layer, found: list[Join], *, guess: bool) -> None:
         beyond = join.gap > max(DEFAULT_JOIN * layer.size, 2 * mesh.rounding_at(join.start))
         source.note(
             "assumption" if beyond and not guess else "joined",
-            "closed gap that may make holes" if beyond and not guess else "closed gap",
+            "bridged gap that may make a hole" if beyond and not guess else "bridged gap",
             "unknown" if beyond and not guess else "near",
             where=layer.name, at=mesh.graph.place(join.start), size=join.gap, handle=_handle(layer, join.owner),
             remedy="--join 0" if not guess else "",

@@ -180,7 +180,7 @@ class _Reader:
             if role == "robot":  # it stays in its own frame
                 is_first, robots = name not in robots, robots | {name}
                 if is_first:
-                    self.source.note("info", "place of the robot's item, not read", where=name)
+                    self.source.note("info", "unread place: its item is the robot", where=name)
                 else:
                     self.source.note("lost", "further copy of the robot's item", "less", where=name)
                 continue
