@@ -1,0 +1,74 @@
+"""The pages about files of other programs: commands print the lines that are shown, Python runs, no option is missing."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from click.testing import CliRunner
+
+import cfree
+from cfree.cli.app import app
+from cfree.cli.drawing import _OPTIONS
+
+ROOT = Path(__file__).parents[1]
+PAGES = [ROOT / "docs" / name for name in ("from-your-file.md", "formats.md")]
+Command = tuple[str, list[str]]
+
+
+def commands(page: Path) -> list[Command]:
+    """Commands of the page's blocks `console`, each with the lines below it."""
+    result: list[Command] = []
+    for indent, block in re.findall(r"^( *)```console\n(.*?)^ *```$", page.read_text(), re.S | re.M):
+        for line in block.splitlines():
+            line = line.removeprefix(indent)
+            if line.startswith("$ cfree "):
+                result.append((line.removeprefix("$ cfree "), []))
+            else:
+                result[-1][1].append(line)
+    return result
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("here")
+@pytest.mark.parametrize(("command", "lines"), [item for page in PAGES for item in commands(page)])
+def test_commands_print_the_lines_that_are_shown(command: str, lines: list[str]) -> None:
+    result = CliRunner().invoke(app, shlex.split(command))
+    assert result.exit_code == 2 if lines and lines[-1].startswith("error") else result.exit_code in (0, 1), (
+        result.output
+    )
+    printed = iter([*result.stderr.splitlines(), *result.stdout.splitlines()])
+    for line in lines:
+        assert line in printed, f"{line}\n\n{result.output}"
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("here")
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_python_of_the_pages_runs(page: Path) -> None:
+    import numpy as np
+
+    info = SimpleNamespace(height=2, width=3, resolution=0.05)
+    message = SimpleNamespace(data=[0, 100, -1, 0, 0, 0], info=info)
+    names: dict[str, object] = {"cfree": cfree, "np": np, "message": message, "robot": [(0, 0), (1, 0), (0, 1)]}
+    names |= dict.fromkeys(("x", "y", "yaw"), 0)
+    for block in re.findall(r"^```python\n(.*?)^```$", page.read_text(), re.S | re.M):
+        exec(block, names)
+    assert names.get("scene")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_every_option_of_reading_is_on_the_page(page: Path) -> None:
+    options = {name for names, _ in _OPTIONS for name in names[0].split("/") if name.startswith("--")}
+    text = page.read_text()
+    assert [option for option in options if not re.search(rf"{option}\b", text)] == []
