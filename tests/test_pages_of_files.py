@@ -1,4 +1,4 @@
-"""The pages about files of other programs: commands print the lines that are shown, Python runs, no option is missing."""
+"""The pages about files of other programs: commands print the lines that are shown, Python runs, options are named."""
 
 from __future__ import annotations
 

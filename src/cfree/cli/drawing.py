@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from cfree.formats.fitting import Pivot
     from cfree.scene.scene import Scene
 
-_VALUES, _NAMED, _FORM = "cfree.drawing", "cfree.drawing.named", "cfree.drawing.form"
+_VALUES, _NAMED, _FORM = (f"cfree.cli.drawing:{name}" for name in ("values", "named", "form"))
 SECTION = "Reading SCENE and ROBOT"
 _DRAWINGS = ("SVG", "DXF")
 _MAPS = ("ROS map",)
-_POLYGONS = (*_DRAWINGS, "GeoJSON", "WKT")
+_POLYGONS = (*_DRAWINGS, "GeoJSON", "WKT", "scene", "nesting")
 FORMS: dict[str, tuple[str, ...]] = {
-    "tolerance": (*_DRAWINGS, "URDF", "nav2 parameters"),
+    "tolerance": (*_DRAWINGS, "GeoJSON", "URDF", "nav2 parameters"),
     "unknown": _MAPS,
     "roles": (*_DRAWINGS, "GeoJSON", "URDF", "nesting", "nav2 parameters"),
     "join": _DRAWINGS,
