@@ -349,7 +349,7 @@ def test_lines_that_divide_a_workspace_are_lost_unless_they_are_walls(tmp_path: 
     shapes = read(written(document), tmp_path, roles={"0": "workspace"})
     assert [float(shape.polygon.exact_area) for shape in shapes.shapes] == [16]
     assert [(note.what, note.effect, note.size, note.remedy) for note in shapes.reading if note.kind == "lost"] == [
-        ("line that divides what is free", "less", 4, "--strokes 0.01"),
+        ("line between free regions", "less", 4, "--strokes 0.01"),
         ("open line", "less", 1, "--strokes 0.01"),
     ]
     walled = read(written(document), tmp_path, roles={"0": "workspace"}, strokes=0.01)
