@@ -68,14 +68,6 @@ def test_a_gap_is_closed_by_a_distance_of_the_same_decimals(gap: str) -> None:
         assert len([note for note in source.notes if note.kind == "joined"]) == count
 
 
-def test_lost_lines_and_guessed_outlines_have_their_points_for_pictures() -> None:
-    curves = [*with_gap(box(0, 0, 40, 40), 0.05), *lines((50, 0, 60, 0))]
-    notes = {note.kind: note for note in outlines(curves, join=0.1)[1].notes}
-    assert notes["lost"].items[0].points == ((50, 0), (60, 0))
-    points = notes["guess"].items[0].points
-    assert points[0] == points[-1] and {(0, 0), (40, 0), (40, 40), (0, 40)} <= {*points}
-
-
 def test_lines_that_nothing_closes_want_a_width() -> None:
     _, source = outlines(lines((0, 0, 40, 0), (0, 9, 40, 9)))
     (note,) = source.notes
