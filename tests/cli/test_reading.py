@@ -271,3 +271,13 @@ def test_a_start_in_a_closed_line_names_the_options_that_make_walls_or_a_room_of
     error = run(*question).stderr
     assert "if the lines of A-WALL are walls: --strokes drawn" in error and "--role A-WALL=workspace" in error
     assert run(*question, "--strokes", "drawn").exit_code == run(*question, "--role", "A-WALL=workspace").exit_code == 0
+
+
+def test_a_footprint_given_as_text_has_the_unit_of_the_drawing_which_is_reported(tmp_path: Path) -> None:
+    size = 'xmlns="http://www.w3.org/2000/svg" width="9{0}" height="9{0}" viewBox="0 0 9 9"'
+    for unit in ("mm", "m"):
+        (tmp_path / "a.svg").write_text(f'<svg {size.format("mm")}><rect x="5" width="1" height="1"/></svg>')
+        scale = ("--scale", "0.001", "--units", "m") if unit == "m" else ()
+        result = run("check", tmp_path / "a.svg", "--robot", "[[0.3, 0], [0, 0.3], [0, 0]]", *scale)
+        assert result.exit_code == 0
+        assert ("footprint of --robot taken in mm" in result.stderr) == (unit == "mm")

@@ -207,3 +207,18 @@ def test_a_role_of_a_name_that_no_file_has_is_warned_of(tmp_path: Path) -> None:
     assert scene.workspace and [note.what for note in scene.reading if note.kind == "warning"] == [
         'role without effect: nothing is called "wall"'
     ]
+
+
+def test_padding_pads_the_robot_of_a_file_of_any_kind(tmp_path: Path) -> None:
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" width="90{0}" height="90{0}" viewBox="0 0 90 90">{1}</svg>'
+    (tmp_path / "plan.svg").write_text(svg.format("mm", '<rect x="50" width="9" height="9"/>'))
+    (tmp_path / "robot.svg").write_text(svg.format("cm", '<path d="M -2 -1 H 2 V 1 H -2 Z"/>'))
+    (tmp_path / "disc.svg").write_text(svg.format("mm", '<circle id="robot" r="2"/>'))
+    plan = load_shapes(tmp_path / "plan.svg", padding=0.5)
+    padded = plan.scene(load_shapes(tmp_path / "robot.svg", padding=0.5))
+    assert padded.robot[0].bounds == (-25, -15, 25, 15) and "padding by nav2's rule" in [n.what for n in padded.reading]
+    assert plan.scene([(-2, -1), (2, -1), (2, 1), (-2, 1)]).robot[0].bounds == (-2.5, -1.5, 2.5, 1.5)
+    moved = plan.scene([(0, 0), (4, 0), (4, 2), (0, 2)], pivot="centroid")
+    assert moved.robot[0].bounds == (-2.5, -1.5, 2.5, 1.5), "padded about the reference point"
+    (disc,) = load_shapes(tmp_path / "disc.svg", padding=0.5, curves=True).scene().robot
+    assert disc.box[2] >= 2.7

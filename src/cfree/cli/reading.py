@@ -57,14 +57,25 @@ def made(
 ) -> Scene:
     """Return the scene of the shapes in a file, and report its record of reading, also if it cannot be made."""
     from cfree.errors import FormatError
+    from cfree.scene.reading import together
+    from cfree.scene.scene import with_reading
 
     try:
         scene = shapes.scene(robot, pivot)
     except FormatError:
         report((*shapes.record, *getattr(robot, "record", ())), source, most)
         raise
+    if robot is not None and not hasattr(robot, "record"):
+        scene = with_reading(scene, together(scene.reading, unit_of_text(scene.units)))
     report(scene.reading, source, most)
     return scene
+
+
+def unit_of_text(units: str) -> tuple[Note, ...]:
+    """Return a note about the unit of a footprint given as text, unless it is the usual one."""
+    from cfree.scene.reading import Note
+
+    return () if units in ("", "m") else (Note("info", f"footprint of --robot taken in {units}"),)
 
 
 def report(notes: Sequence[Note], source: Path, most: int | None = MOST_LINES) -> None:

@@ -5,15 +5,16 @@ Each part imports only from those before it:
 1. `text/`: a file's text, the places in it, its faults; files replaced as a whole.
 2. `units.py`: names of units of length, and factors between them.
 3. `fitting.py`: scale and reference point of shapes and poses.
-4. `shapes.py`: the content of a file of shapes, before it is a scene.
-5. `scenes/`: the JSON scene.
-6. `drawings/`: drawings, maps and other files of shapes, one file a format.
-7. `readers.py`: the reader for each file.
-8. `scene_file.py`: `load_scene`, `load_shapes` and `save_scene`.
-9. `conversion.py`: `convert`.
-10. `boundaries/`: boundaries, their tables, meshes and slices.
-11. `answers/`: paths and separations.
-12. `files.py`: `save` and `load`.
+4. `padding.py`: robots padded as nav2 pads them.
+5. `shapes.py`: the content of a file of shapes, before it is a scene.
+6. `scenes/`: the JSON scene.
+7. `drawings/`: drawings, maps and other files of shapes, one file a format.
+8. `readers.py`: the reader for each file.
+9. `scene_file.py`: `load_scene`, `load_shapes` and `save_scene`.
+10. `conversion.py`: `convert`.
+11. `boundaries/`: boundaries, their tables, meshes and slices.
+12. `answers/`: paths and separations.
+13. `files.py`: `save` and `load`.
 """
 
 from typing import TYPE_CHECKING

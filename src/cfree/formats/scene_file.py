@@ -147,7 +147,7 @@ def load_shapes(
     despeckle : int
         Occupied specks of fewer cells are free, which is an assumption of the answer.
     padding : float
-        The robot is padded as nav2 pads a footprint.
+        The robot is padded as nav2 pads a footprint, in the unit of the robot's file.
 
     Raises
     ------
@@ -175,7 +175,7 @@ def read_shapes(path: str | PathLike[str], reading: Reading, progress: Progress 
     with collection_paused():
         content = read_file(path, reading, progress)
         shapes = shapes_in(content, os.fspath(path)) if isinstance(content, Scene) else content
-        return _sized(shapes, reading.units, reading.scale)
+        return replace(_sized(shapes, reading.units, reading.scale), padding=to_fraction(reading.padding))
 
 
 def _sized(shapes: Shapes, units: str, scale: Fraction | None) -> Shapes:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import PurePath
 from typing import Any, Literal
 
@@ -16,6 +17,7 @@ from cfree.curves.similar import similar
 from cfree.errors import UnsupportedError
 from cfree.exact.number import Number, to_fraction
 from cfree.formats.fitting import about_pivot, far_reference, scaled_note, scaled_settings, settings_about
+from cfree.formats.padding import Record, padded_robot
 from cfree.formats.text.findings import InvalidFileError, whole
 from cfree.formats.units import factor, unit_of
 from cfree.lazy import registered
@@ -28,6 +30,7 @@ from cfree.words import counted
 Role = Literal["robot", "obstacle", "workspace", "part"]
 ROLES = ("robot", "obstacle", "workspace")
 DRAWN = ("SVG", "DXF")  # formats in which the robot is drawn at its place
+PADDED = ("nav2 parameters", "URDF")  # formats whose readers pad the robot
 PART, IGNORE = "part", "ignore"
 
 
@@ -59,6 +62,8 @@ class Shapes:
         Losses, guesses and changes of reading, the most serious first.
     roles : mapping of str to bool
         The names that the option `roles` gives a role; False for those that nothing in the file has.
+    padding : Fraction
+        The option `padding`, in the file's unit. The scene's robot is padded by it, unless the reader has done so.
 
     Examples
     --------
@@ -77,6 +82,7 @@ class Shapes:
     file: str = ""
     remedy: str = ""
     roles: Mapping[str, bool] = field(default_factory=dict, hash=False, compare=False)
+    padding: Fraction = field(default=Fraction(0), compare=False)
 
     def __repr__(self) -> str:
         roles = [shape.role for shape in self.shapes]
@@ -133,7 +139,7 @@ class Shapes:
         --------
         >>> import cfree
         >>> cfree.load_shapes("examples/scenes/flat.json").scaled("1/1000").scene().robot[0].bounds[2]
-        0.0015
+        0.0007
         """
         try:
             factor = to_fraction(ratio)
@@ -191,6 +197,10 @@ class Shapes:
         if pivot is not None:
             parts, point = about_pivot(parts, pivot)
             settings = settings_about(settings, point, is_placed=robot is None and self.form in DRAWN)
+        if by := self._padding_of(robot):
+            changes = Record()
+            parts = padded_robot(changes, parts, by)
+            its = together(its, of_file(changes.notes, robot.file if isinstance(robot, Shapes) else self.file))
         its = together(its, far_reference(parts) if self.form != "scene" or robot is not None else ())
         obstacles = self.of("obstacle")
         nothing = () if obstacles or rooms or self.form == "scene" else of_file([_NOTHING_FORBIDS], self.file)
@@ -202,6 +212,13 @@ class Shapes:
             reading=together(self.record, its, nothing),
             **settings,
         )
+
+    def _padding_of(self, robot: Any) -> Fraction:
+        """Return the padding of the scene's robot, in this file's unit; 0 if the robot's reader has padded it."""
+        if not isinstance(robot, Shapes):
+            return Fraction(0) if robot is None and self.form in PADDED else self.padding
+        ratio = factor(str(robot.settings.get("units", "")), str(self.settings.get("units", "")))
+        return Fraction(0) if robot.form in PADDED else robot.padding * (ratio or 1)
 
     @property
     def _remedy(self) -> str:

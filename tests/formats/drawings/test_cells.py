@@ -51,7 +51,7 @@ def test_black_is_occupied_at_thresholds_of_1_and_0_by_the_strict_rules_and_thos
     assert cells == {"strict": 1, "nav2": 1, "nav2-old": 0, "ros1": 0}
     shapes = read(folder, [[255, 0, 255]], text, unknown="free", map_rules="ros1")
     assert said(shapes, "another map server") == [("assumption", "less", 1, "", "--map-rules strict")]
-    assert said(shapes, "cells by the ros1 rules") == [("info", "none", 1, "", "--map-rules")]
+    assert said(shapes, "cells by the ros1 rules") == [("info", "none", 1, "", "")]
 
 
 RULES = ("strict", "nav2", "nav2-old", "ros1")

@@ -70,7 +70,7 @@ def test_footprints(folder: Path) -> None:
     assert padded.bounds == (-0.51, -0.26, 0.51, 0.26)
     assert [(note.kind, note.what) for note in shapes.reading if note.effect == "more"] == [
         ("guess", "different footprint: the robot is all of them"),
-        ("info", "footprint_padding by nav2's rule"),
+        ("info", "padding by nav2's rule"),
     ]
     (folder / "radius.yaml").write_text("robot_radius: 0.22")
     (disc,) = cfree.load_polygons(folder / "radius.yaml")

@@ -13,8 +13,8 @@ import shapely
 
 from cfree.curves.curved import Curved
 from cfree.errors import FormatError
-from cfree.formats.drawings.padding import contains, padded
 from cfree.formats.drawings.source import Reading, Source
+from cfree.formats.padding import contains, padded
 from cfree.formats.readers import read_file
 from cfree.formats.shapes import Shapes
 from cfree.polygons.polygon import Polygon

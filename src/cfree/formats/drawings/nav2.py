@@ -16,9 +16,9 @@ from cfree.curves.hulls import Outline, polygon_of
 from cfree.errors import FormatError
 from cfree.exact.number import to_fraction
 from cfree.formats.drawings.footprints import footprint
-from cfree.formats.drawings.padding import contains, padded
 from cfree.formats.drawings.source import Source, shapes_of, tolerance_of
 from cfree.formats.drawings.yaml_nodes import above_zero, fault, mappings, members, written
+from cfree.formats.padding import contains, padded
 from cfree.formats.shapes import IGNORE, Shape, Shapes
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape

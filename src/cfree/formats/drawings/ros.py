@@ -99,7 +99,7 @@ class _Cells:
         what = "free cell by another threshold"
         is_freed = (values == FREE) & (published(rules, self.colours, own) != FREE)
         self.note("assumption", what, "less", is_freed, remedy=f"--free-thresh {limits.free:g}")
-        self.source.note("info", f"cells by the {rules} rules", remedy="--map-rules")
+        self.source.note("info", f"cells by the {rules} rules")
         if rules == "strict":
             servers = [published(server, self.colours, limits) for server in SERVERS]
             is_disputed = (values != FREE) & np.any([other == FREE for other in servers], axis=0)

@@ -18,9 +18,9 @@ from cfree.curves.drawn import point_of
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import to_fraction
 from cfree.formats.drawings.nav2 import ROBOT_FRAME
-from cfree.formats.drawings.padding import hull, padded
 from cfree.formats.drawings.source import CURVE_SHARE, Source, shapes_of
 from cfree.formats.drawings.xml_tree import Node, read_tree
+from cfree.formats.padding import hull, padded
 from cfree.formats.shapes import IGNORE, Shape, Shapes
 
 Matrix = NDArray[np.float64]

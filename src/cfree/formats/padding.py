@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
+from typing import Any, Protocol
 
 from cfree.curves.curved import Curved
 from cfree.curves.drawn import turn
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
 from cfree.exact.orientation import Location, locate
-from cfree.formats.drawings.source import Source
 from cfree.polygons.polygon import Polygon
+from cfree.scene.reading import Effect, Kind, Note
 from cfree.scene.scene import AnyShape
 
 Ring = tuple[ExactPoint, ...]
@@ -21,7 +21,44 @@ _ROOT_OF_TWO = Fraction(14142136, 10**7)  # rounded up
 _MOST_PAIRS = 5_000  # of edges, in the test whether one outline contains another
 
 
-def padded(source: Source, polygon: Polygon, by: Fraction, is_disc: bool = False) -> list[AnyShape]:
+class Noting(Protocol):
+    """A record of reading that is being written."""
+
+    def note(self, kind: Kind, what: str, effect: Effect = ..., *, size: float | None = ...) -> object:
+        """Note a difference."""
+
+
+class Record:
+    """Notes in a list."""
+
+    def __init__(self) -> None:
+        self.notes: list[Note] = []
+
+    def note(self, kind: Kind, what: str, effect: Effect = "none", *, size: float | None = None) -> None:
+        """Add a note."""
+        self.notes.append(Note(kind, what, effect, size=size))
+
+
+def padded_robot(record: Noting, parts: Sequence[AnyShape], by: Fraction) -> list[AnyShape]:
+    """Return the parts of a robot, each padded; round ones are grown by a disc that contains the padding."""
+    result: list[AnyShape] = []
+    for part in parts:
+        if isinstance(part, Curved):
+            radius = by * _ROOT_OF_TWO
+            record.note("guess", "padded round part, grown by a disc", "more", size=float(radius))
+            around = part.outer(part.size / 1000)
+            result += [Curved(*_outer_and_holes(polygon), grown=radius) for polygon in around]
+        else:
+            result += padded(record, part, by)
+    return result
+
+
+def _outer_and_holes(polygon: Polygon) -> tuple[Ring, list[Ring]]:
+    outer, *holes = polygon.exact_rings
+    return outer, holes
+
+
+def padded(source: Noting, polygon: Polygon, by: Fraction, is_disc: bool = False) -> list[AnyShape]:
     """Return the outline as drawn and the one that nav2 pads, or one shape that contains both; note it.
 
     nav2 moves each vertex away from both axes. That leaves parts of many drawn outlines out, and makes some cross
@@ -31,10 +68,10 @@ def padded(source: Source, polygon: Polygon, by: Fraction, is_disc: bool = False
     Examples
     --------
     >>> box = Polygon([(1, 1), (-1, 1), (-1, -1), (1, -1)])
-    >>> [part.exact_area for part in padded(Source(""), box, Fraction(1, 2))]
+    >>> [part.exact_area for part in padded(Record(), box, Fraction(1, 2))]
     [Fraction(9, 1)]
     >>> beside = Polygon([(2, 0), (4, 0), (4, 1), (2, 1)])
-    >>> [part.bounds for part in padded(Source(""), beside, Fraction(1))]
+    >>> [part.bounds for part in padded(Record(), beside, Fraction(1))]
     [(2.0, 0.0, 4.0, 1.0), (3.0, 0.0, 5.0, 2.0)]
     """
     if by <= 0:
@@ -52,7 +89,7 @@ def padded(source: Source, polygon: Polygon, by: Fraction, is_disc: bool = False
         source.note("guess", what, "more", size=size)
         return [Curved(ring, holes, grown=by * _ROOT_OF_TWO)]
     if is_disc or contains(larger, polygon):
-        source.note("info", "footprint_padding by nav2's rule", "more", size=size)
+        source.note("info", "padding by nav2's rule", "more", size=size)
         return [larger]
     what = "padded outline, beside the drawn one: both are the robot"
     source.note("guess", what, "more", size=size)
