@@ -222,3 +222,14 @@ def test_padding_pads_the_robot_of_a_file_of_any_kind(tmp_path: Path) -> None:
     assert moved.robot[0].bounds == (-2.5, -1.5, 2.5, 1.5), "padded about the reference point"
     (disc,) = load_shapes(tmp_path / "disc.svg", padding=0.5, curves=True).scene().robot
     assert disc.box[2] >= 2.7
+
+
+def test_a_scale_between_two_units_without_a_new_unit_is_warned_of(tmp_path: Path) -> None:
+    size = 'width="9mm" height="9mm" viewBox="0 0 9 9"'
+    text = f'<svg xmlns="http://www.w3.org/2000/svg" {size}><rect width="9" height="9"/></svg>'
+    (tmp_path / "a.svg").write_text(text)
+    options = ("1/1000", ""), (2, ""), ("1/1000", "m")
+    notes = [load_shapes(tmp_path / "a.svg", scale=scale, units=unit).reading for scale, unit in options]
+    assert [[(note.kind, note.remedy) for note in some if "multiplied" in note.what] for some in notes] == [
+        [("warning", "--units m")], [("info", "")], [("info", "")],
+    ]  # fmt: skip

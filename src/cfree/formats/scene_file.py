@@ -191,7 +191,9 @@ def _sized(shapes: Shapes, units: str, scale: Fraction | None) -> Shapes:
         if unit_of(own) != unit_of(units):
             notes.append(Note("info", f"unit taken as {unit_of(units)}"))
     if scale is not None and scale != 1:
-        notes.append(Note("info", f"lengths multiplied by {scale}"))
+        meant = next((unit for unit in METRES if not units and factor(own, unit) == scale), "")
+        still, remedy = (f", still in {own}", f"--units {meant}") if meant else ("", "")
+        notes.append(Note("warning" if meant else "info", f"lengths multiplied by {scale}{still}", remedy=remedy))
     if not notes:
         return shapes
     result = shapes.scaled(scale or 1)
