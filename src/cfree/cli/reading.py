@@ -66,16 +66,17 @@ def made(
         report((*shapes.record, *getattr(robot, "record", ())), source, most)
         raise
     if robot is not None and not hasattr(robot, "record"):
-        scene = with_reading(scene, together(scene.reading, unit_of_text(scene.units)))
+        scene = with_reading(scene, together(scene.reading, unit_of_text(scene.units, shapes)))
     report(scene.reading, source, most)
     return scene
 
 
-def unit_of_text(units: str) -> tuple[Note, ...]:
+def unit_of_text(units: str, shapes: Shapes) -> tuple[Note, ...]:
     """Return a note about the unit of a footprint given as text, unless it is the usual one."""
-    from cfree.scene.reading import Note
+    from cfree.scene.reading import Note, of_file
 
-    return () if units in ("", "m") else (Note("info", f"footprint of --robot taken in {units}"),)
+    notes = () if units in ("", "m") else (Note("info", f"footprint of --robot taken in {units}"),)
+    return notes if shapes.form == "scene" else of_file(notes, shapes.file)
 
 
 def report(notes: Sequence[Note], source: Path, most: int | None = MOST_LINES) -> None:
