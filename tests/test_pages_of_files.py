@@ -56,13 +56,17 @@ def test_commands_print_the_lines_that_are_shown(command: str, lines: list[str])
 @pytest.mark.usefixtures("here")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_python_of_the_pages_runs(page: Path) -> None:
+    import doctest
+
     import numpy as np
+
+    assert not doctest.testfile(str(page), module_relative=False).failed
 
     info = SimpleNamespace(height=2, width=3, resolution=0.05)
     message = SimpleNamespace(data=[0, 100, -1, 0, 0, 0], info=info)
     names: dict[str, object] = {"cfree": cfree, "np": np, "message": message, "robot": [(0, 0), (1, 0), (0, 1)]}
     names |= dict.fromkeys(("x", "y", "yaw"), 0)
-    for block in re.findall(r"^```python\n(.*?)^```$", page.read_text(), re.S | re.M):
+    for block in re.findall(r"^```python\n(?!>>>)(.*?)^```$", page.read_text(), re.S | re.M):
         exec(block, names)
     assert names.get("scene")
 
