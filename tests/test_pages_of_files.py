@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import runpy
 import shlex
 from pathlib import Path
 from types import SimpleNamespace
@@ -76,3 +77,13 @@ def test_every_option_of_reading_is_on_the_page(page: Path) -> None:
     options = {name for names, _ in _OPTIONS for name in names[0].split("/") if name.startswith("--")}
     text = page.read_text()
     assert [option for option in options if not re.search(rf"{option}\b", text)] == []
+
+
+@pytest.mark.slow
+def test_pictures_of_the_page_are_those_that_the_tool_draws() -> None:
+    pictures = runpy.run_path(str(ROOT / "tools" / "file_images.py"))["PICTURES"]
+    names = re.findall(r"\(images/files/([\w-]+)\.png\)", PAGES[0].read_text())
+    assert names == [*pictures] == [name for name in pictures if (ROOT / f"docs/images/files/{name}.png").exists()]
+    for file, panels in pictures.values():
+        for title, options in panels.items():
+            cfree.load_shapes(ROOT / "examples" / "drawings" / (file or title.split()[0]), **options)
