@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+import cfree
 from cfree.errors import FormatError
 from cfree.formats.drawings.source import Source, shapes_of
 from cfree.formats.scene_file import load_polygons, load_scene, load_shapes
@@ -233,3 +234,27 @@ def test_a_scale_between_two_units_without_a_new_unit_is_warned_of(tmp_path: Pat
     assert [[(note.kind, note.remedy) for note in some if "multiplied" in note.what] for some in notes] == [
         [("warning", "--units m")], [("info", "")], [("info", "")],
     ]  # fmt: skip
+
+
+def test_lengths_of_a_scaled_file_have_the_unit_of_the_scene(tmp_path: Path) -> None:
+    text = '<svg xmlns="http://www.w3.org/2000/svg"><circle r="30"/><line x1="1" x2="4" stroke="red"/></svg>'
+    (tmp_path / "a.svg").write_text(text)
+    plain = cfree.load_shapes(tmp_path / "a.svg", tolerance=0.1)
+    scaled = cfree.load_shapes(tmp_path / "a.svg", tolerance=100, scale=1000)
+    assert [p.exact_area * 10**6 for p in plain.polygons] == [p.exact_area for p in scaled.polygons]
+    assert {note.size for note in scaled.reading if note.kind == "near"} == {100}
+    (lost,) = [note for note in scaled.reading if note.kind == "lost"]
+    assert lost.items[0].points == ((1000, 0), (4000, 0))
+    cfree.load_shapes(tmp_path / "a.svg", tolerance=1e9, scale="1e-320")  # no double, and no fault
+
+
+def test_names_of_wkt_take_roles(tmp_path: Path) -> None:
+    (tmp_path / "a.wkt").write_text("walls: POLYGON ((0 0, 1 0, 0 1))\nbot: POLYGON ((5 0, 6 0, 5 1))")
+    shapes = cfree.load_shapes(tmp_path / "a.wkt", roles={"bot": "robot", "walls": "ignore"})
+    assert [(shape.role, shape.name) for shape in shapes.shapes] == [("robot", "bot")]
+    assert [(note.kind, note.effect, note.where) for note in shapes.reading] == [("assumption", "less", "walls")]
+
+
+def test_strokes_wider_than_any_drawing_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"strokes: 1e\+300; give a width above 0 and below 1e150"):
+        cfree.load_shapes(tmp_path / "a.svg", strokes=1e300)

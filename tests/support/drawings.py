@@ -76,6 +76,30 @@ FollowPath:
   footprint_model: {type: two_circles, front_offset: 0.2, front_radius: 0.2, rear_offset: 0.3, rear_radius: 0.25}
 costmap: {footprint: [[2, 0], [4, 0], [4, 1], [2, 1]], footprint_padding: 0.1}
 """
+GEOJSON = """{"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {"role": "robot", "start": [1, 2, "30deg"], "units": "m"},
+  "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 2], [0, 2], [0, 0]]]}},
+ {"type": "Feature", "properties": {"name": "walls", "width": 0.25},
+  "geometry": {"type": "MultiLineString", "coordinates": [[[0, 9], [5, 9], [9, 5, 1]], [[0, 12], [3, 12.5]]]}},
+ {"type": "Feature", "properties": {"name": "tree", "radius": 0.5},
+  "geometry": {"type": "Point", "coordinates": [8, 8]}},
+ {"type": "Feature", "properties": {"role": "ignore"}, "geometry": {"type": "Point", "coordinates": [1, 1]}},
+ {"type": "Feature", "properties": null, "geometry": {"type": "GeometryCollection", "geometries": [
+  {"type": "MultiPolygon", "coordinates": [[[[20, 0], [24, 0], [24, 4], [20, 4], [20, 0]],
+   [[21, 1], [21, 2], [22, 2], [21, 1]]], [[[30, 0], [33, 0], [33, 3], [30, 3], [30, 0]]]]}]}},
+ {"type": "Feature", "properties": {"name": "lake"}, "geometry": null}]}
+"""
+WKT = """robot: POLYGON ((0 0, 1 0, 1 1/2, 0 0.5, 0 0))
+# walls
+walls: SRID=4326; MULTIPOLYGON Z (((3 0 1, 5 0 1, 5 2 1, 3 0 1)), ((6 0 1, 9 0 1, 9 3 1, 6 3 1, 6 0 1)))
+workspace: POLYGON ((-9 -9, 20 -9, 20 20, -9 20, -9 -9), (-1 -1, -2 -1, -2 -2, -1 -1))
+"""
+SCENE = """{"version": 1, "name": "a", "units": "m", "robot": [{"outer": [[0, 0], ["1/3", 0], [0, 0.1]]},
+ {"circle": {"center": [0, 0], "radius": 0.1}}], "bounds": [-9, -9, 9, 9], "start": [0, 0, "30deg"],
+ "obstacles": [{"name": "walls", "outer": [[1, 1], [4, 1], [4, 4], [1, 4]], "holes": [[[2, 2], [3, 2], [3, 3]]]},
+  {"outer": [[5, 0], [6, 0], [6, 1], [5, 1]]}], "goals": [[5, 5], [7, 7, {"tau": "1/2"}]],
+ "reading": [{"kind": "lost", "effect": "less", "count": 2, "what": "open line", "at": [1, 2], "size": 3}]}
+"""
 
 
 @cache
@@ -124,6 +148,7 @@ def files() -> dict[str, bytes]:
     named = head + SVG[SVG.index("<svg") :].replace(NAMESPACE, "&ns;")
     texts = {"a.svg": SVG, "nav.yaml": NAV2, "r.urdf": URDF, "n.json": NESTING, "a.dxf": dxf(), "map.yaml": MAP}
     texts |= {"c.svg": STYLED_SVG, "grid.map": MOVINGAI, "teb.yaml": MONITOR}
+    texts |= {"g.geojson": GEOJSON, "a.wkt": WKT, "s.json": SCENE}
     return {name: text.encode() for name, text in texts.items()} | {"b.svgz": gzip.compress(named.encode(), mtime=0)}
 
 

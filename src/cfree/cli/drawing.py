@@ -25,7 +25,7 @@ _POLYGONS = (*_DRAWINGS, "GeoJSON", "WKT", "scene", "nesting")
 FORMS: dict[str, tuple[str, ...]] = {
     "tolerance": (*_DRAWINGS, "GeoJSON", "URDF", "nav2 parameters"),
     "unknown": _MAPS,
-    "roles": (*_DRAWINGS, "GeoJSON", "URDF", "nesting", "nav2 parameters"),
+    "roles": (*_DRAWINGS, "GeoJSON", "WKT", "URDF", "nesting", "nav2 parameters"),
     "join": _DRAWINGS,
     "join_holes": _DRAWINGS,
     "strokes": (*_DRAWINGS, "GeoJSON"),

@@ -44,7 +44,15 @@ def scaled_note(note: Note, ratio: float) -> Note:
     def place(p: tuple[float, float] | None) -> tuple[float, float] | None:
         return p and (p[0] * ratio, p[1] * ratio)
 
-    items = tuple(replace(item, at=place(item.at), size=item.size and item.size * ratio) for item in note.items)
+    items = tuple(
+        replace(
+            item,
+            at=place(item.at),
+            size=item.size and item.size * ratio,
+            points=tuple((x * ratio, y * ratio) for x, y in item.points),
+        )
+        for item in note.items
+    )
     return replace(note, at=place(note.at), size=note.size and note.size * ratio, items=items)
 
 

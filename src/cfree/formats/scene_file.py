@@ -37,6 +37,8 @@ from cfree.scene.reading import Note, together
 from cfree.scene.scene import AnyShape, Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
+_LEAST, _MOST = Fraction(1, 10**300), Fraction(10**300)
+"""Range of tolerances in the file's unit, so that they are doubles."""
 EXPORTS = (".geojson", ".svg", ".dxf")
 _SETTINGS = (*_TEXTS, "bounds", "start", "goal", "goals", "check", "version")
 
@@ -172,8 +174,12 @@ def load_shapes(
 
 def read_shapes(path: str | PathLike[str], reading: Reading, progress: Progress | None = None) -> Shapes:
     """Read the shapes of a file with these options; `progress` as for `Source`."""
+    drawn = reading
+    if reading.tolerance and reading.scale:  # the tolerance is in the scene's unit
+        tolerance = Fraction(reading.tolerance) / reading.scale
+        drawn = replace(reading, tolerance=float(min(max(tolerance, _LEAST), _MOST)))
     with collection_paused():
-        content = read_file(path, reading, progress)
+        content = read_file(path, drawn, progress)
         shapes = shapes_in(content, os.fspath(path)) if isinstance(content, Scene) else content
         return replace(_sized(shapes, reading.units, reading.scale), padding=to_fraction(reading.padding))
 

@@ -23,6 +23,8 @@ from cfree.polygons.rings import plain_ring
 Rule = Literal["nonzero", "evenodd"]
 Rings = Sequence[Sequence[ExactPoint]]
 """An outer ring and holes."""
+FARTHEST = 10**150
+"""Bound of coordinates: products of two are doubles."""
 
 
 @checked
@@ -69,7 +71,15 @@ def repaired(shape: Any, *, rule: Rule = "nonzero") -> tuple[Polygon, ...]:
 
 
 def united(shapes: Sequence[Rings], rule: Rule = "nonzero") -> tuple[Polygon, ...]:
-    """Return the union of shapes of exact rings, see `repaired`; nothing, if they have no interior."""
+    """Return the union of shapes of exact rings, see `repaired`; nothing, if they have no interior.
+
+    Raises
+    ------
+    InvalidPolygonError
+        If a point is beyond 1e150, or rings cross too often.
+    """
+    if any(abs(x) >= FARTHEST for rings in shapes for ring in rings for point in ring for x in point):
+        raise InvalidPolygonError("a point lies beyond 1e150; scale the coordinates")
     graph = graph_of(p for rings in shapes for ring in rings for p in ring)
     owner: list[tuple[int, bool]] = []  # shape of each ring; True for holes
     segments: list[tuple[ExactPoint, ExactPoint, int]] = []

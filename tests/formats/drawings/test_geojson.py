@@ -100,3 +100,33 @@ def test_collections_have_the_width_of_their_feature(tmp_path: Path) -> None:
 def test_a_width_that_is_none_is_a_fault(width: Any, tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"features\[0\].properties.width: expected a length, 0 or more, got"):
         read(tmp_path, feature(shape("LineString", [[0, 0], [1, 0]]), width=width))
+
+
+def test_repair_unites_the_polygons_of_a_geometry(tmp_path: Path) -> None:
+    tie = shape("Polygon", [[[0, 0], [4, 4], [4, 0], [0, 4], [0, 0]]])
+    with pytest.raises(FormatError, match=r"edges 0 and 2 cross at \(2, 2\); split it .*, or give --repair"):
+        read(tmp_path, feature(tie))
+    shapes = read(tmp_path, feature(tie, name="tie"), repair=True)
+    assert [float(s.polygon.exact_area) for s in shapes.shapes] == [4, 4]
+    assert noted(shapes) == [("mended", "polygon that crosses itself or others", "tie", 1)]
+    boxes = [[[[x, 0], [x + 4, 0], [x + 4, 4], [x, 4], [x, 0]]] for x in (0, 2)]
+    (one,) = read(tmp_path, feature(shape("MultiPolygon", boxes)), repair=True).shapes
+    assert one.polygon.exact_area == 24
+    with pytest.raises(FormatError, match=r"coordinates\[0\]\[1\]"):  # faults of numbers stay faults
+        read(tmp_path, feature(shape("Polygon", [[[0, 0], ["x", 1], [1, 1]]])), repair=True)
+    assert not read(tmp_path, feature(shape("Polygon", [[]])), repair=True).shapes
+
+
+def test_lines_and_points_too_far_away_or_too_wide_are_faults_with_their_place(tmp_path: Path) -> None:
+    far = 10**200
+    with pytest.raises(FormatError, match=r"a.geojson:1:\d+ .*a coordinate beyond 1e150; scale the drawing"):
+        read(tmp_path, feature(shape("LineString", [[0, 0], [far, 0]]), width=1))
+    with pytest.raises(FormatError, match=r"radius: expected a length, 0 or more and below 1e150"):
+        read(tmp_path, feature(shape("Point", [0, 0]), radius=far))
+
+
+def test_the_error_of_a_disc_with_the_most_sides_is_said(tmp_path: Path) -> None:
+    shapes = read(tmp_path, feature(shape("Point", [0, 0]), radius=9), tolerance=1e-6)
+    (note,) = [note for note in shapes.reading if note.kind == "near"]
+    farthest = max((float(x) ** 2 + float(y) ** 2) ** 0.5 for x, y in shapes.shapes[0].polygon.exact_vertices)
+    assert note.size is not None and 1e-6 < farthest - 9 <= note.size * 1.0001

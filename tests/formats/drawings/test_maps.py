@@ -19,6 +19,18 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.parametrize("tolerance", [1e-300, 1e-15])
+def test_a_tolerance_that_asks_for_too_many_sides_is_refused(tolerance: float, folder: Path) -> None:
+    with pytest.raises(FormatError, match="more than 3,000,000 elements and points"):
+        cfree.load_shapes(folder / "r.urdf", tolerance=tolerance)
+
+
+def test_a_padding_beyond_doubles_is_a_fault_with_its_place(folder: Path) -> None:
+    (folder / "p.yaml").write_text("robot_radius: 1\nfootprint_padding: 1e400\n")
+    with pytest.raises(FormatError, match=r"p.yaml:2:20 footprint_padding: 1e9 or more; give a shorter length"):
+        cfree.load_shapes(folder / "p.yaml")
+
+
 def test_a_map_has_exact_cells(folder: Path) -> None:
     #    . . . .      the image's first row is the top; ? is unknown
     #    . # # .

@@ -92,6 +92,25 @@ def test_shapes_below_the_least_area_are_an_assumption(tmp_path: Path) -> None:
     assert (note.effect, note.size) == ("less", 1)
 
 
+@pytest.mark.parametrize("name", ["a.wkt", "a.geojson", "a.json"])
+def test_polygons_too_far_away_to_be_repaired_are_refused_with_their_place(name: str, tmp_path: Path) -> None:
+    far = f"1{'0' * 320}"
+    ring = f"[[0, 0], [{far}, 0], [0, 1], [0, 0]]"
+    text = {
+        "a.wkt": f"POLYGON ((0 0, {far} 0, 0 1))",
+        "a.geojson": f'{{"type": "Polygon", "coordinates": [{ring}]}}',
+        "a.json": f'{{"robot": {ring}}}',
+    }[name]
+    with pytest.raises(FormatError, match=rf"{name}:1:\d+ .*beyond"):
+        read(tmp_path / name, text, repair=True)
+
+
+def test_repair_of_a_scene_leaves_its_faults_to_the_reader(tmp_path: Path) -> None:
+    for text in ('{"robot": []}', '{"robot": {"outer": [[0, 0], [1, 0], [0, 1]], "holes": null}}', '{"workspace": []}'):
+        with pytest.raises(FormatError, match=r"a\.json:1"):
+            read(tmp_path / "a.json", text, repair=True)
+
+
 def test_repaired_is_public() -> None:
     assert "repaired" in dir(cfree)
 

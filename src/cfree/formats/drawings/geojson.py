@@ -20,7 +20,7 @@ from cfree.exact.number import ExactPoint
 from cfree.formats.drawings.content import Curve
 from cfree.formats.drawings.mending import mended, repairable
 from cfree.formats.drawings.source import CURVE_SHARE, Source
-from cfree.formats.drawings.strokes import disc, length_of, usual_width, wall
+from cfree.formats.drawings.strokes import LEAST_SHARE, disc, length_of, usual_width, wall
 from cfree.formats.scenes.json_types import Coordinate, Point
 from cfree.formats.scenes.scene_format import report
 from cfree.formats.scenes.scene_settings import read_settings
@@ -40,6 +40,8 @@ _LENGTH = TypeAdapter(Coordinate)
 _CHILDREN = {"FeatureCollection": "features", "GeometryCollection": "geometries"}
 _FLAT = {"Point": 0, "MultiPoint": 1, "LineString": 0, "MultiLineString": 1}
 """Depth of the lists of single geometries."""
+_LONGEST = 10**150
+"""Bound of coordinates and widths of lines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,8 +144,12 @@ def _polygons(
     """Return the polygons of a geometry; with the option `repair`, their union."""
     rings = [(_rings(findings, part, path), path) for part, path in parts]
     if source is not None and source.reading.repair:
-        whole = [part for part, _ in rings if part]
-        return mended(source, whole, feature.role, feature.name) if whole else []
+        whole = [part for part, _ in rings if part and part[0]]
+        try:
+            return mended(source, whole, feature.role, feature.name) if whole and not findings else []
+        except InvalidPolygonError as error:
+            findings.under(parts[0][1], explained(error))
+            return []
     return [polygon for part, path in rings if part is not None and (polygon := _polygon(findings, part, path, source))]
 
 
@@ -190,11 +196,18 @@ class _Flat:
         if is_point:
             lines = [[p] for line in lines for p in line]
         half = self.half_width("radius" if is_point else "width")
-        return [polygon for line in lines if line for polygon in self.wall(line, half, is_point=is_point)]
+        try:
+            return [polygon for line in lines if line for polygon in self.wall(line, half, is_point=is_point)]
+        except InvalidPolygonError as error:
+            self.findings.under(self.path, explained(error))
+            return []
 
     def points(self, value: object, path: Path) -> list[ExactPoint]:
         try:
-            return _POINTS.validate_python(value)
+            points = _POINTS.validate_python(value)
+            if all(abs(x) < _LONGEST for point in points for x in point):
+                return points
+            self.findings.under(path, "a coordinate beyond 1e150; scale the drawing")
         except ValidationError as error:
             for item in error.errors(include_url=False, include_input=False):
                 report(self.findings, (*path, *item["loc"]), item)
@@ -208,9 +221,9 @@ class _Flat:
                 length = _LENGTH.validate_python(properties[key])
             except ValidationError:
                 length = Fraction(-1)
-            if length >= 0:
+            if 0 <= length < _LONGEST:
                 return length if key == "radius" else length / 2
-            self.findings.under((*self.feature.path, key), "expected a length, 0 or more, got {got}")
+            self.findings.under((*self.feature.path, key), "expected a length, 0 or more and below 1e150, got {got}")
         if key == "width" and isinstance(strokes, (int, float)):
             return Fraction(str(strokes)) / 2
         return Fraction(0)
@@ -235,6 +248,7 @@ class _Flat:
             return []
         if not segments:
             error = self.source.reading.tolerance or float(half) * 4 / CURVE_SHARE
-            self.source.note("near", "point with a radius", "near", where=name, size=error)
+            size = max(error, float(half) * LEAST_SHARE)
+            self.source.note("near", "point with a radius", "near", where=name, size=size)
             return [disc(line[0], half, error)]
         return wall(self.source, curve, [(2 * half, 2 * half)] * len(segments), "round", name)

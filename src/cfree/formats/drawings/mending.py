@@ -74,9 +74,10 @@ def _mended_shape(source: Source, shape: Any, role: str) -> list[Any]:
     except (ValidationError, TypeError):
         return [shape]
     except InvalidPolygonError:
-        polygons = mended(source, [[outer, *holes]], role, name if isinstance(name, str) else None)
-        rings = [polygon.exact_rings for polygon in polygons]
-        return [{**members, "outer": outer, "holes": holes} for outer, *holes in rings] or [shape]
+        with suppress(InvalidPolygonError):  # the reader of scenes names the fault
+            polygons = mended(source, [[outer, *holes]], role, name if isinstance(name, str) else None)
+            rings = [polygon.exact_rings for polygon in polygons]
+            return [{**members, "outer": outer, "holes": holes} for outer, *holes in rings] or [shape]
     return [shape]
 
 

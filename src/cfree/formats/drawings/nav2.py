@@ -122,7 +122,7 @@ class _Reader:
         try:
             value = to_fraction(written(self.source, node))
             if abs(value) >= 10**9:
-                raise ValueError(f"{float(value):g}; give a length below 1e9")
+                raise ValueError("1e9 or more; give a shorter length")
         except ValueError as error:
             fault(self.source, node, "footprint_padding", str(error))
             return Fraction(0)
@@ -195,7 +195,7 @@ class _Reader:
         try:
             value = to_fraction(written(self.source, keys[key]))
             if abs(value) >= 10**9:
-                raise ValueError(f"{float(value):g}; give a length below 1e9")
+                raise ValueError("1e9 or more; give a shorter length")
             return value
         except ValueError as error:
             fault(self.source, keys[key], key, str(error))

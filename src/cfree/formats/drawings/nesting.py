@@ -214,7 +214,7 @@ class _Reader:
         solution, where = _member(data, "solution")
         width, _ = _member(solution, "strip_width")
         if height is None or width is None:
-            self.source.note("info", "strip without a length, no workspace", "less", count=height is not None)
+            self.source.note("info", "strip without a length, no workspace", "less", count=int(height is not None))
             return []
         try:
             h, w = _NUMBER.validate_python(height), _NUMBER.validate_python(width)

@@ -23,6 +23,8 @@ MOST_STEPS = 3_000_000
 """Maximum number of elements, points and pieces of curves of a file, blocks and references expanded."""
 REPORTED = 10_000
 """Number of steps between two reports of progress."""
+WIDEST = 1e150
+"""Bound of coordinates of drawings, and of widths."""
 DEEPEST = 100
 """Maximum depth of groups, blocks and references."""
 CURVE_SHARE = 1000
@@ -71,9 +73,9 @@ class Reading:
             value = getattr(self, name)
             if value is not None and not 0 <= value < math.inf:
                 raise ValueError(f"{name}: {value}; give 0 or more")
-        is_width = not isinstance(self.strokes, str) and 0 < self.strokes < math.inf
+        is_width = not isinstance(self.strokes, str) and 0 < self.strokes < WIDEST
         if not is_width and self.strokes not in ("ignore", "drawn"):
-            raise ValueError(f'strokes: {self.strokes!r}; give a width above 0, "drawn" or "ignore"')
+            raise ValueError(f'strokes: {self.strokes!r}; give a width above 0 and below 1e150, "drawn" or "ignore"')
         if self.scale is not None and self.scale <= 0:
             raise ValueError(f"scale: {self.scale}; give a number above 0")
         for name, role in self.roles.items():

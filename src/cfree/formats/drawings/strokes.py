@@ -51,6 +51,8 @@ NOISE = 2.0**-44
 """Bound of the rounding of points of curves, per size of their coordinates."""
 SIDES = 8, 64
 """Least and greatest number of sides of a polygon around a disc."""
+LEAST_SHARE = 1 / math.cos(math.pi / SIDES[1]) - 1 + 2 * MARGIN
+"""Error of the polygon with the most sides, as a share of the radius."""
 SMOOTH = 1e-6
 """Sine of the turn between two segments that need no join."""
 SHARE = 8
@@ -59,6 +61,8 @@ FINEST = 1e-5
 """but not below this share of the curve's size, unless the tolerance is."""
 PIECE = 8
 """Steps for the polygon of a piece of a curve."""
+CHORD = 150
+"""Steps for the polygon around a chord, which is the hull of two discs."""
 
 
 def walls(source: Source, curves: Sequence[Curve], where: str = "") -> list[Polygon]:
@@ -136,6 +140,10 @@ def usual_width(curves: Sequence[Curve]) -> float:
     return float(f"1e{math.floor(math.log10(size / 100))}") if size > 0 else 1.0
 
 
+_LEAST_ERROR = 1e-30
+"""Least error, as a share of the radius: more sides than any limit allows."""
+
+
 def length_of(ring: Ring) -> float:
     """Return the length of a curve, by chords."""
     return sum(math.dist(a, b) for a, b in pairwise(points_along(ring, 32)))
@@ -166,8 +174,21 @@ def wall(
     stroke = _Stroke(curve, widths, style, error, source.spend)
     polygons = list(stroke.polygons())
     if stroke.is_near:
-        source.note("near", "wall with round parts", "near", where=where, size=error)
+        widest = max(float(max(pair)) for pair in widths)
+        source.note("near", "wall with round parts", "near", where=where, size=max(error, widest / 2 * LEAST_SHARE))
     return polygons
+
+
+def sides_around(error: float) -> float:
+    """Return the number of sides of a regular polygon around a disc of radius 1 whose corners are so far from it.
+
+    Examples
+    --------
+    >>> round(sides_around(2**0.5 - 1), 6), round(sides_around(1e-12))
+    (4.0, 2221441)
+    """
+    error = max(error, _LEAST_ERROR)
+    return math.pi / math.atan(math.sqrt(error * (2 + error)))
 
 
 def disc(center: ExactPoint, radius: Fraction, error: float) -> Polygon:
@@ -182,7 +203,7 @@ def disc(center: ExactPoint, radius: Fraction, error: float) -> Polygon:
 
 
 def _around(p: ExactPoint, h: Fraction, error: float) -> list[ExactPoint]:
-    sides = math.ceil(math.pi / math.acos(1 / (1 + error / float(h))) / 4) * 4
+    sides = math.ceil(sides_around(error / float(h)) / 4) * 4
     return [(p[0] + x, p[1] + y) for x, y in around_disc(h, min(max(sides, SIDES[0]), SIDES[1]))]
 
 
@@ -395,5 +416,5 @@ def _chords(segment: Segment, error: float, spend: Callable[[int], object]) -> l
             bend = 0.0
     # a chord is within h^2 / 8 times the second derivative
     count = max(1, math.ceil(min(math.sqrt(bend / 8 / error), 1e9)))
-    spend(PIECE * count)
+    spend(CHORD * count)
     return [*chord_points(segment, count), ends(segment)[1]]

@@ -35,6 +35,8 @@ MOST_CLIPS = 20
 """Maximum depth of clip paths that refer to each other."""
 _UNIT_BOX = tuple(map(Fraction, (0, 0, 1, 1)))
 _NAMES = ("data-role", "label", "data-name", "id", "class")
+USING = 12
+"""Steps for a use, beside those of its elements."""
 
 
 class Walk:
@@ -302,6 +304,7 @@ class Walk:
         return self.known.get(name)
 
     def _use(self, element: Element, depth: int) -> None:
+        self.source.spend(USING)
         link = element.node.attributes.get("href", "")
         target = self._target(link)
         if target is None:

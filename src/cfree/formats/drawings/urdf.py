@@ -19,6 +19,7 @@ from cfree.errors import InvalidPolygonError
 from cfree.exact.number import to_fraction
 from cfree.formats.drawings.nav2 import ROBOT_FRAME
 from cfree.formats.drawings.source import CURVE_SHARE, Source, shapes_of
+from cfree.formats.drawings.strokes import sides_around
 from cfree.formats.drawings.xml_tree import Node, read_tree
 from cfree.formats.padding import hull, padded
 from cfree.formats.shapes import IGNORE, Shape, Shapes
@@ -43,9 +44,9 @@ def read_urdf(source: Source) -> Shapes:
     for solid in solids:
         name = solid[0]
         radius = max((math.hypot(*u) for u in solid[2]), default=0.0) * 2 if len(solid) == 3 else 0.0
-        step = 2 * math.acos(1 / (1 + tolerance / radius)) if radius else 1.0
-        points = _corners(solid, max(4, math.ceil(math.tau / step)))
-        source.spend(len(points))
+        sides = max(4, math.ceil(sides_around(tolerance / radius))) if radius else 7
+        source.spend(sides)
+        points = _corners(solid, sides)
         try:
             outline = hull(point_of(*map(float, p)) for p in points)
         except (InvalidPolygonError, ValueError):

@@ -16,11 +16,11 @@ from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, to_fraction
 from cfree.formats.drawings.mending import mended, repairable
 from cfree.formats.drawings.source import Source
-from cfree.formats.shapes import ROLES, Shape
+from cfree.formats.shapes import IGNORE, ROLES, Shape
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_positions import shortened
 from cfree.polygons.polygon import Polygon
-from cfree.scene.scene import flat_shape
+from cfree.scene.scene import explained, flat_shape
 
 T = TypeVar("T")
 Placed = tuple[int, list[ExactPoint]]
@@ -60,6 +60,7 @@ class _Line:
 
     def __init__(self, findings: Findings, start: int, end: int, source: Source | None) -> None:
         self.findings = findings
+        self.source = source
         self.mender = source if source and source.reading.repair else None
         label = _LABEL.match(findings.text, start, end)
         assert label is not None  # it matches the empty text
@@ -88,11 +89,19 @@ class _Line:
                 self._refuse("the end of the line")
         except _SyntaxFault:
             return []
-        role = self.label if self.label in ROLES else "obstacle"
         name = self.label if self.label not in ("", *ROLES) else None
+        wanted = self.source.reading.roles.get(self.label) if self.source else None
+        role = wanted or (self.label if self.label in ROLES else "obstacle")
+        if self.source and role == IGNORE:
+            self.source.note("assumption", "polygon that is ignored", "less", where=self.label)
+            return []
         rings = [part for part in parts if part]
         if self.mender:
-            polygons = mended(self.mender, [[ring for _, ring in part] for part in rings], role, name)
+            try:
+                polygons = mended(self.mender, [[ring for _, ring in part] for part in rings], role, name)
+            except InvalidPolygonError as error:
+                self.findings.at(start, self.label, explained(error))
+                return []
         else:
             polygons = [polygon for part in rings if (polygon := self._polygon(part))]
         return [Shape(role, name, polygon) for polygon in polygons]
