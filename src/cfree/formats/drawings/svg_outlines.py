@@ -90,7 +90,8 @@ class Outlines:
         flat = [part for part in parts if not part.closed and on_a_line(part.segments)]
         if flat:
             self._lines(element, flat, role)
-            parts = [part for part in parts if not any(part is line for line in flat)]
+            lines = set(map(id, flat))
+            parts = [part for part in parts if id(part) not in lines]
         rings = [closed_by_a_line(part) for part in parts]
         even_odd = style["fill-rule"].lower() == "evenodd"
         if rings and element.state.clips:
