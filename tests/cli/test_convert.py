@@ -49,7 +49,7 @@ def test_check_says_what_was_changed_and_dropped(folder: Path) -> None:
     ("arguments", "message"),
     [
         (("map.yaml", "a.json"), "map.yaml: there is no robot; give one: --robot"),
-        (("a.svg", "a.wkt"), "a.wkt: no scene format; name the file .json, .geojson, .svg or .dxf"),
+        (("a.svg", "new.wkt"), "new.wkt: no scene format; name the file .json, .geojson, .svg or .dxf"),
         (("a.svg", "a.stl"), "a.stl: no scene format; name the file .json, .geojson, .svg or .dxf"),
         (("a.svg", "a"), "a: no scene format; name the file .json, .geojson, .svg or .dxf"),
         (("a.svg", "a.json", "--role", "walls"), "--role: 'walls'; write it like \"walls=obstacle\""),

@@ -191,7 +191,7 @@ def test_polygons_are_around_curves_or_inside_and_near(name: str, error: float) 
             '<svg><g id="a0"><rect width="1" height="1"/></g>'
             + "".join(f'<g id="a{k + 1}">' + f'<use href="#a{k}"/>' * 10 + "</g>" for k in range(12))
             + "</svg>",
-            "more than 1,000 elements and points, references expanded",
+            "more than 3,000 elements and points, references expanded",
         ),
         ("a.dxf", "hello", "a.dxf:1:1"),
         ("a.urdf", '<robot><joint name="j"/></robot>', "a.urdf:1:1 joint j: its links are not there"),
@@ -207,7 +207,7 @@ def test_polygons_are_around_curves_or_inside_and_near(name: str, error: float) 
 def test_what_cannot_be_read_is_one_error_with_its_place(
     name: str, text: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(source, "MOST_STEPS", 1000)
+    monkeypatch.setattr(source, "MOST_STEPS", 3000)
     (tmp_path / name).write_text(text)
     with pytest.raises(FormatError) as caught:
         cfree.load_shapes(tmp_path / name)
