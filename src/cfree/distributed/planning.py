@@ -90,4 +90,5 @@ def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> P
             if not known.add_around(answer, margin):
                 break
             margin *= WIDER
+    assert isinstance(answer, Path)
     return replace(answer, whole=known.whole)

@@ -34,11 +34,12 @@ from cfree.planning.options import Options
 from cfree.planning.planner import Planner, answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
 from cfree.scene.scene import robot_radius
 
-Answer = Path | Separated | AllSeparated
+Answer = Path | Separated | Stuck | AllSeparated
 Ask = Callable[[PosePlanner, Options], Answer]
 Decided = tuple[PosePlanner, Options]  # a planner for polygons that gave an answer, and its options
 POSES = 400  # poses of a path at which overlaps are looked up
@@ -97,7 +98,7 @@ class CurvedPlanner:
         clearance: Number | None = None,
         improve: float | None = None,
         objective: Objective = "balanced",
-    ) -> Path | Separated:
+    ) -> Path | Separated | Stuck:
         """See `cfree.plan`."""
         begin, end = to_pose(start, "start"), to_pose(goal, "goal")
         options = self._settings._options(clearance, improve, objective)
@@ -129,7 +130,7 @@ class CurvedPlanner:
             return answer_for_any(planner, begin, ends, options)
 
         answer = self._answer(ask, (begin, *ends), options)
-        assert not isinstance(answer, Separated)
+        assert not isinstance(answer, Separated | Stuck)
         return answer
 
     def _answer(self, ask: Ask, ends: Sequence[Goal], options: Options) -> Answer:
@@ -228,7 +229,7 @@ class CurvedQuery:
             return None
         options, seconds = replace(self.options, work=self._work), self.options.max_seconds
         if not outward:
-            options = replace(options, improve=0.0)
+            options = replace(options, improve=0.0, vehicle=None)  # a proof holds for every vehicle
         if seconds is not None:
             options = replace(options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
         try:
@@ -238,10 +239,15 @@ class CurvedQuery:
         except UndecidedError as error:
             lo, hi = self._interval
             self._interval = (max(lo, error.lo), hi) if outward else (lo, min(hi, error.hi))
+            if options.vehicle and not options.clearance:
+                self._reason = str(error)
             return None
         except IncompleteError:
             raise self._undecided(f"{seconds:g} seconds were not enough; give more") from None
         self.last = self._decided[outward] = planner, options
+        if isinstance(answer, Stuck):
+            self._reason = f"{answer.at}: {answer.sentence()}, among polygons around the round shapes"
+            return None
         return answer
 
     def _undecided(self, reason: str) -> UndecidedError:
