@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
 import random
 from fractions import Fraction
 from typing import Any
@@ -203,6 +205,22 @@ def test_round_shapes_are_decided_like_the_rest() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("vehicle", [Car(1), Car(1, gears="forward"), DifferentialDrive()])
+def test_a_separation_among_round_shapes_is_a_proof_for_every_vehicle(vehicle: Any) -> None:
+    shapes = [Curved.circle((2, 0), 1), box(2, -9, 3, 9)]
+    scene = Scene(Curved.circle((0, 0), "1/2"), shapes, bounds=(-5, -5, 5, 5), start=(-2, 0, 0), goal=(4, 0, 0))
+    answer = plan(scene, vehicle=vehicle, improve=0)
+    assert isinstance(answer, Separated) and answer == plan(scene, improve=0)
+
+
+def test_a_planner_keeps_its_vehicle_in_copies_and_is_another_with_another() -> None:
+    planner = cfree.Planner(WALL, vehicle=Car(1))
+    for other in (copy.copy(planner), copy.deepcopy(planner), pickle.loads(pickle.dumps(planner))):
+        assert (other.vehicle, other) == (Car(1), planner)
+    assert planner != cfree.Planner(WALL) and planner != cfree.Planner(WALL, vehicle=Car(2))
+
+
+@pytest.mark.slow
 def test_too_many_manoeuvres_are_an_error_with_a_proof_that_a_path_exists() -> None:
     with pytest.raises(UndecidedError, match=r"a path of a car with a turning radius of 1e\+09 exists") as caught:
         plan(WALL, vehicle=Car(10**9))
@@ -309,6 +327,21 @@ def test_an_obstacle_away_by_the_least_bit_holds_nothing(name: str) -> None:
         assert "exists" in str(error)
     else:
         assert isinstance(answer, Path)
+
+
+@pytest.mark.slow
+def test_contacts_that_hold_only_polygons_around_shapes_leave_the_question_open() -> None:
+    """Of round shapes, and of a robot that has exactly its clearance at the start."""
+    apart = Scene(ROBOT, [box(3, -1, 4, 1), box(-4, -1, -3, 1)], start=(0, 0, 0), goal=(0, 6, 0))
+    curved = Scene(ROBOT, [*FLUSH, Curved.circle((0, 20), 1)], start=(0, 0, 0), goal=(0, 6, 0))
+    held = "start: no path of finite length lets a vehicle with this axle leave its start"
+    for goal in (apart.goal, [(0, 6, 0), (9, 9, 0)]):
+        with pytest.raises(UndecidedError, match=f"{held}.*if it keeps a little more than 1; give another clearance"):
+            plan(apart, goal=goal, vehicle=Car(4), clearance=1, improve=0)
+    with pytest.raises(UndecidedError, match=f"{held}.*, among polygons around the round shapes"):
+        plan(curved, vehicle=Car(4), improve=0)
+    with pytest.raises(UndecidedError, match="contacts hold the vehicle, among polygons around the round shapes"):
+        plan(curved, goal=[(0, 6, 0), (9, 9, 0)], vehicle=Car(4), improve=0)
 
 
 def test_stuck_has_no_truth_value_and_is_saved_and_loaded(tmp_path: Any) -> None:

@@ -129,9 +129,10 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
             return cheapest(paths, larger, options.preferences)
         if all(isinstance(answer, Separated) and answer.of == "closed" for answer in answers):
             hi = _farthest(disc)
-    if held := next((answer for answer in answers if isinstance(answer, Stuck)), None):
-        more = f"if it keeps a little more than {float(clearance):g}"
-        raise UndecidedError(f"{held.at}: {held.sentence()}, {more}; give another clearance")
+    for held in answers:
+        if isinstance(held, Stuck):
+            more = f"if it keeps a little more than {float(clearance):g}"
+            raise UndecidedError(f"{held.at}: {held.sentence()}, {more}; give another clearance")
     smaller = _grown(scene, inside, scene.bounds)
     inner = PosePlanner(smaller)
     # the scene's bounds, not the wider ones of a proof

@@ -46,6 +46,7 @@ POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
 NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
+AMONG = ", among polygons around the round shapes"
 TOUCHING = "these touch, or all but do; give a smaller tolerance, or other shapes"
 OUT_OF_WORK = f"{PATCHES:,} contact patches were not enough; give max_seconds or a tolerance for more, or other shapes"
 
@@ -246,8 +247,10 @@ class CurvedQuery:
             raise self._undecided(f"{seconds:g} seconds were not enough; give more") from None
         self.last = self._decided[outward] = planner, options
         if isinstance(answer, Stuck):
-            self._reason = f"{answer.at}: {answer.sentence()}, among polygons around the round shapes"
+            self._reason = f"{answer.at}: {answer.sentence()}{AMONG}"
             return None
+        if isinstance(answer, AllSeparated) and answer.of == "pieces":
+            self._reason = f"contacts hold the vehicle{AMONG}"
         return answer
 
     def _undecided(self, reason: str) -> UndecidedError:
