@@ -63,38 +63,54 @@ double Driver::mark_of(const Configuration& axle, double from, double to) const 
 }
 
 double Driver::cost_of(const Word& word) const {
-    double sum = 0;
+    double sum = 0, run = 0;
+    int gear = 0, changes = 0;
     for (int k = 0; k < word.count; ++k) {
-        const double l = word.length[static_cast<std::size_t>(k)];
-        sum += l < 0 ? -l * dues.backward : l;
+        const double l = word.length[static_cast<std::size_t>(k)], length = std::abs(l) * radius();
+        if (std::abs(l) < 1e-10) continue;
+        sum += l < 0 ? length * dues.backward : length;
+        const int its = l > 0 ? 1 : -1;
+        if (gear == -its) {
+            sum += dues.cusp + (changes > 0 ? short_run(run) : 0);
+            ++changes, run = 0;
+        }
+        gear = its, run += length;
     }
-    return sum * radius() + word.cusps() * dues.cusp;
+    return sum;
 }
 
 void Driver::set_costs(Leg& leg) const {
-    leg.cost = 0, leg.first = leg.last = 0;
+    leg.cost = 0, leg.first = leg.last = {}, leg.changes = false;
     for (const Piece& p : leg.word.pieces) {
         const int gear = gear_of(p);
         if (gear == 0) {
             leg.cost += std::abs(p.turn) * dues.in_place;
             continue;
         }
-        leg.cost += gear > 0 ? p.travel : -p.travel * dues.backward;
-        if (leg.last == -gear) leg.cost += dues.cusp;
-        if (leg.first == 0) leg.first = gear;
-        leg.last = gear;
+        const double length = std::abs(p.travel);
+        leg.cost += gear > 0 ? length : length * dues.backward;
+        if (leg.last.gear == -gear) {
+            leg.cost += dues.cusp + (leg.changes ? short_run(leg.last.length) : 0);
+            if (!leg.changes) leg.first = leg.last;
+            leg.changes = true, leg.last = {};
+        }
+        leg.last = {gear, leg.last.length + length};
     }
+    if (!leg.changes) leg.first = leg.last;
 }
 
-double Driver::total(std::span<const Leg> legs, int last, int beyond) const {
+double Driver::total(std::span<const Leg> legs, Run run, const Run& beyond) const {
     double sum = 0;
     for (const Leg& leg : legs) {
         sum += leg.cost;
-        if (leg.first == 0) continue;
-        if (last == -leg.first) sum += dues.cusp;
-        last = leg.last;
+        if (leg.first.gear == 0) continue;
+        if (run.gear == -leg.first.gear) sum += dues.cusp + short_run(run.length), run = {};
+        run = {leg.first.gear, run.length + leg.first.length};
+        if (leg.changes) sum += short_run(run.length), run = leg.last;
     }
-    return beyond != 0 && last == -beyond ? sum + dues.cusp : sum;
+    if (run.gear == 0) return sum;
+    if (run.gear == -beyond.gear) return sum + dues.cusp + short_run(run.length) + short_run(beyond.length);
+    return sum + short_run(run.length + beyond.length);
 }
 
 bool Driver::seems_free(const Place& from, const Word& word) const {
@@ -139,7 +155,7 @@ bool Driver::proved(const ExactWord& word, double from, double to) const {
 
 std::optional<Leg> Driver::leg(ExactWord word, double from, double to) const {
     if (!proved(word, from, to)) return {};
-    Leg found{std::move(word), from, to};
+    Leg found{std::move(word), from, to, 0, {}, {}, false};
     set_costs(found);
     return found;
 }
@@ -159,7 +175,7 @@ void Driver::car_words(const Configuration& a, const Configuration& b) {
     else dubins_words(local.x / r, local.y / r, local.theta, words);
     for (const Word& word : words) candidates.push_back({cost_of(word), word, {}});
     if (auto two = biarc(vehicle, way.grid.shift, a, b)) {
-        Leg trial{std::move(*two)};
+        Leg trial{std::move(*two), 0, 0, 0, {}, {}, false};
         set_costs(trial);
         candidates.push_back({trial.cost, {}, std::move(trial.word)});
     }
@@ -169,7 +185,7 @@ void Driver::drive_words(const Configuration& a, const Configuration& b, bool at
     const int shift = way.grid.shift;
     const auto put = [&](std::optional<ExactWord> word) {
         if (!word) return;
-        Leg trial{std::move(*word)};
+        Leg trial{std::move(*word), 0, 0, 0, {}, {}, false};
         set_costs(trial);
         candidates.push_back({trial.cost, {}, std::move(trial.word)});
     };

@@ -17,7 +17,8 @@ constexpr double finest = 0x1p-48;      // headings from doubles
 constexpr double of_turn = 0x1p-20;     // tolerance of a heading, as a share of the turns beside it
 constexpr double coarsest = 0x1p-30;    // tolerance of a heading
 constexpr int place_bits = 40;          // of free multiples, relative to the word
-constexpr double nothing = 1e-10;       // length of a piece that is left out, in radii
+constexpr double negligible = 0x1p-16;  // length of a piece that is left out, in radii, if the others make up for it
+constexpr double nothing_at_all = 1e-10; // and anyway
 constexpr double parallel = 1e-11;      // sine of the angle between two directions that count as parallel
 
 Int determinant(const Half& a, const Half& b) { return a.x * b.y - a.y * b.x; }
@@ -215,10 +216,9 @@ std::optional<ExactWord> straight(const Vehicle& vehicle, int shift, const Confi
     return word.finished(to);
 }
 
-}  // namespace
-
-std::optional<ExactWord> exact_word(const Vehicle& vehicle, int shift, const Configuration& from, const Configuration& to,
-                                    const Word& word, double radius) {
+// The rational form of a word without the pieces that are shorter than `nothing`, in radii.
+std::optional<ExactWord> without_short_pieces(const Vehicle& vehicle, int shift, const Configuration& from, const Configuration& to,
+                                              const Word& word, double radius, double nothing) {
     Draft d{vehicle, shift, from, to, {half_of(from)}, {}};
     int arcs = 0;
     for (int k = 0; k < word.count; ++k)
@@ -273,6 +273,16 @@ std::optional<ExactWord> exact_word(const Vehicle& vehicle, int shift, const Con
             if (const double across = std::abs(sine(direct[j] - direct[i])); across > best) best = across, d.first = i, d.second = j;
     if (best == parallel) return {};
     return finished(d);
+}
+
+}  // namespace
+
+std::optional<ExactWord> exact_word(const Vehicle& vehicle, int shift, const Configuration& from, const Configuration& to,
+                                    const Word& word, double radius) {
+    const auto is_short = [&](double l) { return nothing_at_all <= std::abs(l) && std::abs(l) < negligible; };
+    if (std::any_of(word.length.begin(), word.length.begin() + word.count, is_short))
+        if (auto found = without_short_pieces(vehicle, shift, from, to, word, radius, negligible)) return found;
+    return without_short_pieces(vehicle, shift, from, to, word, radius, nothing_at_all);
 }
 
 std::optional<ExactWord> biarc(const Vehicle& vehicle, int shift, const Configuration& from, const Configuration& to) {

@@ -30,16 +30,28 @@ double travel_of(const Leg& leg) {
 
 Shortening::Shortening(Driver by, Legs legs, std::uint64_t seed) : driver(std::move(by)), path(std::move(legs)), random(seed) {}
 
-int Shortening::gear_before(std::size_t i) const {
-    while (i > 0)
-        if (path[--i].last != 0) return path[i].last;
-    return 0;
+Run Shortening::run_before(std::size_t i) const {
+    Run run;
+    while (i > 0) {
+        const Leg& leg = path[--i];
+        if (leg.last.gear == 0) continue;
+        if (run.gear == -leg.last.gear) break;
+        run = {leg.last.gear, run.length + leg.last.length};
+        if (leg.changes) break;
+    }
+    return run;
 }
 
-int Shortening::gear_after(std::size_t j) const {
-    for (; j < path.size(); ++j)
-        if (path[j].first != 0) return path[j].first;
-    return 0;
+Run Shortening::run_after(std::size_t j) const {
+    Run run;
+    for (; j < path.size(); ++j) {
+        const Leg& leg = path[j];
+        if (leg.first.gear == 0) continue;
+        if (run.gear == -leg.first.gear) break;
+        run = {leg.first.gear, run.length + leg.first.length};
+        if (leg.changes) break;
+    }
+    return run;
 }
 
 int Shortening::cusps() const {
@@ -57,7 +69,7 @@ double Shortening::gauss() { return (random() + random() + random() + random() -
 
 // Replace legs i to j by others that cost less there.
 bool Shortening::replace(std::size_t i, std::size_t j, Legs fresh) {
-    const int before = gear_before(i), beyond = gear_after(j);
+    const Run before = run_before(i), beyond = run_after(j);
     const double old = driver.total(part(i, j), before, beyond), cost = driver.total(fresh, before, beyond);
     if (!(cost < old * (1 - least_gain))) return false;
     const auto at = path.erase(path.begin() + static_cast<std::ptrdiff_t>(i), path.begin() + static_cast<std::ptrdiff_t>(j));
@@ -68,7 +80,7 @@ bool Shortening::replace(std::size_t i, std::size_t j, Legs fresh) {
 void Shortening::join_far() {
     for (std::size_t i = 0; i < path.size(); ++i)
         for (std::size_t j = path.size(); j > i + 1; j = i + (j - i) / 2) {
-            const double old = driver.total(part(i, j), gear_before(i), gear_after(j));
+            const double old = driver.total(part(i, j), run_before(i), run_after(j));
             auto leg = driver.join(path[i].begin(), path[j - 1].end(), path[i].from, path[j - 1].to, old, tries_to_shorten);
             if (leg && replace(i, j, {std::move(*leg)})) break;
         }
@@ -86,7 +98,7 @@ bool Shortening::attempt() {
     const std::size_t n = path.size(), i = std::min(n - 1, static_cast<std::size_t>(random() * static_cast<double>(n)));
     std::size_t j = i + 1;
     while (j < n && random() < 0.75) ++j;
-    const double old = driver.total(part(i, j), gear_before(i), gear_after(j));
+    const double old = driver.total(part(i, j), run_before(i), run_after(j));
     const Leg &first = path[i], &last = path[j - 1];
     if (j > i + 1 && random() < 0.4) {
         auto leg = driver.join(first.begin(), last.end(), first.from, last.to, old, tries_to_shorten);
@@ -112,7 +124,7 @@ bool Shortening::window() {
     constexpr std::array<std::size_t, 6> sizes{2, 3, 4, 6, 8, most_legs};
     const std::size_t n = path.size(), count = std::min(n, sizes[static_cast<std::size_t>(random() * sizes.size())]);
     const std::size_t begin = std::min(n - count, static_cast<std::size_t>(random() * static_cast<double>(n - count + 1))), end = begin + count;
-    const int before = gear_before(begin), beyond = gear_after(end);
+    const Run before = run_before(begin), beyond = run_after(end);
     const Legs old(path.begin() + static_cast<std::ptrdiff_t>(begin), path.begin() + static_cast<std::ptrdiff_t>(end));
     const double cost = driver.total(old, before, beyond);
     struct Node {
@@ -188,8 +200,8 @@ bool Shortening::window() {
         std::size_t j = last + 1;
         if (k + 1 == old.size()) j = m - 1;
         else while (j < m - 1 && nodes[j].leg != k + 1) ++j;
-        if (old[k].first != 0) {
-            Edge& e = edge(last, j, old[k].first > 0, old[k].last > 0);
+        if (old[k].first.gear != 0) {
+            Edge& e = edge(last, j, old[k].first.gear > 0, old[k].last.gear > 0);
             if (old[k].cost <= e.cost * (1 + 1e-4)) e.cost = old[k].cost, e.leg = old[k];
         }
         last = j;
@@ -201,13 +213,13 @@ bool Shortening::window() {
     for (int struck = 0; struck < most_struck; ++struck) {
         heed_stop();
         std::vector<std::array<State, 2>> best(m);
-        for (std::size_t g = 0; g < 2; ++g) best[0][g].cost = before == 0 || (before > 0) == (g == 1) ? 0 : HUGE_VAL;
+        for (std::size_t g = 0; g < 2; ++g) best[0][g].cost = before.gear == 0 || (before.gear > 0) == (g == 1) ? 0 : HUGE_VAL;
         for (std::size_t i = 0; i + 1 < m; ++i)
             for (std::size_t g = 0; g < 2; ++g) {
                 if (best[i][g].cost == HUGE_VAL) continue;
                 for (std::size_t j = i + 1; j < m; ++j)
                     for (std::size_t a = 0; a < 2; ++a) {
-                        const double here = best[i][g].cost + (a != g && (i > 0 || before != 0) ? driver.dues.cusp : 0);
+                        const double here = best[i][g].cost + (a != g && (i > 0 || before.gear != 0) ? driver.dues.cusp : 0);
                         for (std::size_t b = 0; b < 2; ++b)
                             if (const double c = here + edge(i, j, a, b).cost; c < best[j][b].cost) best[j][b] = {c, i, g, a};
                     }
@@ -215,7 +227,7 @@ bool Shortening::window() {
         std::size_t gear = 0;
         std::array<double, 2> ends{};
         for (std::size_t g = 0; g < 2; ++g)
-            ends[g] = best[m - 1][g].cost + (beyond != 0 && (beyond > 0) != (g == 1) ? driver.dues.cusp : 0);
+            ends[g] = best[m - 1][g].cost + (beyond.gear != 0 && (beyond.gear > 0) != (g == 1) ? driver.dues.cusp : 0);
         if (ends[1] < ends[0]) gear = 1;
         if (!(ends[gear] < cost * (1 - worth))) return false;
         struct Step {

@@ -21,7 +21,7 @@ from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
-from cfree.paths.driven import Driven
+from cfree.paths.driven import Driven, cusps, first_fault, parts_of
 from cfree.scene.digest import Stamp, Whole
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
@@ -200,20 +200,15 @@ class Path(Shown, Answer):
         >>> [(part.gear, part.curvature, round(part.length, 2)) for part in path.driving], path.cusps
         ([('forward', 0.0, 3.0), ('forward', 0.5, 3.14), ('backward', 0.5, 0.35)], 1)
         """
-        from cfree.paths.driving import driving, is_drivable
-
         if self.vehicle is None:
             return ()
-        answer = is_drivable(self, self.vehicle)
-        if not answer:
-            raise ValueError(f"motion {answer.motion}: {answer.why}")
-        return driving(self, self.vehicle)
+        if fault := first_fault(self.vehicle, self.poses, self.motions):
+            raise ValueError("motion {}: {}".format(*fault))
+        return parts_of(self.vehicle, self.poses, self.motions)
 
     @property
     def cusps(self) -> int:
         """Number of changes between forward and backward; `driving` lists the parts."""
-        from cfree.paths.driving import cusps
-
         return cusps(self.driving)
 
     @checked

@@ -9,13 +9,15 @@ the motions along its contacts. docs/theory/vehicles.md has the proofs.
 from __future__ import annotations
 
 import math
+import os
 import time
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
+from itertools import count, islice, pairwise
 from typing import Any
 
 import cfree._core as _core
@@ -40,8 +42,9 @@ from cfree.vehicles.vehicle import Vehicle, described
 WORDS = 40_000  # most words tried to follow one path, for each share
 SHARES: dict[Objective, tuple[float, ...]] = {"balanced": (0.5, 0.0), "short": (0.0,), "clear": (0.75, 0.5, 0.0)}
 CAP = 1 / 20  # of the robot's length: the most distance that is asked
-ROUNDS = 2000  # attempts to shorten a path without a time limit
-IDLE = 200  # attempts without gain that end this
+ROUNDS = 400  # attempts to shorten each way, before the dearer half of the ways is left out
+SEEDS = 3  # random numbers for each path that is followed
+IDLE = 300  # attempts without gain that end this
 BLOCK = 50  # attempts between two checks of the clock
 GUIDED = Preferences(sideways=10, turning=3)  # of a path that is easily driven
 FEW_CUSPS = 1  # a path with no more needs no other guide
@@ -294,26 +297,75 @@ def driven(question: Question, way: Sequence[Pose]) -> Path:
     UndecidedError
         If the budget of words does not suffice: the path exists, and the error has an estimate of its manoeuvres.
     """
-    improve = question.options.improve
-    drives, shortfalls = list[_core.Drive](), list[tuple[float, int]]()
+    improve, objective = question.options.improve, question.options.objective
+    drives, guides, shortfalls = list[_core.Drive](), list[tuple[Sequence[Pose], float]](), list[tuple[float, int]]()
     begin = time.perf_counter()
     for preferences in (NONE, GUIDED):
         guide = way if preferences is NONE else _guide(question, way, preferences)
-        drive, reached = _followed(question, guide, question.options.objective)
+        drive, share, reached = _followed(question, guide, objective)
         if drive is None:
             shortfalls.append(reached)
             continue
         drives.append(drive)
+        guides.append((guide, share))
         if improve == 0 or drive.cusps <= FEW_CUSPS:
             break
     if not drives:
         raise _too_many(question, way, max(shortfalls))
-    for k, drive in enumerate(drives):
-        if improve != 0:
-            drive.join_far()
-            end = begin + improve * (k + 1) / len(drives) if improve else math.inf
-            _shorten(question, drive, None if improve else ROUNDS, end)
-    return _path(question, min(drives, key=lambda drive: float(drive.cost)))
+    if improve == 0:
+        return _path(question, min(drives, key=_cost))
+
+    def further() -> Iterator[_core.Drive]:
+        """Yield further words along the same paths, to be shortened with other random numbers."""
+        for seed in count(1) if improve else range(1, SEEDS):
+            for guide, share in guides:
+                yield _driving(question, guide, share, objective).follow(WORDS, seed)[2]
+
+    is_simple = max(drive.cusps for drive in drives) == 0
+    others = iter(()) if is_simple else further()
+    end = begin + improve if improve else math.inf
+    return _path(question, min(_shortened(question, drives, others, begin, end), key=_cost))
+
+
+def _shortened(
+    question: Question, drives: list[_core.Drive], others: Iterator[_core.Drive], begin: float, end: float
+) -> list[_core.Drive]:
+    """Shorten ways on all cores, then the cheaper half of them, and so on.
+
+    The result does not depend on the number of cores, unless there is a time at which it ends: then further ways are
+    tried in half of it, and the best one has the rest.
+    """
+    half = begin + (end - begin) / 2
+
+    def work(drive: _core.Drive, until: float) -> None:
+        for _ in range(ROUNDS // BLOCK):
+            if question.options.stop.is_set():
+                raise KeyboardInterrupt
+            if time.perf_counter() > until or drive.without_gain > IDLE:
+                return
+            drive.run(BLOCK)
+
+    def run(drive: _core.Drive) -> None:
+        drive.join_far()
+        work(drive, half)
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(run, drives))
+        while time.perf_counter() < half and (
+            batch := list(islice(others, os.cpu_count() if end < math.inf else None))
+        ):
+            list(pool.map(run, batch))
+            drives = drives + batch
+        while len(drives) > 1:
+            drives = sorted(drives, key=_cost)[: len(drives) // 2]
+            list(pool.map(lambda drive: work(drive, end), drives))
+    while time.perf_counter() < end < math.inf and not question.options.stop.is_set():
+        drives[0].run(BLOCK)
+    return drives
+
+
+def _cost(drive: _core.Drive) -> float:
+    return float(drive.cost)
 
 
 def _guide(question: Question, way: Sequence[Pose], preferences: Preferences) -> Sequence[Pose]:
@@ -324,15 +376,15 @@ def _guide(question: Question, way: Sequence[Pose], preferences: Preferences) ->
 
 def _followed(
     question: Question, guide: Sequence[Pose], objective: Objective
-) -> tuple[_core.Drive | None, tuple[float, int]]:
+) -> tuple[_core.Drive | None, float, tuple[float, int]]:
     """Follow a path with the greatest share of its distance that works; None, and the share of the path done."""
     best = (0.0, 0)
     for share in SHARES[objective]:
         is_whole, reached, drive = _driving(question, guide, share, objective).follow(WORDS, 0)
         if is_whole:
-            return drive, (1.0, 0)
+            return drive, share, (1.0, 0)
         best = max(best, (reached, len(drive.poses)))
-    return None, best
+    return None, 0.0, best
 
 
 def _driving(question: Question, guide: Sequence[Pose], share: float, objective: Objective) -> _core.Driving:
@@ -340,15 +392,6 @@ def _driving(question: Question, guide: Sequence[Pose], share: float, objective:
     cap = dues.length * CAP if objective == "balanced" else question.planner.angle_scale
     wishes = (dues.backward, dues.cusp, dues.in_place, dues.length, question.planner.angle_scale, share, cap)
     return _core.Driving(question.known, numbers_of_vehicle(question.vehicle), [*map(end_of, guide)], wishes)
-
-
-def _shorten(question: Question, drive: _core.Drive, rounds: int | None, end: float) -> None:
-    done = 0
-    while (rounds is None or (done < rounds and drive.without_gain < IDLE)) and time.perf_counter() < end:
-        if question.options.stop.is_set():
-            raise KeyboardInterrupt
-        drive.run(BLOCK)
-        done += BLOCK
 
 
 def _path(question: Question, drive: _core.Drive) -> Path:

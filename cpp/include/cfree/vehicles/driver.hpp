@@ -15,12 +15,19 @@ struct Dues {
     double backward = 1, cusp = 0, in_place = 0;
 };
 
+// Travel in one gear: 1, -1, or 0 for none.
+struct Run {
+    int gear = 0;
+    double length = 0;
+};
+
 // A word from one axle pose to another.
 struct Leg {
     ExactWord word;
-    double from = 0, to = 0;    // marks of its ends
+    double from = 0, to = 0;  // marks of its ends
     double cost = 0;
-    int first = 0, last = 0;    // gears: 1, -1, or 0 if it only turns in place
+    Run first, last;          // up to its first change of gear, and from its last
+    bool changes = false;
     const Configuration& begin() const { return word.joints.front(); }
     const Configuration& end() const { return word.joints.back(); }
 };
@@ -41,7 +48,7 @@ public:
     // A pose of few bits.
     Configuration rounded(const Place& axle, int bits) const;
     double cost_of(const Word& word) const;
-    double total(std::span<const Leg> legs, int gear_before = 0, int gear_after = 0) const;
+    double total(std::span<const Leg> legs, Run run = {}, const Run& beyond = {}) const;
     // Mark of the path's nearest pose.
     double mark_of(const Configuration& axle, double from, double to) const;
     // True if a pose, or those of a word, seem free.
@@ -65,6 +72,8 @@ private:
     bool seems_free(const ExactWord& word) const;
     bool proved(const ExactWord& word, double from, double to) const;
     void set_costs(Leg& leg) const;
+    // Further cost of a run between two stops, if it is short.
+    double short_run(double length) const { return length < 0.25 * size ? 0.5 * dues.cusp : 0; }
     void car_words(const Configuration& a, const Configuration& b);
     void drive_words(const Configuration& a, const Configuration& b, bool at_any_scale);
 
@@ -101,8 +110,8 @@ private:
     bool replace(std::size_t i, std::size_t j, Legs fresh);
     double gauss();
     std::span<const Leg> part(std::size_t i, std::size_t j) const { return std::span(path).subspan(i, j - i); }
-    int gear_before(std::size_t i) const;
-    int gear_after(std::size_t j) const;
+    Run run_before(std::size_t i) const;
+    Run run_after(std::size_t j) const;
 
     Driver driver;
     Legs path;
