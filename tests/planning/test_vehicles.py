@@ -6,6 +6,9 @@ import copy
 import math
 import pickle
 import random
+import signal
+import threading
+import time
 from fractions import Fraction
 from typing import Any
 
@@ -29,6 +32,7 @@ from cfree import (
     plan,
     plan_many,
 )
+from cfree.planning import vehicles
 from cfree.scene.digest import stamp_of
 from second_opinion import verified_in_a_file
 from vehicles import VEHICLES, faults, room
@@ -130,6 +134,27 @@ def test_a_step_sideways_is_as_small_as_asked(across: str) -> None:
     path = plan(WALL, (-2, 2, 0), (-2, 2 + Fraction(across), 0), vehicle=Car(1), improve=0)
     assert isinstance(path, Path) and path.goal == Pose(-2, 2 + Fraction(across))
     assert path.length < 8 * math.sqrt(float(Fraction(across))) + 1e-12
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_shortening_with_the_path_so_far(monkeypatch: pytest.MonkeyPatch) -> None:
+    shorten, has_begun, main = vehicles._shortened, threading.Event(), threading.main_thread().ident
+    assert main is not None
+
+    def shortened(*arguments: Any) -> Any:
+        has_begun.set()
+        return shorten(*arguments)
+
+    def interrupt() -> None:
+        if has_begun.wait(60):
+            time.sleep(0.2)
+            signal.pthread_kill(main, signal.SIGINT)
+
+    monkeypatch.setattr(vehicles, "_shortened", shortened)
+    threading.Thread(target=interrupt).start()
+    begin = time.monotonic()
+    path = path_in(PARKING, CAR, improve=120)
+    assert path.goal == PARKING.goal and time.monotonic() - begin < 60
 
 
 def test_half_a_turn_in_place() -> None:

@@ -160,7 +160,10 @@ class PosePlanner:
 
         with options.phase("driving"):
             question = Question(self, self._known, vehicle, replace(options, vehicle=None))
-            return joined(question, way[0], way[-1], way)
+            answer = joined(question, way[0], way[-1], way)
+        if answer.goal != way[-1]:
+            raise InvariantError("a path of a vehicle ends elsewhere", state=answer)
+        return answer
 
     def _slide(self, a: Pose, b: Pose) -> Slide | None:
         """Return the slide that joins two poses; None if there is none."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import os
+import threading
 import time
 from collections import deque
 from collections.abc import Iterator, Sequence
@@ -319,7 +320,9 @@ def driven(question: Question, way: Sequence[Pose]) -> Path:
         """Yield further words along the same paths, to be shortened with other random numbers."""
         for seed in count(1) if improve else range(1, SEEDS):
             for guide, share in guides:
-                yield _driving(question, guide, share, objective).follow(WORDS, seed)[2]
+                is_whole, _, drive = _driving(question, guide, share, objective).follow(WORDS, seed)
+                if is_whole:
+                    yield drive
 
     is_simple = max(drive.cusps for drive in drives) == 0
     others = iter(()) if is_simple else further()
@@ -333,15 +336,17 @@ def _shortened(
     """Shorten ways on all cores, then the cheaper half of them, and so on.
 
     The result does not depend on the number of cores, unless there is a time at which it ends: then further ways are
-    tried in half of it, and the best one has the rest.
+    tried in half of it, and the best one has the rest. Ctrl-C ends it early.
     """
-    half = begin + (end - begin) / 2
+    half, stop, enough = begin + (end - begin) / 2, question.options.stop, threading.Event()
+    # several cores only if called in the main thread: other threads share the cores already
+    cores = os.cpu_count() or 1 if threading.current_thread() is threading.main_thread() else 1
 
     def work(drive: _core.Drive, until: float) -> None:
         for _ in range(ROUNDS // BLOCK):
-            if question.options.stop.is_set():
+            if stop.is_set():
                 raise KeyboardInterrupt
-            if time.perf_counter() > until or drive.without_gain > IDLE:
+            if enough.is_set() or time.perf_counter() > until or drive.without_gain > IDLE:
                 return
             drive.run(BLOCK)
 
@@ -349,18 +354,21 @@ def _shortened(
         drive.join_far()
         work(drive, half)
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(run, drives))
-        while time.perf_counter() < half and (
-            batch := list(islice(others, os.cpu_count() if end < math.inf else None))
-        ):
-            list(pool.map(run, batch))
-            drives = drives + batch
-        while len(drives) > 1:
-            drives = sorted(drives, key=_cost)[: len(drives) // 2]
-            list(pool.map(lambda drive: work(drive, end), drives))
-    while time.perf_counter() < end < math.inf and not question.options.stop.is_set():
-        drives[0].run(BLOCK)
+    with ThreadPoolExecutor(cores) as pool:
+        try:
+            list(pool.map(run, drives))
+            while time.perf_counter() < half and (batch := list(islice(others, cores if end < math.inf else None))):
+                list(pool.map(run, batch))
+                drives = drives + batch
+            while len(drives) > 1:
+                drives = sorted(drives, key=_cost)[: len(drives) // 2]
+                list(pool.map(lambda drive: work(drive, end), drives))
+            while time.perf_counter() < end < math.inf and not stop.is_set():
+                drives[0].run(BLOCK)
+        except KeyboardInterrupt:  # there is a path already
+            enough.set()
+    if stop.is_set():
+        raise KeyboardInterrupt
     return drives
 
 
