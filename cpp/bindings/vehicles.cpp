@@ -32,6 +32,7 @@ cfree::GivenVehicle vehicle_of(const VehicleNumbers& v) {
 struct Shortened {
     std::shared_ptr<const Driving> by;
     Shortening path;
+    Shortened(std::shared_ptr<const Driving> driving, Shortening shortening) : by(std::move(driving)), path(std::move(shortening)) {}
 };
 
 // --- words alone, for tests and times ---
@@ -138,6 +139,10 @@ void bind_vehicles(nb::module_& m) {
             new (of) Driving(std::move(scene), vehicle_of(vehicle), ends_of(way), {backward, cusp, in_place, size, radius, share, most});
         }, "scene"_a, "vehicle"_a, "way"_a, "wishes"_a)
         .def_prop_ro("distance", &Driving::distance)
+        .def("search_forward", [](const std::shared_ptr<Driving>& of, std::uint64_t seed, int poses) -> std::unique_ptr<Shortened> {
+            auto found = watched([&] { return of->search_forward(seed, poses); });
+            return found ? std::make_unique<Shortened>(of, of->shortening(std::move(*found), seed)) : nullptr;
+        }, "seed"_a, "poses"_a, nb::sig("def search_forward(self, seed: int, poses: int) -> Drive | None"))
         // the words along the path, and the share of the path that they reach
         .def("follow", [](const std::shared_ptr<Driving>& of, long long most, std::uint64_t seed) {
             auto found = watched([&] { return of->follow(most); });

@@ -50,7 +50,7 @@ Driver Driving::driver_of(const GivenVehicle& vehicle, const DrivingWishes& wish
     const SceneShapes& shapes = scene->shapes();
     std::vector<Place> places;
     for (const Configuration& q : path.route) places.push_back({q.px / unit, q.py / unit, q.theta});
-    const Area area = search_area(*scene, places, wishes.radius);
+    area = search_area(*scene, places, wishes.radius);
     int extent = 0;
     const double extents = std::max(area.x1 - area.x0, area.y1 - area.y0) * unit;
     std::frexp(extents != 0 ? extents : 1, &extent);
@@ -93,6 +93,10 @@ Driver Driving::driver_of(const GivenVehicle& vehicle, const DrivingWishes& wish
     const MotionGuess seems(scene->poses(), weight, unit);
     Way asking = wishes.share > 0 ? free.asking(std::move(ridge), std::move(distances)) : free;
     return {vehicle_of(vehicle, scene->scene()), std::move(asking), seems, dues, wishes.size * unit};
+}
+
+std::optional<Legs> Driving::search_forward(std::uint64_t seed, int count) {
+    return cfree::search_forward(driver, path, {area.x0 * unit, area.y0 * unit, area.x1 * unit, area.y1 * unit}, seed, count);
 }
 
 Followed Driving::follow(long long most) { return cfree::follow(driver, path, most); }

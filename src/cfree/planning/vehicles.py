@@ -48,6 +48,8 @@ SEEDS = 3  # random numbers for each path that is followed
 IDLE = 300  # attempts without gain that end this
 BLOCK = 50  # attempts between two checks of the clock
 GUIDED = Preferences(sideways=10, turning=3)  # of a path that is easily driven
+GUESSES = 5000  # of a search for another path of the robot
+POSES, SEARCHES = 8000, 3  # of a search for a way without reverse gear
 FEW_CUSPS = 1  # a path with no more needs no other guide
 ROOMS = (4, 6, 8, 12, 16, 20, 24)  # binary exponents of a clearance that keeps a path off contacts, in robot radii
 PLACES = (Fraction(0), Fraction(1, 3), Fraction(1, 2), Fraction(2, 3))  # on a motion, at which contacts are looked for
@@ -311,22 +313,33 @@ def driven(question: Question, way: Sequence[Pose]) -> Path:
         guides.append((guide, share))
         if improve == 0 or drive.cusps <= FEW_CUSPS:
             break
+    if not drives and question.vehicle.gears == "forward":
+        searches = (_driving(question, way, 0.0, "short").search_forward(seed, POSES) for seed in range(SEARCHES))
+        found = (drive for drive in searches if drive is not None)
+        drives += islice(found, 1) if improve == 0 else found
     if not drives:
         raise _too_many(question, way, max(shortfalls))
     if improve == 0:
         return _path(question, min(drives, key=_cost))
 
+    end = begin + improve if improve else math.inf
+
     def further() -> Iterator[_core.Drive]:
-        """Yield further words along the same paths, to be shortened with other random numbers."""
+        """Yield further words along the same paths, to be shortened with other random numbers; and along others."""
         for seed in count(1) if improve else range(1, SEEDS):
+            if time.perf_counter() > end:
+                return
             for guide, share in guides:
                 is_whole, _, drive = _driving(question, guide, share, objective).follow(WORDS, seed)
                 if is_whole:
                     yield drive
+            other = _other_way(question, way, seed) if improve and guides else None
+            new = _followed(question, other, objective)[0] if other else None
+            if new is not None:
+                yield new
 
     is_simple = max(drive.cusps for drive in drives) == 0
     others = iter(()) if is_simple else further()
-    end = begin + improve if improve else math.inf
     return _path(question, min(_shortened(question, drives, others, begin, end), key=_cost))
 
 
@@ -380,6 +393,16 @@ def _guide(question: Question, way: Sequence[Pose], preferences: Preferences) ->
     """Return a balanced path of the robot beside this one, by preferences."""
     options = replace(question.options, preferences=preferences)
     return question.planner.improver(way, options).balanced(way, None)
+
+
+def _other_way(question: Question, way: Sequence[Pose], seed: int) -> Sequence[Pose] | None:
+    """Search for another path of the robot that touches nothing; None if none is found soon."""
+    searcher = question.planner.improver(way, replace(question.options, preferences=GUIDED)).searcher
+    found = searcher.search(end_of(way[0]), end_of(way[-1]), seed).run(GUESSES)
+    if not found:
+        return None
+    guide = _guide(question, [*map(from_numbers, found)], GUIDED)
+    return guide if _is_roomy(question, guide) else None
 
 
 def _followed(

@@ -28,6 +28,8 @@ public:
 
     // The words along the path; at most about so many are tried.
     Followed follow(long long most);
+    // The words of a vehicle without reverse gear, if a search with so many poses finds some.
+    std::optional<Legs> search_forward(std::uint64_t seed, int poses);
     Shortening shortening(Legs legs, std::uint64_t seed) const { return {driver, std::move(legs), seed}; }
     // Robot poses at the joints of all words.
     Poses poses(const Legs& legs) const;
@@ -40,6 +42,7 @@ public:
 private:
     Driver driver_of(const GivenVehicle& vehicle, const DrivingWishes& wishes);
     double least = 0;
+    Area area{};
     Marked path;
     Driver driver;
 };

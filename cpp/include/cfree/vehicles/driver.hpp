@@ -54,6 +54,7 @@ public:
     // True if a pose, or those of a word, seem free.
     bool is_free(const Place& axle) const { return seems(vehicle.robot_of(axle), vehicle.robot_of(axle)); }
     bool seems_free(const Place& from, const Word& word) const;
+    bool seems_free(const Place& from, const Place& to) const { return seems(vehicle.robot_of(from), vehicle.robot_of(to)); }
 
     const Vehicle vehicle;
     const Way way;
@@ -91,6 +92,10 @@ struct Followed {
 // The path is halved until words join its poses; at most about so many words are tried.
 Followed follow(Driver& driver, const Marked& path, long long most);
 
+// Words of a vehicle without reverse gear, by two trees of poses in doubles, from the start and to the goal; half of the
+// poses are near the path. The chain is made exact when the trees meet. Nothing if they do not.
+std::optional<Legs> search_forward(Driver& driver, const Marked& path, const Area& area, std::uint64_t seed, int poses);
+
 // Shorter words between the same ends.
 class Shortening {
 public:
@@ -109,7 +114,7 @@ private:
     bool window();
     bool replace(std::size_t i, std::size_t j, Legs fresh);
     double gauss();
-    std::span<const Leg> part(std::size_t i, std::size_t j) const { return std::span(path).subspan(i, j - i); }
+    std::span<const Leg> part(std::size_t i, std::size_t j) const { return {path.data() + i, j - i}; }
     Run run_before(std::size_t i) const;
     Run run_after(std::size_t j) const;
 
