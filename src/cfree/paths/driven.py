@@ -6,6 +6,7 @@ least its turning radius away from the axle point. Both are signs of rationals.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -48,10 +49,14 @@ class Driven:
 
     @property
     def curvature(self) -> float:
-        """The reciprocal of the radius: 0 on a line, infinite for a turn in place."""
+        """The reciprocal of the radius, rounded towards 0: 0 on a line, infinite for a turn in place."""
         if self.radius is None:
             return 0.0
-        return 1 / float(self.radius) if self.radius else float("inf")
+        if self.radius == 0:
+            return math.inf
+        exact = 1 / self.radius
+        value = float(exact)
+        return math.nextafter(value, 0.0) if abs(Fraction(value)) > abs(exact) else value
 
 
 def parts_of(vehicle: Vehicle, poses: Sequence[Pose], motions: Sequence[Motion]) -> tuple[Driven, ...]:
