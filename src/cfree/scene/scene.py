@@ -555,6 +555,7 @@ def with_obstacles(scene: Scene, obstacles: Sequence[Polygon], names: Sequence[s
         start=scene.start,
         goal=scene.goal,
         goals=scene.goals,
+        vehicle=scene.vehicle,
         units=scene.units,
         name=scene.name,
         reading=scene.reading,

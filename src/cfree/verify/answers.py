@@ -142,7 +142,7 @@ def answer(
         findings += path_findings(outcome, world, report, {name: there for name, there in larger.items() if there})
         findings += driving_findings(outcome)
     elif isinstance(outcome, Stuck):
-        findings += stuck_findings(outcome, world)
+        findings += stuck_findings(outcome, world if whole is None else World(part))
     else:
         findings += separation_findings(outcome, world if whole is None else World(part), report)
     report(1.0)
