@@ -18,8 +18,8 @@ constexpr double of_turn = 0x1p-20;     // tolerance of a heading, as a share of
 constexpr double coarsest = 0x1p-30;    // tolerance of a heading
 constexpr int place_bits = 40;          // of free multiples, relative to the word
 constexpr double negligible = 0x1p-16;  // length of a piece that is left out, in radii, if the others make up for it
-constexpr double nothing_at_all = 1e-10; // and anyway
-constexpr double parallel = 1e-11;      // sine of the angle between two directions that count as parallel
+constexpr double nothing_at_all = 0x1p-33; // and anyway
+constexpr double parallel = 0x1p-36;      // sine of the angle between two directions that count as parallel
 
 Int determinant(const Half& a, const Half& b) { return a.x * b.y - a.y * b.x; }
 Int square(const Half& a) { return a.x * a.x + a.y * a.y; }
@@ -186,7 +186,7 @@ struct Driven {
         const int gear = Int(dx * w.x + dy * w.y).sign();
         const double chord = std::ldexp(std::sqrt(ratio(dx * dx + dy * dy, unit * unit)), -shift);
         const double half = 0.5 * std::abs(angle);
-        join(next, &goal, {gear * (half > 1e-9 ? chord * half / sine(half) : chord), angle});
+        join(next, &goal, {gear * (half > 0x1p-30 ? chord * half / sine(half) : chord), angle});
         return gear != 0;
     }
     std::optional<ExactWord> finished(const Configuration& to) {

@@ -53,7 +53,7 @@ POSES, SEARCHES = 8000, 3  # of a search for a way without reverse gear
 FEW_CUSPS = 1  # a path with no more needs no other guide
 ROOMS = (4, 6, 8, 12, 16, 20, 24)  # binary exponents of a clearance that keeps a path off contacts, in robot radii
 PLACES = (Fraction(0), Fraction(1, 3), Fraction(1, 2), Fraction(2, 3))  # on a motion, at which contacts are looked for
-MOST_PAIRS = 40  # pairs of ways out that are tried to be joined
+MOST_PAIRS = 16  # pairs of ways out that are tried to be joined
 
 
 @dataclass(frozen=True)
@@ -129,14 +129,21 @@ def joined(question: Question, start: Pose, goal: Pose, way: Sequence[Pose]) -> 
     outs = begin.exits if isinstance(begin, Explored) else (((), start),)
     ins = end.exits if isinstance(end, Explored) else (((), goal),)
     pairs = [(out, into) for out in outs for into in ins][:MOST_PAIRS]
+    undecided: UndecidedError | None = None
     for (before, first), (after, last) in pairs:
         its = way if not before and not after else question.planner.way(first, last, question.options)
         if not isinstance(its, list) or (roomy := _roomy(question, first, last, its)) is None:
             continue
-        middle = driven(question, roomy)
+        try:
+            middle = driven(question, roomy)
+        except UndecidedError as error:  # another way out may have more room
+            undecided = undecided or error
+            continue
         if not before and not after:
             return middle
         return _checked(question, start, (*before, *middle.motions, *reversed_way(after)))
+    if undecided is not None:
+        raise undecided
     if question.vehicle.gears == "both":
         links = _links(question, way)
         for (before, first), (after, last) in pairs:
@@ -392,7 +399,7 @@ def _cost(drive: _core.Drive) -> float:
 def _guide(question: Question, way: Sequence[Pose], preferences: Preferences) -> Sequence[Pose]:
     """Return a balanced path of the robot beside this one, by preferences."""
     options = replace(question.options, preferences=preferences)
-    return question.planner.improver(way, options).balanced(way, None)
+    return question.planner.improver(way, options).balanced_once(way)
 
 
 def _other_way(question: Question, way: Sequence[Pose], seed: int) -> Sequence[Pose] | None:

@@ -20,7 +20,7 @@ struct ExactWord {
     std::vector<Piece> pieces;
 };
 
-inline constexpr double most_turn_of_piece = 2.6;  // in radians: less than half a turn
+inline constexpr double most_turn_of_piece = 2.625;  // in radians: less than half a turn
 // Slack of the radius of words in doubles: their rational form is accepted if no radius is less than the vehicle's.
 inline constexpr double slack = 1 + 0x1p-16;
 
