@@ -381,6 +381,19 @@ def test_stuck_has_no_truth_value_and_is_saved_and_loaded(tmp_path: Any) -> None
     assert isinstance(both, cfree.AllSeparated) and (both.of, len(both.proofs)) == ("pieces", 2)
     cfree.save(both, tmp_path / "both.json")
     assert cfree.load(tmp_path / "both.json") == both
+    text = (tmp_path / "both.json").read_text()
+    for old, new, said in (
+        (
+            '"answer": "stuck"',
+            '"answer": "held"',
+            r'proofs\[0\]: expected a proof with "answer": "separated" or "stuck"',
+        ),
+        ('"rail": ', '"rails": ', r'proofs\[0\]: key "rail" is missing'),
+        ('"of": "pieces"', '"of": "closed"', 'all of them of "closed"'),
+    ):
+        (tmp_path / "wrong.json").write_text(text.replace(old, new, 1))
+        with pytest.raises(cfree.FormatError, match=said):
+            cfree.load(tmp_path / "wrong.json")
     anywhere = Scene(ROBOT, FLUSH)
     assert cfree.verify.answer(anywhere, tmp_path / "both.json").verified
 

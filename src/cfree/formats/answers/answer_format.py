@@ -65,9 +65,11 @@ def answer_from_json(findings: Findings, data: Any) -> Read:
     except ValidationError as error:
         for item in error.errors(include_url=False, include_input=False):
             path = item["loc"]
-            if path[:1] == ("motions",) and len(path) > 2:
+            if path[:1] in (("motions",), ("proofs",)) and len(path) > 2:
                 path = (*path[:2], *path[3:])  # without the tag of the union
-            if item["type"].startswith("union_tag"):
+            if item["type"].startswith("union_tag") and path[:1] == ("proofs",):
+                findings.under(path, 'expected a proof with "answer": "separated" or "stuck", got {got}')
+            elif item["type"].startswith("union_tag"):
                 kinds = '"translation", "rotation" or "slide"'
                 findings.under(path, f'expected a motion with "type": {kinds}, got {{got}}')
             elif item["type"] == "literal_error":
