@@ -139,7 +139,7 @@ def answer_rows(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -
         radius = facts["least radius"]
         rows |= {
             "changes of direction": facts["cusps"],
-            "backward": f"{facts['backward']:.6g}{unit} of {facts['travel']:.6g}{unit} of the axle point",
+            "backward": f"{facts['backward']:.6g}{unit} of {facts['travel']:.6g}{unit}, at the axle point",
             "least radius": "none, all motions are straight" if radius is None else f"{radius:.6g}{unit}",
             "shortest motion": f"{facts['shortest']:.6g}{unit}",
         }
