@@ -1651,8 +1651,8 @@ class Contacts:
         c, s = self.axle.rotation
         for wall in self.world.walls:
             for x, y, z in wall.corners:
-                x, y = Fraction(x, z * self.world.scale) - self.axle.x, Fraction(y, z * self.world.scale) - self.axle.y
-                found.append((c * x + s * y) / v)
+                by = Fraction(x, z * self.world.scale) - self.axle.x, Fraction(y, z * self.world.scale) - self.axle.y
+                found.append((c * by[0] + s * by[1]) / v)
         return min((length for length in found if length > 0), default=None), ZERO in found
 
     def moved(self, length: Fraction) -> Pose:
@@ -1693,8 +1693,8 @@ def verdict(scene: str, answer: str) -> tuple[int, str]:
     """Check the texts of two files; return an exit code, and a line that states the result or the fault."""
     try:
         world, data = read_scene(decoded(scene)), decoded(answer)
-        kind = one_of(data.get("answer") if isinstance(data, dict) else None, "answer", "path", "separated", "stuck")
-        parsed = {"path": PathAnswer, "separated": Proof, "stuck": Held}[kind](data)
+        kinds: dict[str, type[PathAnswer | Proof | Held]] = {"path": PathAnswer, "separated": Proof, "stuck": Held}
+        parsed = kinds[one_of(data.get("answer") if isinstance(data, dict) else None, "answer", *kinds)](data)
         part = parsed.check_asked(world)
         if isinstance(parsed, Held):
             proved = check_held(parsed, part)
