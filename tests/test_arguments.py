@@ -33,7 +33,7 @@ RESULTS = """
     AlgebraicAngle AngleInterval AngleRange Arrangement ArrangementStatistics BezierPatch Bottleneck Boundary Cell
     CellComplex Clearance DepthCell EdgeEdgeSegment FirstContact Fit FreeSpace GaussBonnet Geodesic Helix
     Intersection IntersectionCurve Interval LocalGeometry Mesh NearestMiss Pieces RationalHelix RationalRange
-    RationalSegment RationalSurface Separated Shapes SharedLine Slice Surface Triple TripleContact
+    RationalSegment RationalSurface Separated Shapes SharedLine Slice Stuck Surface Triple TripleContact
 """.split()  # noqa: SIM905
 
 
@@ -88,7 +88,7 @@ def pool() -> list[Any]:
         cfree.MotionChecker(SCENE), boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1),
         cfree.exact.Surd(1), cfree.Preferences(), cfree.exact.AngleInterval(None, None),
         cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING, cfree.arrangements.arrangement(SCENE),
-        Figure().add_subplot(), Figure().add_subplot(projection="3d"),
+        cfree.Car(1), Figure().add_subplot(), Figure().add_subplot(projection="3d"),
         cfree.plan(cfree.Scene(SQUARE, [[(3, -9), (4, -9), (4, 9)]], bounds=(0, 0, 7, 2)), (0, 0, 0), (6, 0, 0)),
     ]  # fmt: skip
 

@@ -8,6 +8,7 @@ from cfree import errors
     [
         (errors.InvalidPolygonError, ValueError),
         (errors.InvalidPoseError, ValueError),
+        (errors.InvalidVehicleError, ValueError),
         (errors.FormatError, ValueError),
         (errors.UnsupportedError, NotImplementedError),
         (errors.InvariantError, RuntimeError),

@@ -16,7 +16,7 @@ PAGE = (SOURCE.parent / "docs" / "architecture.md").read_text()
 CORE = "cfree._core"
 ORDER = """
     lazy errors collector value arguments palette words
-    exact polygons curves scene contact collision forbidden geometry free paths planning analysis formats
+    exact vehicles polygons curves scene contact collision forbidden geometry free paths planning analysis formats
     verify distributed rational arrangements ompl plot figures film viewer cli __main__
 """.split()  # noqa: SIM905
 """Each imports only from those before it."""

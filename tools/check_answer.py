@@ -23,6 +23,10 @@ if properly. If a ray from the start does so an odd number of times, and one fro
 between them meets a piece, where the robot touches something. So "interior" proofs exclude paths that keep a distance.
 "closed" ones have contacts of a robot strictly inside the real one: where it touches, the real one overlaps. A
 clearance is kept by a robot larger by a polygon around a disc; it is not if a robot all nearer touches.
+
+Vehicles. A car drives along forward, or turns about a pole on the line of its axle: signs of rationals decide. Contacts
+hold it if the first motion of every curvature overlaps something. Between neighbouring zeros of the rates one stands
+for all.
 """
 
 from __future__ import annotations
@@ -391,7 +395,7 @@ class Scene:
 def read_scene(data: Any) -> Scene:
     refuse_if(isinstance(data, dict) and "type" in data, "GeoJSON is not read here; save the scene as a JSON scene")
     optional = dict.fromkeys(("workspace", "bounds", "start", "goal", "name", "note", "units", "source", "check"))
-    optional |= dict.fromkeys(("reading", "changed", "dropped"))
+    optional |= dict.fromkeys(("vehicle", "reading", "changed", "dropped"))
     got = members(data, "scene", version=1, robot=REQUIRED, obstacles=[], goals=[], **optional)
     one_of(got["version"], "version", 1)
     robot, obstacles = ([each] if is_ring(each) else each for each in (got["robot"], got["obstacles"]))
@@ -403,6 +407,8 @@ def read_scene(data: Any) -> Scene:
         None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
     )
     refuse_if(got["goal"] is not None and bool(got["goals"]), "goals: there is a goal, too")
+    if got["vehicle"] is not None:
+        Vehicle(got["vehicle"])
     scene.asked["start"] = [read_pose(value, "start") for value in [got["start"]] if value is not None]
     goals = items(got["goals"], "goals") or [goal for goal in [got["goal"]] if goal is not None]
     scene.asked["goal"] = [read_pose(goal, "goal", 2) for goal in goals]
@@ -423,6 +429,54 @@ def read_bounds(value: Any, place: str) -> tuple[Fraction, ...]:
     x0, y0, x1, y1 = bounds = numbers(value, place, 4)
     refuse_if(x0 >= x1 or y0 >= y1, f"{place}: they are empty")
     return bounds
+
+# === Vehicles ===
+class Vehicle:
+    """A car or a differential drive: radii to the left and right, axle point and heading in the robot's frame."""
+
+    def __init__(self, value: Any) -> None:
+        place = "vehicle"
+        kind = one_of(value.get("type") if isinstance(value, dict) else None, f"{place}.type", "car", "differential")
+        car = {"turning_radius": REQUIRED, "gears": "both"} if kind == "car" else {}
+        got = members(value, place, type=kind, axle=[0, 0], heading=0, **car)
+        self.turns_in_place, self.radii = kind != "car", (ZERO, ZERO)
+        if kind == "car":
+            radius = got["turning_radius"]
+            sides = radius if isinstance(radius, list) else [radius, radius]
+            self.radii = numbers(items(sides, place, 2, 2), place, 2)  # type: ignore[assignment]
+            refuse_if(min(self.radii) <= 0, f"{place}: expected a turning radius above 0")
+        self.forward_only = one_of(got.get("gears", "both"), f"{place}.gears", "both", "forward") == "forward"
+        self.axle, self.heading = numbers(got["axle"], place, 2), read_angle(got["heading"], place)
+        left, right = (f"{float(radius):.6g}" for radius in self.radii)
+        radii = f"a turning radius of {left}" if left == right else f"turning radii of {left} and {right}"
+        car_text = f"a car with {radii}" + " and no reverse gear" * self.forward_only
+        self.text = "a differential drive" if self.turns_in_place else car_text
+
+    def axle_at(self, pose: Pose) -> Pose:
+        """Pose of the axle, forward its x axis."""
+        (c, s), (x, y) = pose.rotation, self.axle
+        return Pose(pose.x + c * x - s * y, pose.y + s * x + c * y, tau_sum(pose.tau, self.heading))
+
+    def fault(self, pose: Pose, motion: Motion) -> str:
+        """Text if it cannot do a motion from a pose."""
+        if motion.slide:
+            return "it is a slide, which no vehicle drives"
+        axle = self.axle_at(pose)
+        c, s = axle.rotation
+        if not motion.pole:
+            x, y = motion.vector
+            if x * s != y * c:
+                return "its vector is not along forward"
+            return "it goes back" * (self.forward_only and x * c + y * s < 0)
+        if motion.tau == 0:
+            return ""
+        x, y = motion.pole[0] - axle.x, motion.pole[1] - axle.y
+        if x * c + y * s != 0:
+            return "its pole is off the axle line"
+        left = c * y - s * x
+        if not self.turns_in_place and abs(left) < self.radii[left < 0]:
+            return "its radius is less than the turning radius"
+        return "it goes back" * (self.forward_only and (left < 0) != motion.clockwise and left != 0)
 
 # === Polynomials with integer coefficients, and their roots ===
 def sign(value: Any) -> int:
@@ -988,7 +1042,8 @@ class PathAnswer(Answer):
     """A start, and motions that lead to the goal."""
 
     def __init__(self, data: dict[str, Any]) -> None:
-        super().__init__(data, decimals=REQUIRED, motions=REQUIRED, disc=[])
+        super().__init__(data, decimals=REQUIRED, motions=REQUIRED, disc=[], vehicle=None)
+        self.vehicle = None if self.got["vehicle"] is None else Vehicle(self.got["vehicle"])
         self.disc: Ring = [numbers(p, "disc", 2) for p in items(self.got["disc"], "disc")]  # type: ignore[misc]
         refuse_if(bool(self.clearance) != (len(self.disc) > 2), '"clearance" and "disc" belong together')
         one_of(self.got["decimals"], "decimals", "free", "approximate")
@@ -1066,6 +1121,8 @@ def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
         check_pose(there, answer.start, f"start: {said}")
     pose = answer.start
     for k, motion in enumerate(answer.motions):
+        if answer.vehicle and (why := answer.vehicle.fault(pose, motion)):
+            raise RefutedError(f"motion {k}: {why}")
         for course in motion.courses(pose, world.scale):
             for contact in motion.contacts:
                 check_kept(part, course, contact, f"motion {k}")
@@ -1076,7 +1133,8 @@ def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
     count = f"{len(answer.motions):,} motion{'s' * (len(answer.motions) != 1)}"
     keeps = f"keeps {float(answer.clearance):g} from obstacles and workspace"
     only = (keeps if answer.clearance else "is free of collisions") + only
-    return f"A path of {count} leads from {answer.end('start')} to {answer.end('goal')}, and {only}."
+    drives = f"; {answer.vehicle.text} can drive it" if answer.vehicle else ""
+    return f"A path of {count} leads from {answer.end('start')} to {answer.end('goal')}, and {only}{drives}."
 
 def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> None:
     """Check that a slide keeps a contact: the vertex is on the edge's line, and never beyond its ends."""
@@ -1493,15 +1551,155 @@ def check_proof(proof: Proof, scene: Scene) -> str:
     touching = f"No path that keeps a distance from everything {from_to}; one that touches may."
     return clear if proof.clearance else closed if proof.is_closed else touching
 
+# === Vehicles held by contacts ===
+class Held(Answer):
+    """A vehicle that contacts at one end hold: all poses at which it touches until something changes."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        super().__init__(data, **dict.fromkeys(("vehicle", "at", "of", "obstacles", "rail"), REQUIRED))
+        self.check_decimals("start", self.start)
+        self.vehicle = Vehicle(self.got["vehicle"])
+        self.at = one_of(self.got["at"], "at", "start", "goal")
+        self.of = one_of(self.got["of"], "of", "pieces", "paths")
+        for k in items(self.got["obstacles"], "obstacles"):
+            whole(k, "obstacles", -2)
+        self.rail = [read_pose(pose, "rail") for pose in items(self.got["rail"], "rail", 1)]
+        refuse_if(self.rail[0] != getattr(self, self.at), f"rail: it does not begin at the {self.at}")
+
+class Contacts:
+    """All pairs of pieces at a pose, and the controls (v, w) at which a sign of theirs may change."""
+
+    def __init__(self, world: World, vehicle: Vehicle, pose: Pose) -> None:
+        self.world, self.vehicle, self.pose, self.axle = world, vehicle, pose, vehicle.axle_at(pose)
+
+    def motion(self, v: Fraction, w: Fraction) -> Motion:
+        """The motion of a control: speed along forward, and rate of turning."""
+        c, s = self.axle.rotation
+        if w == 0:
+            return Motion(vector=(c * v, s * v))
+        pole = self.axle.x - s * v / w, self.axle.y + c * v / w
+        return Motion(pole=pole, tau=ONE if w > 0 else -ONE, clockwise=w < 0)
+
+    def pairs(self, course: Course) -> Iterator[Pair]:
+        for part in self.world.robot:
+            for wall in self.world.walls:
+                yield Pair(course, part, wall)
+
+    def sign(self, v: Fraction, w: Fraction, first_only: bool = False) -> int:
+        """1 if all parts, 0 if something keeps touching, -1 if something overlaps; from u = 0 on."""
+        course = next(self.motion(v, w).courses(self.pose, self.world.scale))
+
+        def outside(p: Poly) -> int:
+            return -next((sign(c) for c in (p[:2] if first_only else p) if c), 0)
+
+        sides = (max(min(map(outside, pair.heights(i))) for i in range(len(pair.sides))) for pair in self.pairs(course))
+        return min(chain(sides, map(outside, beyond(self.world, course))), default=1)
+
+    def curvatures(self) -> set[Fraction]:
+        course, found = next(STANDING.courses(self.pose, self.world.scale)), {ZERO}
+        scale, (c, s), reference = self.world.scale, self.axle.rotation, Pose(ZERO, ZERO, ZERO)
+
+        def add(l: Any, m: Any, x: Fraction, y: Fraction) -> None:
+            """A line's direction and a point on it, in the world."""
+            x, y = x - self.axle.x, y - self.axle.y
+            x, y, l, m = c * x + s * y, c * y - s * x, c * l + s * m, c * m - s * l
+            if m * x - l * y:
+                found.add(-l / (m * x - l * y))
+            if y:
+                found.add(1 / y)
+
+        d, e = self.pose.rotation
+        for pair in self.pairs(course):
+            if not pair.touches():
+                continue
+            for i, ((l, m, _), corners, _) in enumerate(pair.sides):
+                is_robots = i >= len(pair.sides) - len([1 for side in pair.sides if side[2] is course.back])
+                for (x, y, z), p in zip(corners, pair.heights(i), strict=True):
+                    px, py = Fraction(x, z * scale), Fraction(y, z * scale)
+                    if p[0] == 0 and is_robots:  # a line of the robot
+                        add(d * l - e * m, e * l + d * m, px, py)
+                    elif p[0] == 0:
+                        add(l, m, self.pose.x + d * px - e * py, self.pose.y + e * px + d * py)
+        for l, m in ((1, 0), (0, 1)):
+            add(l, m, self.pose.x + reference.x, self.pose.y)
+            for part in self.world.robot if self.world.box else ():
+                for x, y, z in part.corners:
+                    px, py = Fraction(x, z * scale), Fraction(y, z * scale)
+                    add(l, m, self.pose.x + d * px - e * py, self.pose.y + e * px + d * py)
+        return found
+
+    def controls(self, gears: Sequence[int], any_vehicle: bool) -> Iterator[tuple[Fraction, Fraction]]:
+        found = self.curvatures()
+        if not any_vehicle and not self.vehicle.turns_in_place:
+            low, high = -1 / self.vehicle.radii[1], 1 / self.vehicle.radii[0]
+            found = {k for k in found if low < k < high} | {low, high}
+        listed = sorted(found)
+        ends = [] if not any_vehicle and not self.vehicle.turns_in_place else [listed[0] - 1, listed[-1] + 1]
+        for v in gears:
+            for k in (*listed, *((a + b) / 2 for a, b in pairwise(listed)), *ends):
+                yield v * ONE, v * k
+        if ends:
+            yield ZERO, ONE
+            yield ZERO, -ONE
+
+    def changes(self, v: Fraction) -> tuple[Fraction | None, bool]:
+        """Length of a straight way up to where a sign may change; and whether one may at its beginning."""
+        course = next(self.motion(v, ZERO).courses(self.pose, self.world.scale))
+        sides = (pair.heights(i) for pair in self.pairs(course) for i in range(len(pair.sides)))
+        heights = chain(beyond(self.world, course), *sides)
+        found = [Fraction(-p[0], p[1]) for p in heights if len(p) > 1 and p[1]]
+        c, s = self.axle.rotation
+        for wall in self.world.walls:
+            for x, y, z in wall.corners:
+                by = Fraction(x, z * self.world.scale) - self.axle.x, Fraction(y, z * self.world.scale) - self.axle.y
+                found.append((c * by[0] + s * by[1]) / v)
+        return min((length for length in found if length > 0), default=None), ZERO in found
+
+    def moved(self, length: Fraction) -> Pose:
+        c, s = self.axle.rotation
+        return Pose(self.pose.x + c * length, self.pose.y + s * length, self.pose.tau)
+
+def check_held(answer: Held, scene: Scene) -> str:
+    """Sentence that states the result."""
+    world = World(scene)
+    answer.check_moved(world)
+    check_pose(world, answer.start, "start")
+    check_pose(world, answer.goal, "goal")
+    gears = (1, -1) if not answer.vehicle.forward_only else (1,) if answer.at == "start" else (-1,)
+    for k, pose in enumerate(answer.rail):
+        check_pose(world, pose, f"rail {k}")
+        contacts = Contacts(world, answer.vehicle, pose)
+        for v, w in contacts.controls(gears, any_vehicle=False):
+            leaves = contacts.sign(v, w)
+            refute_if(leaves > 0, f"rail {k}: a first motion leaves")
+            if leaves < 0:
+                continue
+            ahead, is_end = (None, True) if w else contacts.changes(v)
+            asked = [] if ahead is None else [ahead, ahead / 2] if is_end else [ahead]
+            goes_on = asked and all(contacts.moved(v * length) in answer.rail for length in asked)
+            refute_if(not goes_on, f"rail {k}: it can go on along its contacts, which is not in the answer")
+    if answer.of == "paths":
+        contacts = Contacts(world, answer.vehicle, answer.rail[0])
+        for v, w in contacts.controls((1, -1), any_vehicle=True):
+            refute_if(contacts.sign(v, w, first_only=True) >= 0, "it is of finitely many pieces only")
+    way = f"leave its {answer.at}" if answer.at == "start" else f"arrive at its {answer.at}"
+    said = f"no path of finitely many lines and arcs lets {answer.vehicle.text} {way}"
+    if answer.of == "paths":
+        said = f"no path of finite length lets a vehicle with this axle {way}, whatever its turning radius"
+    return f"From {answer.end('start')} to {answer.end('goal')}: {said}."
+
 # === The command ===
 def verdict(scene: str, answer: str) -> tuple[int, str]:
     """Check the texts of two files; return an exit code, and a line that states the result or the fault."""
     try:
         world, data = read_scene(decoded(scene)), decoded(answer)
-        kind = one_of(data.get("answer") if isinstance(data, dict) else None, "answer", "path", "separated")
-        parsed = (PathAnswer if kind == "path" else Proof)(data)
+        kinds: dict[str, type[PathAnswer | Proof | Held]] = {"path": PathAnswer, "separated": Proof, "stuck": Held}
+        parsed = kinds[one_of(data.get("answer") if isinstance(data, dict) else None, "answer", *kinds)](data)
         part = parsed.check_asked(world)
-        proved = check_path(parsed, world, part) if isinstance(parsed, PathAnswer) else check_proof(parsed, part)
+        if isinstance(parsed, Held):
+            proved = check_held(parsed, part)
+        else:
+            proved = check_path(parsed, world, part) if isinstance(parsed, PathAnswer) else check_proof(parsed, part)
         return VERIFIED, f"{proved} verified"
     except RefutedError as error:
         return REFUTED, f"REFUTED: {error}"

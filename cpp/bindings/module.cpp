@@ -17,6 +17,7 @@ void bind_free_space(nb::module_& m);
 void bind_arrangement(nb::module_& m);
 void bind_search(nb::module_& m);
 void bind_planning(nb::module_& m);
+void bind_vehicles(nb::module_& m);
 
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false);  // objects that globals hold at exit are no news to users
@@ -34,4 +35,5 @@ NB_MODULE(_core, m) {
     bind_arrangement(m);
     bind_search(m);
     bind_planning(m);
+    bind_vehicles(m);
 }

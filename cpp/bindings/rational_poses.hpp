@@ -21,6 +21,11 @@ inline cfree::BoundaryWalker::End end_of(const EndNumbers& given) {
     const auto [x, y, theta] = given.second;
     return {pose_of(given.first), {x, y, theta}};
 }
+inline std::vector<cfree::BoundaryWalker::End> ends_of(const std::vector<EndNumbers>& given) {
+    std::vector<cfree::BoundaryWalker::End> ends;
+    for (const EndNumbers& end : given) ends.push_back(end_of(end));
+    return ends;
+}
 inline PoseTuple tuple_of(const cfree::RationalPose& q) {
     return {integer(q.x.n), integer(q.x.d), integer(q.y.n), integer(q.y.d), integer(q.half.q), integer(q.half.p)};
 }

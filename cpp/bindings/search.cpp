@@ -13,12 +13,6 @@ using cfree::Searcher;
 
 namespace {
 
-std::vector<cfree::End> ends_of(const std::vector<EndNumbers>& given) {
-    std::vector<cfree::End> ends;
-    for (const EndNumbers& end : given) ends.push_back(end_of(end));
-    return ends;
-}
-
 std::vector<cfree::Place> places_of(const std::vector<std::array<double, 3>>& given) {
     std::vector<cfree::Place> places;
     for (const auto& [x, y, theta] : given) places.push_back({x, y, theta});

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from cfree.errors import IncompleteError as IncompleteError
     from cfree.errors import InvalidPolygonError as InvalidPolygonError
     from cfree.errors import InvalidPoseError as InvalidPoseError
+    from cfree.errors import InvalidVehicleError as InvalidVehicleError
     from cfree.errors import InvariantError as InvariantError
     from cfree.errors import UndecidedError as UndecidedError
     from cfree.errors import UnsupportedError as UnsupportedError
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
     from cfree.free.turn_in_place import turn_in_place as turn_in_place
     from cfree.paths.clearance import clearance as clearance
     from cfree.paths.clearance import narrowest as narrowest
+    from cfree.paths.driving import is_drivable as is_drivable
     from cfree.paths.path import Path as Path
     from cfree.paths.preferences import Preferences as Preferences
     from cfree.paths.preferences import unwanted as unwanted
@@ -57,9 +59,12 @@ if TYPE_CHECKING:
     from cfree.planning.planner import Planner as Planner
     from cfree.planning.separation import Separated as Separated
     from cfree.planning.separation import separation as separation
+    from cfree.planning.stuck import Stuck as Stuck
     from cfree.polygons.polygon import Polygon as Polygon
     from cfree.polygons.repair import repaired as repaired
     from cfree.scene.scene import Scene as Scene
+    from cfree.vehicles.vehicle import Car as Car
+    from cfree.vehicles.vehicle import DifferentialDrive as DifferentialDrive
     from cfree.viewer.browser import view as view
     from cfree.viewer.notebook import widget as widget
 
@@ -67,12 +72,13 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "errors": "CfreeError FormatError IncompleteError "
-    "InvalidPolygonError InvalidPoseError InvariantError UndecidedError UnsupportedError",
+    "InvalidPolygonError InvalidPoseError InvalidVehicleError InvariantError UndecidedError UnsupportedError",
     "curves.curved": "Curved",
     "exact.pose": "Pose Poses",
     "polygons.polygon": "Polygon",
     "polygons.repair": "repaired",
     "scene.scene": "Scene",
+    "vehicles.vehicle": "Car DifferentialDrive",
     "collision.motion": "Rotation Translation motion_between",
     "collision.slide": "Slide",
     "collision.pose_checker": "PoseChecker is_free",
@@ -83,6 +89,7 @@ _HOMES = {
     "free.largest_disc": "largest_disc",
     "free.turn_in_place": "turn_in_place",
     "paths.path": "Path",
+    "paths.driving": "is_drivable",
     "paths.clearance": "clearance narrowest",
     "paths.preferences": "Preferences unwanted",
     "planning.goals": "AllSeparated",
@@ -90,6 +97,7 @@ _HOMES = {
     "planning.planner": "Planner",
     "planning.many": "plan_many",
     "planning.separation": "Separated separation",
+    "planning.stuck": "Stuck",
     "analysis.blockers": "blockers",
     "analysis.fits": "fits",
     "analysis.margins": "max_margin max_scale nearest_miss",

@@ -4,11 +4,13 @@
       InvalidPolygonError (ValueError)     not simple, too few vertices, no area; carries ring and edges
       InvalidPoseError    (ValueError)     not finite, not an angle, not free
         ForbiddenPoseError                 not free; carries a free pose near by (cfree.collision.nearest_free)
+      InvalidVehicleError (ValueError)     a turning radius, axle or heading that no vehicle has
       FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
       IncompleteError     (RuntimeError)   a query of a boundary whose computation a limit stopped
         UndecidedError                     a clearance too near to the largest, carries lo and hi;
-                                           or round shapes too near to each other, carries error
+                                           or round shapes too near to each other, carries error;
+                                           or too many manoeuvres, carries a path of the robot as a proof
       InvariantError      (RuntimeError)   our bug, please report; carries the smallest state seen
 
 Messages give the place, the value and the remedy.
@@ -51,6 +53,10 @@ class InvalidPoseError(CfreeError, ValueError):
     """A position or an angle that `cfree.Pose` does not accept, or a pose that is not free."""
 
 
+class InvalidVehicleError(CfreeError, ValueError):
+    """A turning radius, an axle point or a heading that `Car` and `DifferentialDrive` do not accept."""
+
+
 class FormatError(CfreeError, ValueError):
     """A file that cannot be read, with its `path`, `line` and `column` (from 1) where known."""
 
@@ -74,6 +80,8 @@ class IncompleteError(CfreeError, RuntimeError):
 class UndecidedError(IncompleteError):
     """An undecided question: a clearance too near to the largest possible, or polygons too coarse for round shapes.
 
+    Or a path of a vehicle that needs too many manoeuvres, or leads along contacts.
+
     Parameters
     ----------
     message : str
@@ -81,10 +89,25 @@ class UndecidedError(IncompleteError):
         Bounds of the largest clearance: some path keeps `lo`, or it is 0; none keeps more than `hi`, or it is infinite.
     error : float
         Smallest error tried for the polygons of the round shapes that matter, or 0.
+    path : Path or None
+        The proof that a path of a vehicle that reverses exists: a path of the robot that touches nothing.
+    manoeuvres : int
+        Estimate of the motions that such a path needs, or 0.
     """
 
-    def __init__(self, message: str, *, lo: float = 0.0, hi: float = math.inf, error: float = 0.0) -> None:
+    def __init__(
+        self,
+        message: str,
+        *,
+        lo: float = 0.0,
+        hi: float = math.inf,
+        error: float = 0.0,
+        path: object = None,
+        manoeuvres: int = 0,
+    ) -> None:
         super().__init__(message)
+        self.path = path
+        self.manoeuvres = manoeuvres
         self.lo = lo
         self.hi = hi
         self.error = error

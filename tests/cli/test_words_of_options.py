@@ -2,7 +2,7 @@
 
 import reprlib
 from collections.abc import Iterator
-from typing import get_args, get_type_hints
+from typing import Literal, get_args, get_type_hints
 
 import click
 import pytest
@@ -15,12 +15,14 @@ from cfree.film import Storyboard
 from cfree.formats.answers.answer_file import Form
 from cfree.paths.path import Objective
 from cfree.plot.rendered import Renderer
+from cfree.vehicles.vehicle import Gears
 
 SCENE = "examples/scenes/flat.json"
 NEEDED = {"film": [SCENE, "-o", "film.gif"], "figures": ["-o", "figures"], "convert": [SCENE, "scene.svg"]}
 OF_READING = {f"--{name.replace('_', '-')}": hint for name, hint in get_type_hints(cfree.load_shapes).items()}
 SAME = {name: OF_READING[name] for name in ("--unknown", "--map-rules", "--holes", "--fills")} | {
-    "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer
+    "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer,
+    "--gears": Gears, "--vehicle": Literal["car", "differential", "forklift", "any"],
 }  # fmt: skip
 
 

@@ -124,5 +124,28 @@ def test_slides_of_a_folder_keep_contacts_with_the_obstacles_of_the_whole_scene(
 
 def test_a_separation_that_names_no_obstacles_of_a_folder_is_refused(tmp_path: Path) -> None:
     found = boundary(SHUT, folder=tmp_path / "city")
-    with pytest.raises(ValueError, match="a separation that names no obstacles of a folder"):
+    with pytest.raises(ValueError, match="a proof that names no obstacles of a folder"):
         found.scene_for(replace(found.plan(improve=0.0), whole=None))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("goal", [(0, 12, 0), (-30, 12, 0)])
+@pytest.mark.parametrize("is_held", [True, False])
+def test_the_vehicle_of_a_scene_drives_in_its_folder_or_is_stuck_there(
+    is_held: bool, goal: tuple[int, int, int], tmp_path: Path
+) -> None:
+    touched = [[(2, -1), (3, -1), (3, 1), (2, 1)], [(-3, -1), (-2, -1), (-2, 1), (-3, 1)]][: 2 if is_held else 1]
+    robot, car = [(-2, -1), (2, -1), (2, 1), (-2, 1)], cfree.Car(4, axle=(-1, 0))
+    scene = cfree.Scene(robot, [*FAR[:4], *touched, *FAR[4:]], start=(0, 0, 0), goal=goal, vehicle=car)
+    answer = boundary(scene, folder=tmp_path / "city", tiles=4).plan(improve=0.0)
+    assert isinstance(answer, cfree.Stuck if is_held else cfree.Path) and answer.vehicle == car
+    assert answer.scene is not None and answer.whole is not None
+    cfree.save(scene, tmp_path / "scene.json")
+    cfree.save(answer, tmp_path / "answer.json")
+    cfree.save(answer.scene, tmp_path / "part.json")
+    for place in ("scene.json", "city", "part.json"):
+        result = run("verify", tmp_path / place, tmp_path / "answer.json")
+        assert result.exit_code == 0, result.output
+        if place != "city":
+            files = [(tmp_path / name).read_text() for name in (place, "answer.json")]
+            assert check_answer.verdict(*files)[0] == 0

@@ -50,11 +50,17 @@ COMPUTED = (
 GUESSED = (
     "balance",
     "configuration",
+    "driver",
+    "driving",
+    "follow",
+    "forward",
     "motion_guess",
     "nearness",
     "ridge",
+    "reeds_shepp",
     "rrt_connect",
     "shortcut",
+    "shortening",
     "surface_explorer",
     "way",
 )

@@ -194,7 +194,7 @@ def test_files(tmp_path: FilePath) -> None:
     assert not cfree.verify.answer(OPEN, file).verified
     text = file.read_text()
     for old, new, message in (
-        ('"of": "closed",\n "places"', '"of": "open",\n "places"', 'of: expected "closed" or "interior"'),
+        ('"of": "closed",\n "places"', '"of": "open",\n "places"', 'of: expected "closed", "interior" or "pieces"'),
         ('"places": [["0", ', '"places": [["1", ', "there is no proof for one of the places"),
         ('"start": ["0", "5"', '"start": ["0", "5.25"', "not all proofs have the same start and scene"),
         ('"surface": [', '"surfaces": [', r"proofs\[0\].*surface"),

@@ -43,7 +43,9 @@ def values() -> dict[str, Any]:
     space = cfree.free_space(boundary)
     path = cfree.plan(scene, goal=(1, 7, "90deg"))
     goals = cfree.plan(scene_of(goal=[(6, 1, 0), (6, 5)]))
-    parts = scene, boundary, space, space.cells[0], path, cfree.plan(scene), goals, boundary.slice(0.3)
+    start, goal = cfree.Pose(1, 1), cfree.Pose(6, 1)
+    held = cfree.Stuck(start, goal, cfree.Car(1), "start", "pieces", (start,), (0,), scene=scene)
+    parts = scene, boundary, space, space.cells[0], path, cfree.plan(scene), goals, boundary.slice(0.3), held
     return {type(value).__name__: value for value in (*parts, boundary.mesh(0.5), scene.obstacles[0], ROUND)}
 
 

@@ -34,6 +34,7 @@ test("angles are numbers, degrees, radians or tangents of half the angle", () =>
   assert.deepEqual(start('{"tau": "2/3"}'), { x: "1", y: "1/3", tau: "2/3" });
   for (const infinite of ["null", '"inf"', '"-inf"']) assert.equal(start(`{"tau": ${infinite}}`).tau, "inf");
   assert.deepEqual(scene('"goal": [1, 2]').goal, { x: "1", y: "2" });
+  assert.deepEqual(scene('"vehicle": {"type": "differential"}'), scene());
   assert.deepEqual(scene('"goals": [[3, 4], [5, 6]]').goal, { x: "3", y: "4" });
 });
 

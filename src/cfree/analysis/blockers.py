@@ -81,7 +81,7 @@ def blockers(
     """
     start, goal = required(scene, start, goal)
     answer = Planner(scene).plan(start, goal, clearance=clearance, improve=0)
-    if isinstance(answer, Path):
+    if not isinstance(answer, Separated):
         raise ValueError("start and goal are joined: nothing is in the way")
     possible, result = _possible(answer, range(len(scene.obstacles))), list[Blocker]()
     for done, k in enumerate(todo := sorted(possible)):
@@ -91,7 +91,7 @@ def blockers(
             answer = Planner(_without(scene, k)).plan(start, goal, clearance=clearance)
             if isinstance(answer, Path):
                 result.append(Blocker(k, answer))
-            else:  # its surfaces name obstacles by their numbers in a scene with one less
+            elif isinstance(answer, Separated):  # its surfaces name obstacles by their numbers in a scene with one less
                 numbers = [i for i in range(len(scene.obstacles)) if i != k]
                 possible &= _possible(answer, numbers) | {blocker.obstacle for blocker in result}
     return tuple(result)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from cfree.planning.goals import AllSeparated
     from cfree.planning.planner import Planner
     from cfree.planning.separation import Separated
+    from cfree.planning.stuck import Stuck
 
 
 @dataclass
@@ -89,8 +90,8 @@ class Answering:
     start: Pose
     goal: Pose | None
     files: dict[str, str]
-    answer: Motions | Separated | AllSeparated
-    first: Motions | Separated | AllSeparated | None = None  # the first path, before its improvement
+    answer: Motions | Separated | Stuck | AllSeparated
+    first: Motions | Separated | Stuck | AllSeparated | None = None  # the first path, before its improvement
 
     @classmethod
     def of(
@@ -151,7 +152,7 @@ class Answering:
     def exit_code(self) -> int:
         """0 for a path, 1 for a proof that there is none; 3 if a path that touches may exist."""
         proved = getattr(self.answer, "of", None)
-        return {None: 0, "closed": REFUTED}.get(proved, INCOMPLETE)
+        return {None: 0, "interior": INCOMPLETE}.get(proved, REFUTED)
 
     def write(self, output: Path, poses: Sampling) -> None:
         """Write a path in any form, or a proof as JSON, to a file or to standard output."""
@@ -186,8 +187,7 @@ class Answering:
 
     def draw(self, picture: Path, *, what_if: bool) -> None:
         """Draw the answer with the configuration space (the first of several proofs), or the blockers for `what_if`."""
-        from cfree.paths.path import Path as Motions
-        from cfree.planning.separation import Separated
+        from cfree.planning.stuck import Stuck
         from cfree.plot.answer import picture as drawn
         from cfree.plot.boundary import save_figure
 
@@ -198,8 +198,12 @@ class Answering:
             with bar("picture"):
                 save_figure(plot_blockers(self.blockers, self.planner.scene, preferences=preferences), picture)
             return
+        if isinstance(self.answer, Stuck):
+            with bar("picture"):
+                save_figure(drawn(self.answer, self.planner.scene), picture)
+            return
         space = self.planner.free_space
-        shown = self.answer if isinstance(self.answer, Motions | Separated) else self.answer.proofs[0]
+        shown = self.answer
         with bar("picture"):
             figure = drawn(shown, self.planner.scene, space.boundary, preferences=preferences)
             save_figure(figure, picture)
@@ -208,13 +212,17 @@ class Answering:
         """Film a path or a proof, the first of several proofs."""
         from cfree.film import film_path, film_separation
         from cfree.paths.path import Path as Motions
-        from cfree.planning.separation import Separated
+        from cfree.planning.goals import AllSeparated
+        from cfree.planning.stuck import Stuck
 
         if isinstance(self.answer, Motions):
             with bar("film") as progress:
                 film_path(self.answer, self.planner.scene, film, progress=progress)
             return
-        shown = self.answer if isinstance(self.answer, Separated) else self.answer.proofs[0]
+        shown = self.answer.proofs[0] if isinstance(self.answer, AllSeparated) else self.answer
+        if isinstance(shown, Stuck):
+            self._leave_out("film", film, "contacts hold the vehicle, and no surface separates start and goal")
+            return
         if not len(shown.pieces):
             self._leave_out("film", film, "no surface separates start and goal, but exact fits do")
             return

@@ -6,7 +6,7 @@ import errno
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from cfree.cli import drawing
 from cfree.cli.options import refuse
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from cfree.planning.planner import Planner
     from cfree.planning.separation import Separated
     from cfree.scene.scene import Scene
+    from cfree.vehicles.vehicle import Vehicle
 
 
 def read_scene(source: Path, *, straight: bool = False) -> Scene:
@@ -118,11 +119,15 @@ def answer_for(scene: Scene, file: Path) -> Motions | Separated | AllSeparated:
 
 
 def planner_of(
-    source: Path, max_seconds: float | None, preferences: Preferences
+    source: Path,
+    max_seconds: float | None,
+    preferences: Preferences,
+    vehicle: Vehicle | Literal["any"] | None = None,
 ) -> Planner | CurvedPlanner | FolderPlanner:
     """Make a planner for the scene in a file, with its free space if the file is a boundary; or for a folder."""
     from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner
+    from cfree.scene.scene import vehicle_for
 
     if source.is_dir() or is_archive(source):
         refuse("only for scenes, whose boundary is not yet computed", "max_seconds")
@@ -138,11 +143,13 @@ def planner_of(
 
         with bar("cells"):
             space = free_space(load_boundary(source))
-        planner = Planner(space.boundary.scene, space, preferences=preferences, phase=bar)
-        report(planner.scene.reading, source)
+        scene = space.boundary.scene
+        planner = Planner(scene, space, preferences=preferences, phase=bar, vehicle=vehicle_for(scene, vehicle))
+        report(scene.reading, source)
     else:
         scene = read_scene(source)
-        planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
+        driver = vehicle_for(scene, vehicle)
+        planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar, vehicle=driver)
         if scene.curved:
             return CurvedPlanner(planner, drawing.tolerance())
     return planner

@@ -69,6 +69,7 @@ def film_answer(
     from cfree.film.path_film import REST
     from cfree.forbidden.boundary import Boundary
     from cfree.paths.path import Path as Motions
+    from cfree.planning.goals import AllSeparated
     from cfree.planning.separation import Separated
 
     check_frames(fps, size)
@@ -89,7 +90,9 @@ def film_answer(
                 answer, boundary.scene, output, boundary=boundary, seconds=moving, fps=fps, size=size, progress=progress
             )
         return {"answer": "a path", "size": "x".join(map(str, size))}
-    shown = answer if isinstance(answer, Separated) else answer.proofs[0]
+    shown = answer.proofs[0] if isinstance(answer, AllSeparated) else answer
+    if not isinstance(shown, Separated):
+        raise ValueError(f"{file}: the vehicle is stuck, and there is no surface to film; leave the answer out")
     seconds = length_of("separation", output) if seconds is None else seconds
     check_options(1, seconds, fps, size)
     boundary = computed(data, None)

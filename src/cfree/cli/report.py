@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from cfree.paths.path import Path
     from cfree.planning.goals import AllSeparated
     from cfree.planning.separation import Separated
+    from cfree.planning.stuck import Stuck
     from cfree.scene.scene import Scene
     from cfree.verify import Verification
 
@@ -102,14 +103,21 @@ def boundary_facts(boundary: Boundary) -> dict[str, Any]:
     return asdict(boundary.stats) | {"isolated": len(boundary.isolated)}
 
 
-def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
+def answer_rows(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
     """Describe an answer in words and numbers."""
     from cfree.paths.clearance import clearance, rounded_down
     from cfree.paths.path import Path
     from cfree.planning.separation import Separated
+    from cfree.planning.stuck import Stuck
 
     unit = f" {scene.units}" if scene.units else ""
     if not isinstance(answer, Path):
+        if isinstance(answer, Stuck):
+            return {
+                "answer": answer_text(answer, scene),
+                "poses along contacts": f"{len(answer.rail):,}",
+                "touched obstacles": all_placed(scene, answer.obstacles),
+            }
         if not isinstance(answer, Separated):
             return {
                 "answer": answer_text(answer, scene),
@@ -128,6 +136,17 @@ def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[s
         "path length": f"{answer.length:.6g}{unit}",
         "total rotation": f"{math.degrees(answer.turning):.6g} degrees",
     }
+    if answer.vehicle:
+        facts = driving_facts(answer)
+        radius = facts["least radius"]
+        rows |= {
+            "changes of direction": facts["cusps"],
+            "backward": f"{facts['backward']:.6g}{unit} of {facts['travel']:.6g}{unit}, at the axle point",
+            "least radius": "none, all motions are straight" if radius is None else f"{radius:.6g}{unit}",
+            "shortest motion": f"{facts['shortest']:.6g}{unit}",
+        }
+        if answer.vehicle.kind == "differential":
+            rows["turned in place"] = f"{math.degrees(facts['in place']):.6g} degrees"
     if least := clearance(answer, scene):
         name = placed(scene, least.obstacle[0])
         rows["least clearance"] = f"{least.found:.6g}{unit}, in motion {least.motion}, to {name}"
@@ -135,29 +154,42 @@ def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[s
     return rows
 
 
-def answer_text(answer: Path | Separated | AllSeparated, scene: Scene) -> str:
+def answer_text(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -> str:
     """Return the statement of an answer."""
     from cfree.paths.path import Path
     from cfree.planning.separation import Separated
+    from cfree.planning.stuck import Stuck
+    from cfree.vehicles.vehicle import described
 
+    if isinstance(answer, Stuck):
+        return f"stuck, proved: {answer.sentence()}"
     keeping = f"{float(answer.clearance):g}{f' {scene.units}' if scene.units else ''}" if answer.clearance else ""
     if isinstance(answer, Path):
-        return f"a path, each motion proved free{f' and to keep {keeping}' if keeping else ''}"
-    verdict = {"closed": "no path at all, proved", "interior": "no path of positive clearance, proved"}[answer.of]
+        drives = f", which {described(answer.vehicle)} can drive" if answer.vehicle else ""
+        return f"a path, each motion proved free{f' and to keep {keeping}' if keeping else ''}{drives}"
+    verdict = {
+        "closed": "no path at all, proved",
+        "interior": "no path of positive clearance, proved",
+        "pieces": "no path of finitely many lines and arcs of the vehicle, proved",
+    }[answer.of]
     if keeping:
         verdict = f"no path that keeps {keeping}, proved"
     return verdict if isinstance(answer, Separated) else f"to none of the goals: {verdict}"
 
 
-def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[str, Any]:
+def answer_facts(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -> dict[str, Any]:
     """Describe an answer by numbers, for machines: lengths in the scene's unit, angles in radians."""
     from cfree.paths.clearance import clearance
     from cfree.paths.path import Path
     from cfree.planning.goals import AllSeparated
+    from cfree.planning.stuck import Stuck
 
     numbers: dict[str, Any]
     if isinstance(answer, AllSeparated):
         numbers = {"answer": "all separated", "of": answer.of, "goals": len(answer.goals), "proofs": len(answer.proofs)}
+        return numbers | {"obstacles": list(answer.obstacles)}
+    if isinstance(answer, Stuck):
+        numbers = {"answer": "stuck", "at": answer.at, "of": answer.of, "poses": len(answer.rail)}
         return numbers | {"obstacles": list(answer.obstacles)}
     if not isinstance(answer, Path):
         facts: dict[str, Any] = {"of": answer.of, "pieces": len(answer.pieces)}
@@ -165,6 +197,8 @@ def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[
         return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
     numbers = {"answer": "path", **motion_counts(answer)}
     numbers |= {"length": answer.length, "turning": answer.turning, "clearance": None}
+    if answer.vehicle:
+        numbers["driving"] = {"vehicle": answer.vehicle.kind, **driving_facts(answer)}
     if answer.clearance:
         numbers["asked clearance"] = float(answer.clearance)
     if least := clearance(answer, scene):
@@ -174,18 +208,33 @@ def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[
     return numbers
 
 
-def moved_rows(answer: Path | Separated | AllSeparated) -> dict[str, str]:
+def driving_facts(path: Path) -> dict[str, Any]:
+    """Describe how a vehicle drives a path: cusps, travel of the axle point, least radius, shortest part."""
+    parts = path.driving
+    lengths = [part.length for part in parts if part.gear != "turning"]
+    radii = [abs(float(part.radius)) for part in parts if part.radius]
+    return {
+        "cusps": path.cusps,
+        "travel": math.fsum(lengths),
+        "backward": math.fsum(part.length for part in parts if part.gear == "backward"),
+        "in place": math.fsum(abs(part.angle) for part in parts if part.gear == "turning"),
+        "least radius": min(radii, default=None),
+        "shortest": min(lengths, default=0.0),
+    }
+
+
+def moved_rows(answer: Path | Separated | Stuck | AllSeparated) -> dict[str, str]:
     """Describe moves of start and goals, in words."""
     return {f"{name} moved": f"from {text_of(asked)} to {text_of(end)}" for name, asked, end in _moves(answer)}
 
 
-def moved_facts(answer: Path | Separated | AllSeparated) -> dict[str, Any]:
+def moved_facts(answer: Path | Separated | Stuck | AllSeparated) -> dict[str, Any]:
     """Describe moves of start and goals by numbers: x, y and radians; a place has x and y alone."""
     moves = {name: {"from": _row(asked), "to": _row(end)} for name, asked, end in _moves(answer)}
     return {"moved": moves} if moves else {}
 
 
-def _moves(answer: Path | Separated | AllSeparated) -> list[tuple[str, Goal, Goal]]:
+def _moves(answer: Path | Separated | Stuck | AllSeparated) -> list[tuple[str, Goal, Goal]]:
     from cfree.planning.goals import AllSeparated
 
     if isinstance(answer, AllSeparated):

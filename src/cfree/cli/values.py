@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from cfree.words import counted
 
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
     from cfree.exact.pose import Pose
     from cfree.paths.preferences import Preferences
+    from cfree.vehicles.vehicle import Vehicle
 
 
 def read_numbers(text: str) -> list[int]:
@@ -119,6 +120,46 @@ def read_preferences(text: str | None) -> Preferences:
         return Preferences(**{name.strip(): float(value) for name, _, value in pairs})
     except ValueError as error:
         raise ValueError(f'--prefer: {text!r}: {error}; give some of {", ".join(names)}, as in "sideways=5"') from None
+
+
+def read_vehicle(
+    kind: str | None, radius: str | None, axle: str | None, heading: str | None, gears: str | None
+) -> Vehicle | Literal["any"] | None:
+    """Read a vehicle; None if no option is given, "any" for a robot that moves in any direction.
+
+    Raises
+    ------
+    ValueError
+        If an option does not belong to the vehicle, or is missing.
+    """
+    from cfree.vehicles.vehicle import Car, DifferentialDrive
+
+    given = {"--turning-radius": radius, "--axle": axle, "--heading": heading, "--gears": gears}
+    allowed = {"car": set(given), "differential": {"--axle", "--heading"}, "forklift": {"--axle", "--heading"}}
+    wrong = [name for name, value in given.items() if value is not None and name not in allowed.get(kind or "", set())]
+    if wrong:
+        cars = "of a car only; give --vehicle car" if kind is None else f"not of --vehicle {kind}; leave it out"
+        raise ValueError(f"{', '.join(wrong)}: {'of a vehicle; give --vehicle' if kind is None else cars}")
+    if kind is None or kind == "any":
+        return "any" if kind else None
+    frame: dict[str, Any] = {}
+    if axle is not None:
+        frame["axle"] = _two(axle, "--axle")
+    if heading is not None:
+        frame["heading"] = read_angle(heading, "--heading")
+    if kind != "car":
+        return DifferentialDrive(**frame)
+    if radius is None:
+        raise ValueError("--vehicle car: no turning radius; give --turning-radius")
+    both: Any = _two(radius, "--turning-radius") if "," in radius else radius
+    return Car(both, gears="forward" if gears == "forward" else "both", **frame)
+
+
+def _two(text: str, name: str) -> tuple[str, str]:
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise ValueError(f"{name}: {text!r}; give two numbers such as 1.5,0")
+    return parts[0], parts[1]
 
 
 def read_size(text: str) -> float:

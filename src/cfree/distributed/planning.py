@@ -19,6 +19,7 @@ from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.digest import Whole
 from cfree.scene.scene import Scene
 
@@ -76,7 +77,7 @@ class Surroundings:
         return True
 
 
-def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Separated:
+def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Separated | Stuck:
     """Path or proof, whose scene has the obstacles that it is about; `wishes` are options of `cfree.plan`."""
     for end in (start, goal):
         known.add_around(Path(end, []), MARGIN * known.work.store.radius)
@@ -84,10 +85,11 @@ def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> P
         margin = MARGIN * known.work.store.radius
         while True:
             answer = plan(known.scene, start, goal, **wishes | wish)
-            if isinstance(answer, Separated):
+            if isinstance(answer, Separated | Stuck):  # further obstacles do not change that
                 return replace(answer, whole=known.whole)
             assert isinstance(answer, Path)
             if not known.add_around(answer, margin):
                 break
             margin *= WIDER
+    assert isinstance(answer, Path)
     return replace(answer, whole=known.whole)

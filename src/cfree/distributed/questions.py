@@ -13,12 +13,13 @@ from cfree.distributed.tasks import Work, opened
 from cfree.exact.pose import Floats, Pose
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 
 Rows = Floats | list[Pose]
 """Poses x, y and theta in double precision, or exact ones."""
 
 
-def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str, Any]) -> Path | Separated:
+def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str, Any]) -> Path | Separated | Stuck:
     """Answer one query, as `Sharded.plan` does."""
     return plan_among(Surroundings(opened(folder, stamp)), start, goal, **wishes)
 

@@ -28,6 +28,7 @@ from cfree.free.space import FORBIDDEN, NO_CELL
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.scene import Scene, required
 from cfree.value import Value
 from cfree.verify.result import Verification
@@ -163,7 +164,7 @@ class Sharded(Value):
         improve: float | None = None,
         objective: Objective = "balanced",
         preferences: Preferences | None = None,
-    ) -> Path | Separated:
+    ) -> Path | Separated | Stuck:
         """A path among all obstacles, each motion proved free, or a proof that there is none.
 
         Only tiles near the paths tried are read: `tiles_read` is their number.
@@ -177,7 +178,7 @@ class Sharded(Value):
 
         Returns
         -------
-        Path or Separated
+        Path, Separated or Stuck
             Its `scene` has the obstacles that it is about, named by their numbers; `cfree.verify` can check it.
 
         Raises
@@ -200,7 +201,7 @@ class Sharded(Value):
         objective: Objective = "balanced",
         preferences: Preferences | None = None,
         client: Any = None,
-    ) -> list[Path | Separated]:
+    ) -> list[Path | Separated | Stuck]:
         """Answers to many queries, each as from `plan`, in their order.
 
         Parameters
@@ -313,23 +314,23 @@ class Sharded(Value):
         return known.scene
 
     @checked
-    def scene_for(self, answer: Path | Separated) -> tuple[Scene, Path | Separated]:
+    def scene_for(self, answer: Path | Separated | Stuck) -> tuple[Scene, Path | Separated | Stuck]:
         """Scene in which `cfree.verify.answer` checks an answer of this folder, and the answer in its numbers.
 
-        A path is checked among all obstacles near it, a separation among those that it is about.
+        A path is checked among all obstacles near it, a proof among those that it is about.
 
         Raises
         ------
         ValueError
-            If it is an answer of another folder, or a separation that does not name its obstacles.
+            If it is an answer of another folder, or a proof that does not name its obstacles.
         """
         whole = answer.whole
         if whole is not None and whole.sha256 != (mine := self.scene_sha256):
             what = f"about the scene of sha256 {whole.sha256[:12]}..., and this is the folder of {mine[:12]}..."
             raise ValueError(f"answer: {what}; give its own folder")
-        if isinstance(answer, Separated):
+        if not isinstance(answer, Path):
             if whole is None:
-                raise ValueError("answer: a separation that names no obstacles of a folder; give the scene it is about")
+                raise ValueError("answer: a proof that names no obstacles of a folder; give the scene it is about")
             return self.work.store.scene(whole.obstacles), replace(answer, whole=None)
         known = Surroundings(self.work)
         known.add_around(answer)

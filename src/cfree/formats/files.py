@@ -25,12 +25,13 @@ from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.scene import Scene
 
 
 @checked
 def save(
-    value: Scene | Boundary | FreeSpace | Path | Separated | AllSeparated | Mesh | Slice,
+    value: Scene | Boundary | FreeSpace | Path | Separated | Stuck | AllSeparated | Mesh | Slice,
     path: str | PathLike[str],
     *,
     step: float | None = None,
@@ -43,7 +44,7 @@ def save(
 
     Parameters
     ----------
-    value : Scene, Boundary, FreeSpace, Path, Separated, AllSeparated, Mesh or Slice
+    value : Scene, Boundary, FreeSpace, Path, Separated, Stuck, AllSeparated, Mesh or Slice
     path : path
         The suffix gives the format. Scenes: ``.json``, ``.geojson``, ``.svg`` or ``.dxf``. Boundaries: ``.npz``, or
         ``.parquet`` for a table of trapezoids. Free spaces: ``.npz``. Meshes: ``.glb``, ``.ply``, ``.obj`` or
@@ -90,7 +91,7 @@ def save(
             save_boundary(value, path)
         case FreeSpace():
             save_space(value, path)
-        case Separated() | AllSeparated():
+        case Separated() | Stuck() | AllSeparated():
             save_separation(value, path)
         case Mesh():
             save_mesh(value, path)
@@ -99,7 +100,7 @@ def save(
 
 
 @checked
-def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Separated | AllSeparated:
+def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Separated | Stuck | AllSeparated:
     """Read a scene, a boundary, a free space, a path or a separation; the file's content gives its kind.
 
     Raises

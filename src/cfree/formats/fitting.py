@@ -13,6 +13,7 @@ from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose
 from cfree.scene.reading import Note
 from cfree.scene.scene import AnyShape
+from cfree.vehicles.vehicle import Car, DifferentialDrive, Vehicle
 
 Pivot = Literal["centroid"] | Sequence[Number]
 FAR = 1
@@ -29,6 +30,8 @@ def scaled_settings(settings: Mapping[str, Any], ratio: Fraction) -> dict[str, A
             result[key] = _scaled_goal(result[key], ratio)
     if result.get("goals"):
         result["goals"] = tuple(_scaled_goal(goal, ratio) for goal in result["goals"])
+    if result.get("vehicle") is not None:
+        result["vehicle"] = fitted(result["vehicle"], ratio)
     return result
 
 
@@ -36,6 +39,21 @@ def _scaled_goal(goal: Any, ratio: Fraction) -> Any:
     if isinstance(goal, Pose):
         return Pose(goal.x * ratio, goal.y * ratio, {"tau": goal.tau})
     return goal[0] * ratio, goal[1] * ratio
+
+
+def fitted(vehicle: Vehicle, ratio: Fraction = Fraction(1), origin: ExactPoint = (Fraction(0), Fraction(0))) -> Vehicle:
+    """Return a vehicle of a robot whose lengths are multiplied by a ratio above 0, and whose origin is another point.
+
+    Examples
+    --------
+    >>> fitted(Car((4, 5), axle=(1, 0)), Fraction(1, 2)), fitted(DifferentialDrive((1, 0)), origin=(Fraction(3), 0))
+    (Car((2, 5/2), axle=(1/2, 0)), DifferentialDrive(axle=(-2, 0)))
+    """
+    (left, right), (x, y) = vehicle.radii, vehicle.axle
+    axle, heading = (x * ratio - origin[0], y * ratio - origin[1]), {"tau": vehicle.heading}
+    if vehicle.kind == "differential":
+        return DifferentialDrive(axle, heading)
+    return Car((left * ratio, right * ratio), axle, heading, vehicle.gears)
 
 
 def scaled_note(note: Note, ratio: float) -> Note:
@@ -96,6 +114,8 @@ def settings_about(settings: Mapping[str, Any], pivot: ExactPoint, *, is_placed:
         result["goals"] = tuple(
             _pose_about(goal, pivot) if isinstance(goal, Pose) else goal for goal in result["goals"]
         )
+    if result.get("vehicle") is not None:
+        result["vehicle"] = fitted(result["vehicle"], origin=pivot)
     return result
 
 

@@ -35,12 +35,13 @@ from cfree.polygons.polygon import Polygon
 from cfree.scene.goals import Goal
 from cfree.scene.reading import Note, together
 from cfree.scene.scene import AnyShape, Scene, default_name
+from cfree.vehicles.vehicle import Vehicle
 
 _TEXTS = ("name", "note", "units", "source")
 _LEAST, _MOST = Fraction(1, 10**300), Fraction(10**300)
 """Range of tolerances in the file's unit, so that they are doubles."""
 EXPORTS = (".geojson", ".svg", ".dxf")
-_SETTINGS = (*_TEXTS, "bounds", "start", "goal", "goals", "check", "version")
+_SETTINGS = (*_TEXTS, "bounds", "start", "goal", "goals", "vehicle", "check", "version")
 
 
 @checked
@@ -314,6 +315,8 @@ def scene_text(scene: Scene) -> str:
         lines["goal"] = _goal_text(scene.goals[0])
     elif scene.goals:
         lines["goals"] = _list([_goal_text(goal) for goal in scene.goals])
+    if scene.vehicle:
+        lines["vehicle"] = _vehicle_text(scene.vehicle)
     if scene.check:
         lines["check"] = _json(scene.check)
     if scene.reading:
@@ -322,6 +325,19 @@ def scene_text(scene: Scene) -> str:
 
 
 # writing
+
+
+def _vehicle_text(vehicle: Vehicle) -> str:
+    left, right = map(number_text, vehicle.radii)
+    members = {"type": f'"{vehicle.kind}"'}
+    if vehicle.kind == "car":
+        members["turning_radius"] = left if left == right else f"[{left}, {right}]"
+    members["axle"] = f"[{', '.join(map(number_text, vehicle.axle))}]"
+    if vehicle.heading != 0:
+        members["heading"] = _angle_text(vehicle.frame)
+    if vehicle.gears != "both":
+        members["gears"] = f'"{vehicle.gears}"'
+    return "{" + ", ".join(f'"{key}": {text}' for key, text in members.items()) + "}"
 
 
 def _shape(polygon: AnyShape, name: str = "") -> str:

@@ -6,6 +6,9 @@ from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
     from cfree.paths.clearance import Clearance as Clearance
+    from cfree.paths.driven import Driven as Driven
+    from cfree.paths.driving import Drivable as Drivable
     from cfree.paths.preferences import Unwanted as Unwanted
 
-__getattr__, __dir__, __all__ = lazy_names(__name__, {"clearance": "Clearance", "preferences": "Unwanted"})
+_HOMES = {"clearance": "Clearance", "driven": "Driven", "driving": "Drivable", "preferences": "Unwanted"}
+__getattr__, __dir__, __all__ = lazy_names(__name__, _HOMES)

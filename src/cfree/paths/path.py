@@ -21,10 +21,12 @@ from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
+from cfree.paths.driven import Driven, cusps, first_fault, parts_of
 from cfree.scene.digest import Stamp, Whole
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
 from cfree.value import Answer, Shown
+from cfree.vehicles.vehicle import Vehicle
 from cfree.words import counted
 
 STILL = Translation((0, 0))  # stands for the motion of a path that has none
@@ -65,6 +67,8 @@ class Path(Shown, Answer):
         The requested start and goal, if they were moved to free poses.
     whole : Whole, optional
         The scene of which `scene` has only some obstacles, if a folder was asked.
+    vehicle : Car or DifferentialDrive, optional
+        The vehicle that drives the path; None for a robot that moves in any direction.
 
     Examples
     --------
@@ -87,6 +91,7 @@ class Path(Shown, Answer):
     curved: Scene | None = field(default=None, compare=False)
     moved: Moved | None = None
     whole: Whole | None = field(default=None, compare=False)
+    vehicle: Vehicle | None = None
 
     def __init__(
         self,
@@ -101,8 +106,9 @@ class Path(Shown, Answer):
         curved: Scene | None = None,
         moved: Moved | None = None,
         whole: Whole | None = None,
+        vehicle: Vehicle | None = None,
     ) -> None:
-        given = (units, frame, scene, stamp, clearance, disc, curved, moved, whole)
+        given = (units, frame, scene, stamp, clearance, disc, curved, moved, whole, vehicle)
         values = (to_pose(start, "start"), tuple(motions), *given)
         for item, value in zip(fields(self), values, strict=True):
             object.__setattr__(self, item.name, value)
@@ -174,6 +180,36 @@ class Path(Shown, Answer):
     def turning(self) -> float:
         """Total rotation: the sum of all angles turned, without signs, in radians."""
         return math.fsum(abs(motion.turn) for motion in self.motions)
+
+    @cached_property
+    def driving(self) -> tuple[Driven, ...]:
+        """Gear, radius, length and angle of its parts: motions on one arc or line in one gear are one part.
+
+        It is empty for a robot that moves in any direction.
+
+        Raises
+        ------
+        ValueError
+            If its vehicle cannot drive it.
+
+        Examples
+        --------
+        >>> from cfree import Car, Rotation
+        >>> motions = [Translation((3, 0)), Rotation((3, 2), "90deg"), Rotation((3, 2), "-10deg")]
+        >>> path = Path(Pose(0, 0), motions, vehicle=Car(2))
+        >>> [(part.gear, part.curvature, round(part.length, 2)) for part in path.driving], path.cusps
+        ([('forward', 0.0, 3.0), ('forward', 0.5, 3.14), ('backward', 0.5, 0.35)], 1)
+        """
+        if self.vehicle is None:
+            return ()
+        if fault := first_fault(self.vehicle, self.poses, self.motions):
+            raise ValueError("motion {}: {}".format(*fault))
+        return parts_of(self.vehicle, self.poses, self.motions)
+
+    @property
+    def cusps(self) -> int:
+        """Number of changes between forward and backward; `driving` lists the parts."""
+        return cusps(self.driving)
 
     @checked
     def at(self, position: Number) -> Pose:

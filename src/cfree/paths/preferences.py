@@ -1,7 +1,7 @@
 """Preferences of a machine: cost factors of going sideways or backward and turning on the spot; costly motions.
 
 Forward is the x axis of the robot's frame, which turns with the robot. The travel of the reference point counts; in the
-robot's frame its direction is constant during a motion.
+robot's frame its direction is constant during a motion. A vehicle has its own forward, and its axle point counts.
 """
 
 from __future__ import annotations
@@ -16,11 +16,24 @@ import numpy as np
 from cfree.arguments import checked
 from cfree.paths.path import Path
 from cfree.scene.scene import Scene, robot_radius
+from cfree.vehicles.vehicle import Vehicle
 
 Kind = Literal["sideways", "backward", "turning"]
+BACKWARD = 1.5  # default factor for vehicles
 STEPS = 33  # poses sampled on a motion
 ASKEW = math.sin(math.radians(10))  # least sine of the direction that a report calls sideways
 LEAST = 0.01  # least amount in a report, in robot radii or radians
+
+
+@checked
+@dataclass(frozen=True)
+class Dues:
+    """Costs of driving: the factor of going backward, a cusp, a radian turned in place; and the robot's length."""
+
+    backward: float
+    cusp: float
+    in_place: float
+    length: float
 
 
 @checked
@@ -32,14 +45,17 @@ class Preferences:
     ----------
     sideways, backward : float, at least 1
         Cost of travel in these directions; in between as on an ellipse.
+        By default 1; for a path of a vehicle 1.5 backward, and it has no way sideways.
     turning : float, at least 1
         Cost of turning on the spot. A radian costs as much as travelling the robot's radius; on an arc of at least that
         radius this factor does not count.
+    cusp : float, at least 0, optional
+        Cost of a change between forward and backward, as a length; of vehicles only. The robot's length by default.
 
     Raises
     ------
     ValueError
-        If one is less than 1, or not finite.
+        If a factor is less than 1, the cost of a cusp negative, or one of them not finite.
 
     Notes
     -----
@@ -49,17 +65,20 @@ class Preferences:
     Examples
     --------
     >>> Preferences(sideways=5, turning=2)
-    Preferences(sideways=5, backward=1.0, turning=2)
+    Preferences(sideways=5, backward=None, turning=2, cusp=None)
     """
 
     sideways: float = 1.0
-    backward: float = 1.0
+    backward: float | None = None
     turning: float = 1.0
+    cusp: float | None = None
 
     def __post_init__(self) -> None:
-        for name in get_args(Kind):
-            if not 1 <= getattr(self, name) < math.inf:
-                raise ValueError(f"{name}={getattr(self, name)}: give a factor of 1 or more")
+        for name, factor in zip(get_args(Kind), self.factors, strict=True):
+            if not 1 <= factor < math.inf:
+                raise ValueError(f"{name}={factor}: give a factor of 1 or more")
+        if self.cusp is not None and not 0 <= self.cusp < math.inf:
+            raise ValueError(f"cusp={self.cusp}: give a length of 0 or more")
 
     @property
     def matter(self) -> bool:
@@ -69,16 +88,25 @@ class Preferences:
     @property
     def factors(self) -> tuple[float, float, float]:
         """The factors in the order of the parameters."""
-        return self.sideways, self.backward, self.turning
+        return self.sideways, 1.0 if self.backward is None else self.backward, self.turning
 
     @checked
     def cost(self, path: Path, scene: Scene) -> float:
-        """Return the cost of a path: its length plus its turning times the robot's radius, with these factors."""
+        """Return the cost of a path: its length plus its turning times the robot's radius, with these factors.
+
+        The cost of a vehicle's path is that of its travel, of its turns in place, and of its cusps.
+        """
         radius, cost = robot_radius(scene), 0.0
+        if path.vehicle is not None:
+            dues = dues_of(self, scene, path.vehicle)
+            for part in path.driving:
+                factor = dues.backward if part.gear == "backward" else 1.0
+                cost += factor * part.length + (dues.in_place * abs(part.angle) if part.gear == "turning" else 0.0)
+            return cost + dues.cusp * path.cusps
         if not self.matter:
             return path.length + radius * path.turning
         for ahead, across, travel, turn in _motions(path):
-            back = np.where(ahead < 0, self.backward, 1.0)
+            back = np.where(ahead < 0, self.factors[1], 1.0)
             dear = np.maximum(0.0, radius * turn - travel)
             factor = np.hypot(back * ahead, self.sideways * across)
             cost += float((factor * travel + radius * turn + (self.turning - 1) * dear).sum())
@@ -86,6 +114,31 @@ class Preferences:
 
 
 NONE = Preferences()
+
+
+def robot_length(scene: Scene, vehicle: Vehicle) -> float:
+    """Return the longer side of the box around the robot along the vehicle's forward direction.
+
+    Examples
+    --------
+    >>> from cfree import Car
+    >>> robot_length(Scene(robot=[(-1, -1), (3, -1), (3, 1), (-1, 1)]), Car(4, heading="90deg"))
+    4.0
+    """
+    points = np.concatenate([part.vertices for part in scene.robot])
+    extents = np.ptp(vehicle.frame.inverse().apply(points), axis=0)
+    return float(extents.max())
+
+
+def dues_of(preferences: Preferences, scene: Scene, vehicle: Vehicle) -> Dues:
+    """Return the costs of a vehicle, with their defaults."""
+    length = robot_length(scene, vehicle)
+    return Dues(
+        backward=BACKWARD if preferences.backward is None else preferences.backward,
+        cusp=length if preferences.cusp is None else preferences.cusp,
+        in_place=preferences.turning * robot_radius(scene),
+        length=length,
+    )
 
 
 @checked
@@ -167,7 +220,8 @@ def unwanted(path: Path, scene: Scene, preferences: Preferences) -> tuple[Unwant
 def _motions(path: Path) -> Iterator[tuple[np.ndarray, ...]]:
     """Yield each motion in steps: direction of travel in the robot's frame, ahead and across; travel; radians."""
     shares = np.linspace(0.0, 1.0, STEPS)
-    for pose, motion in zip(path.poses, path.motions, strict=False):
+    for robot, motion in zip(path.poses, path.motions, strict=False):
+        pose = robot @ path.vehicle.frame if path.vehicle else robot
         dx, dy = np.diff(motion.sample(pose, shares).xy, axis=0).T
         turn = motion.turn / (STEPS - 1)
         heading, chord = pose.theta + turn * (np.arange(STEPS - 1) + 0.5), np.hypot(dx, dy)

@@ -26,6 +26,7 @@ from cfree.planning.goals import AllSeparated, all_separated, cheapest, name_of,
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.polygons.disc import around_disc, inside_disc
 from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
@@ -106,7 +107,7 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
     scene, start, options, clearance = query.scene, query.start, query.options, query.options.clearance
     hi, disc, inside = math.inf, list[ExactPoint](), list[ExactPoint]()
 
-    def for_scene(path: Path | Separated) -> Path | None:
+    def for_scene(path: Path | Separated | Stuck) -> Path | None:
         """Convert to a path of the scene's robot; None if it has slides, which keep contacts of the larger robot."""
         if not isinstance(path, Path) or any(motion.contacts for motion in path.motions):
             return None
@@ -118,7 +119,7 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
         outer = PosePlanner(larger)
         ends = _ends(larger, start, goal) if is_free_at(PoseChecker(larger), start) else []
         ways = ([start] if start == end else outer.quick(start, end, options) for end in ends)
-        answers: list[Path | Separated] = [outer.improved(way, options) for way in ways if way]
+        answers: list[Path | Separated | Stuck] = [outer.answered(way, options) for way in ways if way]
         if paths := [path for path in map(for_scene, answers) if path]:
             return cheapest(paths, larger, options.preferences)
         if proofs := _proofs(query, goal, inside, name):
@@ -128,6 +129,10 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
             return cheapest(paths, larger, options.preferences)
         if all(isinstance(answer, Separated) and answer.of == "closed" for answer in answers):
             hi = _farthest(disc)
+    for held in answers:
+        if isinstance(held, Stuck):
+            more = f"if it keeps a little more than {float(clearance):g}"
+            raise UndecidedError(f"{held.at}: {held.sentence()}, {more}; give another clearance")
     smaller = _grown(scene, inside, scene.bounds)
     inner = PosePlanner(smaller)
     # the scene's bounds, not the wider ones of a proof

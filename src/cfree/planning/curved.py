@@ -34,17 +34,19 @@ from cfree.planning.options import Options
 from cfree.planning.planner import Planner, answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
 from cfree.scene.scene import robot_radius
 
-Answer = Path | Separated | AllSeparated
+Answer = Path | Separated | Stuck | AllSeparated
 Ask = Callable[[PosePlanner, Options], Answer]
 Decided = tuple[PosePlanner, Options]  # a planner for polygons that gave an answer, and its options
 POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
 NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
+AMONG = ", among polygons around the round shapes"
 TOUCHING = "these touch, or all but do; give a smaller tolerance, or other shapes"
 OUT_OF_WORK = f"{PATCHES:,} contact patches were not enough; give max_seconds or a tolerance for more, or other shapes"
 
@@ -97,7 +99,7 @@ class CurvedPlanner:
         clearance: Number | None = None,
         improve: float | None = None,
         objective: Objective = "balanced",
-    ) -> Path | Separated:
+    ) -> Path | Separated | Stuck:
         """See `cfree.plan`."""
         begin, end = to_pose(start, "start"), to_pose(goal, "goal")
         options = self._settings._options(clearance, improve, objective)
@@ -129,7 +131,7 @@ class CurvedPlanner:
             return answer_for_any(planner, begin, ends, options)
 
         answer = self._answer(ask, (begin, *ends), options)
-        assert not isinstance(answer, Separated)
+        assert not isinstance(answer, Separated | Stuck)
         return answer
 
     def _answer(self, ask: Ask, ends: Sequence[Goal], options: Options) -> Answer:
@@ -176,7 +178,7 @@ class CurvedQuery:
         try:
             return self._refined(ask, poses)
         except UndecidedError as error:
-            if not self.options.clearance:
+            if not self.options.clearance or error.path is not None:
                 raise
             lo, hi = self._around(ask, error.error)
             message = f"{error}; the largest clearance that a path keeps is between {lo:.8g} and {hi:.8g}"
@@ -228,7 +230,7 @@ class CurvedQuery:
             return None
         options, seconds = replace(self.options, work=self._work), self.options.max_seconds
         if not outward:
-            options = replace(options, improve=0.0)
+            options = replace(options, improve=0.0, vehicle=None)  # a proof holds for every vehicle
         if seconds is not None:
             options = replace(options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
         try:
@@ -236,12 +238,22 @@ class CurvedQuery:
         except OutOfWork:
             raise self._undecided(OUT_OF_WORK) from None
         except UndecidedError as error:
+            if isinstance(error.path, Path):  # finer polygons need no fewer manoeuvres
+                proof = self._for_curves(error.path)
+                raise UndecidedError(str(error), path=proof, manoeuvres=error.manoeuvres) from None
             lo, hi = self._interval
             self._interval = (max(lo, error.lo), hi) if outward else (lo, min(hi, error.hi))
+            if options.vehicle and not options.clearance:
+                self._reason = str(error)
             return None
         except IncompleteError:
             raise self._undecided(f"{seconds:g} seconds were not enough; give more") from None
         self.last = self._decided[outward] = planner, options
+        if isinstance(answer, Stuck):
+            self._reason = f"{answer.at}: {answer.sentence()}{AMONG}"
+            return None
+        if isinstance(answer, AllSeparated) and answer.of == "pieces":
+            self._reason = f"contacts hold the vehicle{AMONG}"
         return answer
 
     def _undecided(self, reason: str) -> UndecidedError:

@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn
 from cfree.arguments import checked
 from cfree.collision.nearest_free import refuse_forbidden
 from cfree.collision.pose_checker import PoseChecker
-from cfree.errors import InvalidPoseError
+from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.angle_interval import AngleInterval, orientation_of
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, pose_at
 from cfree.paths.path import Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.separation import NO_TRUTH_VALUE, Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.digest import Stamp
 from cfree.scene.goals import Goal, to_goals
@@ -46,18 +47,19 @@ class AllSeparated(Shown, Answer):
 
     Parameters
     ----------
-    proofs : tuple of Separated
+    proofs : tuple of Separated or Stuck
         All from one start: one for each goal that is a pose, and for each interval of free orientations at a place.
     places : tuple of (x, y)
         Goals at which any orientation will do.
-    of : "closed" or "interior"
+    of : "closed", "interior" or "pieces"
         "closed": no path at all leads to any of them. "interior": no path that keeps a distance does. Then a proof is
-        "interior", or an exact fit at a place is left out because its half-angle tangent is irrational.
+        "interior", or an exact fit at a place is left out because its half-angle tangent is irrational. "pieces": no
+        path of finitely many lines and arcs of the vehicle leads to any of them, as contacts hold it.
     """
 
-    proofs: tuple[Separated, ...]
+    proofs: tuple[Separated | Stuck, ...]
     places: tuple[ExactPoint, ...]
-    of: Literal["closed", "interior"]
+    of: Literal["closed", "interior", "pieces"]
 
     def __bool__(self) -> NoReturn:
         raise TypeError(f"{type(self).__name__}: {NO_TRUTH_VALUE}")
@@ -148,15 +150,29 @@ def plan_any(planner: PosePlanner, start: Pose, goals: Sequence[Goal], options: 
             poses |= dict.fromkeys(pose for pose in at_place if pose is not None)
             is_whole = is_whole and None not in at_place
 
-    ways = [planner.way(start, pose, options, few=True) for pose in poses]
-    if not any(isinstance(way, list) for way in ways):
-        pairs = zip(ways, poses, strict=True)
-        ways = [planner.way(start, pose, options) if way is None else way for way, pose in pairs]
-    free = [way for way in ways if isinstance(way, list)]
-    if free:
-        paths = [planner.improved(way, options.shared(len(free))) for way in free]
-        return cheapest(paths, planner.scene, options.preferences)
-    return all_separated([proof for proof in ways if isinstance(proof, Separated)], goals, is_whole=is_whole)
+    paths, proofs, undecided = list[Path](), list[Separated | Stuck](), None
+    left = list(poses)
+    for few in (True, False):
+        ways = {pose: planner.way(start, pose, options, few=few) for pose in left}
+        free = [way for way in ways.values() if isinstance(way, list)]
+        for way in free:
+            try:
+                answer = planner.answered(way, options.shared(len(free)))
+            except UndecidedError as error:  # of a vehicle
+                undecided = error
+                continue
+            if isinstance(answer, Path):
+                paths.append(answer)
+            else:
+                proofs.append(answer)
+        if paths:
+            return cheapest(paths, planner.scene, options.preferences)
+        proofs += [way for way in ways.values() if isinstance(way, Separated)]
+        left = [pose for pose, way in ways.items() if way is None]
+    if undecided is not None:
+        raise undecided
+    order = {pose: k for k, pose in enumerate(poses)}
+    return all_separated(sorted(proofs, key=lambda proof: order[proof.goal]), goals, is_whole=is_whole)
 
 
 def name_of(goals: Sequence[Goal], k: int) -> str:
@@ -169,11 +185,12 @@ def cheapest(paths: Sequence[Path], scene: Scene, preferences: Preferences) -> P
     return min(paths, key=lambda path: preferences.cost(path, scene))
 
 
-def all_separated(proofs: Sequence[Separated], goals: Sequence[Goal], *, is_whole: bool) -> AllSeparated:
+def all_separated(proofs: Sequence[Separated | Stuck], goals: Sequence[Goal], *, is_whole: bool) -> AllSeparated:
     """Combine the proofs for all goals; `is_whole` is True if no orientation at a place is left out."""
     is_closed = is_whole and all(proof.of == "closed" for proof in proofs)
     places = tuple(dict.fromkeys(goal for goal in goals if not isinstance(goal, Pose)))
-    return AllSeparated(tuple(proofs), places, "closed" if is_closed else "interior")
+    is_held = is_whole and all(isinstance(proof, Stuck) or proof.of == "closed" for proof in proofs)
+    return AllSeparated(tuple(proofs), places, "closed" if is_closed else "pieces" if is_held else "interior")
 
 
 def _poses_at(scene: Scene, place: ExactPoint, start: Pose, name: str) -> Iterator[Pose | None]:

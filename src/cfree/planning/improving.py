@@ -85,7 +85,18 @@ class Improver:
                 first.append(self._least(better))
             return better
 
-        best = self._best(make, poses, seconds, will_do)
+        return self._checked(poses, self._best(make, poses, seconds, will_do))
+
+    def balanced_once(self, poses: Sequence[Pose]) -> Sequence[Pose]:
+        """Return `balanced` without a time limit; Ctrl-C ends it without a result."""
+        if len(poses) < 2:
+            return poses
+        better = self._balanced(poses, 0)
+        better.merge()
+        return self._checked(poses, [*map(from_numbers, better.path())])
+
+    def _checked(self, poses: Sequence[Pose], best: Sequence[Pose]) -> Sequence[Pose]:
+        """Return the better path if it is free, exactly."""
         same_ends = best[0] == poses[0] and best[-1] == poses[-1]
         return best if same_ends and self.checker.joins(best) else poses  # the search is in doubles
 

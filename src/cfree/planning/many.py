@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
+from typing import Literal
 
 from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
@@ -14,7 +15,9 @@ from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.planner import Planner
 from cfree.planning.separation import Separated
-from cfree.scene.scene import Scene
+from cfree.planning.stuck import Stuck
+from cfree.scene.scene import Scene, vehicle_for
+from cfree.vehicles.vehicle import Vehicle
 
 
 @checked
@@ -25,9 +28,10 @@ def plan_many(
     improve: float | None = None,
     objective: Objective = "balanced",
     preferences: Preferences | None = None,
+    vehicle: Vehicle | Literal["any"] | None = None,
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
-) -> list[Path | Separated]:
+) -> list[Path | Separated | Stuck]:
     """Answer many planning queries in one scene.
 
     Parameters
@@ -39,6 +43,8 @@ def plan_many(
     objective : "balanced", "short" or "clear"
     preferences : Preferences, optional
         As in `plan`.
+    vehicle : Car, DifferentialDrive or "any", optional
+        As in `plan`.
     threads : int, optional
         All cores by default. The answers do not depend on it, unless `improve` is given.
     progress : callable, optional
@@ -46,7 +52,7 @@ def plan_many(
 
     Returns
     -------
-    list of Path or Separated
+    list of Path, Separated or Stuck
         In the order of the queries, as from `plan` with the free space known.
 
     Raises
@@ -73,9 +79,10 @@ def plan_many(
         raise ValueError(f"threads: {threads}; give at least 1")
     space = free_space(boundary(scene)) if isinstance(scene, Scene) else scene
     todo = list(queries)
-    planner, answers = Planner(space.boundary.scene, space, preferences=preferences or NONE), []
+    driver = vehicle_for(space.boundary.scene, vehicle)
+    planner, answers = Planner(space.boundary.scene, space, preferences=preferences or NONE, vehicle=driver), []
 
-    def answer_to(number: int) -> Path | Separated:
+    def answer_to(number: int) -> Path | Separated | Stuck:
         try:
             return planner.plan(*todo[number], improve=improve, objective=objective)
         except InvalidPoseError as error:

@@ -13,6 +13,7 @@ from cfree.exact.number import Number, to_fraction
 from cfree.paths.path import Objective
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.caller import Caller, Phase, Work
+from cfree.vehicles.vehicle import Vehicle
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +26,8 @@ class Options:
         As in `cfree.plan`.
     clearance : Fraction
         As in `cfree.plan`; 0 if none is wanted.
+    vehicle : Vehicle or None
+        The machine that drives; None for a robot that moves in any direction.
     phase, stop, work
         As in `Caller`.
     """
@@ -37,6 +40,7 @@ class Options:
     nearest_free: bool = False
     max_seconds: float | None = None
     progress: Callable[[float], object] | None = None
+    vehicle: Vehicle | None = None
     phase: Phase = nullcontext
     stop: threading.Event = field(default_factory=threading.Event)
     work: Work | None = None

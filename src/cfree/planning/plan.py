@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, cast, overload
+from typing import Any, Literal, cast, overload
 
 from cfree.arguments import checked
 from cfree.collision.approximations import Approximations
@@ -19,8 +19,10 @@ from cfree.planning.options import Options, to_distance, to_seconds
 from cfree.planning.planner import answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.goals import Goal, to_goals
-from cfree.scene.scene import Scene, required
+from cfree.scene.scene import Scene, required, vehicle_for
+from cfree.vehicles.vehicle import Vehicle
 
 
 @overload
@@ -37,7 +39,8 @@ def plan(
     progress: Callable[[float], object] | None = None,
     tolerance: float | None = None,
     nearest_free: bool = False,
-) -> Path | Separated: ...
+    vehicle: Vehicle | Literal["any"] | None = None,
+) -> Path | Separated | Stuck: ...
 @overload
 def plan(
     scene: Scene | FreeSpace,
@@ -52,7 +55,8 @@ def plan(
     progress: Callable[[float], object] | None = None,
     tolerance: float | None = None,
     nearest_free: bool = False,
-) -> Path | Separated | AllSeparated: ...
+    vehicle: Vehicle | Literal["any"] | None = None,
+) -> Path | Separated | Stuck | AllSeparated: ...
 @checked
 def plan(
     scene: Scene | FreeSpace,
@@ -67,7 +71,8 @@ def plan(
     progress: Callable[[float], object] | None = None,
     tolerance: float | None = None,
     nearest_free: bool = False,
-) -> Path | Separated | AllSeparated:
+    vehicle: Vehicle | Literal["any"] | None = None,
+) -> Path | Separated | Stuck | AllSeparated:
     """Plan a path from start to goal with every motion proved free, or prove that there is none.
 
     Parameters
@@ -98,11 +103,15 @@ def plan(
     nearest_free : bool
         Move a start or goal that is not free, or has less than the clearance, to the nearest free pose that a search
         finds. The answer has the requested ones: `Path.moved`, `Separated.moved`.
+    vehicle : Car, DifferentialDrive or "any", optional
+        The machine that drives the path; by default the scene's, if it has one. With "any" the robot moves in any
+        direction.
 
     Returns
     -------
-    Path, Separated or AllSeparated
-        A path leads to the goal with the shortest path found. `AllSeparated` is for places and lists.
+    Path, Separated, Stuck or AllSeparated
+        A path leads to the goal with the shortest path found. `AllSeparated` is for places and lists. `Stuck` is a
+        proof that contacts at one end hold the vehicle.
 
     Raises
     ------
@@ -111,7 +120,8 @@ def plan(
         place, in all orientations.
     IncompleteError
         If `max_seconds` ran out. Subclass `UndecidedError`: the clearance is within 0.1 % of the largest possible
-        (carries the interval), or the polygons for round shapes were too coarse (carries their error).
+        (carries the interval), or the polygons for round shapes were too coarse (carries their error), or a vehicle
+        needs too many manoeuvres (carries the proof that it can), or none without reverse gear were found.
 
     Notes
     -----
@@ -121,6 +131,10 @@ def plan(
     it prefers short ones of few motions. `clearance` certifies the distance that a path keeps. "clear" searches for a
     path of a robot grown by the largest margin that works, between the first and the last place on a short path where
     the grown robot fits.
+
+    A vehicle that reverses reaches every pose of its cell that touches nothing, whatever its turning radius. So
+    `Separated` is a proof for every vehicle. "balanced" keeps half of the distance that a path of the robot keeps
+    there, and no more than a twentieth of the robot's length.
 
     Examples
     --------
@@ -142,6 +156,7 @@ def plan(
         nearest_free=nearest_free,
         max_seconds=max_seconds,
         progress=progress,
+        vehicle=vehicle_for(scene, vehicle),
     )
     if not scene.curved and tolerance is not None:
         raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
@@ -154,7 +169,7 @@ def plan(
 
 def _answer(
     scene: Scene, space: FreeSpace | None, start: Pose, goals: Pose | tuple[Goal, ...], options: Options
-) -> Path | Separated | AllSeparated:
+) -> Path | Separated | Stuck | AllSeparated:
     """Answer a query for one pose, or for several goals, any of which will do."""
     ends = None
     if options.nearest_free:
@@ -162,7 +177,7 @@ def _answer(
         start, goals = ends.start, cast(Pose, ends.goals[0]) if isinstance(goals, Pose) else ends.goals
     refuse_far(start, goals)
 
-    def ask(planner: PosePlanner, options: Options) -> Path | Separated | AllSeparated:
+    def ask(planner: PosePlanner, options: Options) -> Path | Separated | Stuck | AllSeparated:
         if isinstance(goals, Pose):
             return answer_for_one(planner, start, goals, options)
         return answer_for_any(planner, start, goals, options)

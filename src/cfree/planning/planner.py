@@ -22,9 +22,11 @@ from cfree.planning.goals import AllSeparated, plan_any, refuse_far, several
 from cfree.planning.options import Options, to_distance, to_seconds
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
 from cfree.value import Value
+from cfree.vehicles.vehicle import Vehicle
 
 
 @checked
@@ -44,6 +46,8 @@ class Planner(Value):
     phase : callable, optional
         Called with the name of each long part of the work; returns a context for it. The context's value is called with
         the completed share of that part, or is None.
+    vehicle : Car or DifferentialDrive, optional
+        As in `plan`, for all queries; None is a robot that moves in any direction.
     """
 
     scene: Scene
@@ -54,14 +58,15 @@ class Planner(Value):
     phase: Phase = field(default=nullcontext, repr=False)
     stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends the work in other threads
     work: Work | None = field(default=None, repr=False)  # limits a query
+    vehicle: Vehicle | None = None
 
     @property
-    def _content(self) -> tuple[Scene, float | None, Preferences]:
+    def _content(self) -> tuple[Scene, float | None, Preferences, Vehicle | None]:
         """The settings, without computed data."""
-        return self.scene, self.max_seconds, self.preferences
+        return self.scene, self.max_seconds, self.preferences, self.vehicle
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Planner, (self.scene, self.space, self.max_seconds, self.preferences)
+        return Planner, (self.scene, self.space, self.max_seconds, self.preferences), {"vehicle": self.vehicle}
 
     @cached_property
     def _poses(self) -> PosePlanner:
@@ -92,7 +97,7 @@ class Planner(Value):
         clearance: Number | None = None,
         improve: float | None = None,
         objective: Objective = "balanced",
-    ) -> Path | Separated:
+    ) -> Path | Separated | Stuck:
         """See `cfree.plan`."""
         start = to_pose(start, "start")
         goal = to_pose(goal, "goal")
@@ -128,13 +133,14 @@ class Planner(Value):
             preferences=self.preferences,
             max_seconds=self.max_seconds,
             progress=self.progress,
+            vehicle=self.vehicle,
             phase=self.phase,
             stop=self.stop,
             work=self.work,
         )
 
 
-def answer_for_one(planner: PosePlanner, start: Pose, goal: Pose, options: Options) -> Path | Separated:
+def answer_for_one(planner: PosePlanner, start: Pose, goal: Pose, options: Options) -> Path | Separated | Stuck:
     """Answer a query for one pose."""
     if options.clearance:
         return plan_at_distance(planner.scene, start, goal, options)

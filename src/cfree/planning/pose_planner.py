@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -27,8 +28,10 @@ from cfree.planning.keep_clear import clear
 from cfree.planning.near_poles import near_poles
 from cfree.planning.options import Options
 from cfree.planning.separation import Separated, known_scene
+from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, robot_radius
+from cfree.vehicles.vehicle import Vehicle
 
 COMPLETE = 30_000  # most contact patches of a grown robot whose free space is computed
 
@@ -72,11 +75,11 @@ class PosePlanner:
             self._space = built_space(self.scene, self.checker.features, *built)
         return self._space
 
-    def path_or_proof(self, start: Pose, goal: Pose, options: Options) -> Path | Separated:
+    def path_or_proof(self, start: Pose, goal: Pose, options: Options) -> Path | Separated | Stuck:
         """Return an improved path, or a proof; a clearance is not kept."""
         way = self.way(start, goal, options)
         assert way is not None, "the search was complete"
-        return self.improved(way, options) if isinstance(way, list) else way
+        return self.answered(way, options) if isinstance(way, list) else way
 
     def way(self, start: Pose, goal: Pose, options: Options, *, few: bool = False) -> list[Pose] | Separated | None:
         """Return poses of a path, or a proof; None if `few` surfaces do not decide. Swapped ends give the same."""
@@ -109,8 +112,12 @@ class PosePlanner:
         way = self._planner.quick(end_of(start), end_of(goal), options.caller())
         return None if way is None else [*map(from_numbers, way)]
 
+    def answered(self, way: Sequence[Pose], options: Options) -> Path | Stuck:
+        """Improve a path, given by its poses; a vehicle drives near it, or may be stuck at its ends."""
+        return self.improved(way, options) if options.vehicle is None else self._driven(way, options.vehicle, options)
+
     def improved(self, way: Sequence[Pose], options: Options) -> Path:
-        """Improve a path, given by its poses."""
+        """Improve a path of a robot that moves in any direction, given by its poses."""
         parts = self._without_slides(way)
         own, objective = options.shared(len(parts)), options.objective
         with options.phase("clearer paths" if objective == "clear" else "shorter paths"):
@@ -146,6 +153,17 @@ class PosePlanner:
         costs = self.angle_scale, *options.preferences.factors
         searcher = _core.Searcher(self._known, [end_of(pose)[1] for pose in poses], costs)
         return Improver(self.scene, self.checker, searcher, options.preferences, options.stop)
+
+    def _driven(self, way: Sequence[Pose], vehicle: Vehicle, options: Options) -> Path | Stuck:
+        """Return a path of a vehicle between the ends of a path of the robot, or a proof that it is stuck."""
+        from cfree.planning.vehicles import Question, joined
+
+        with options.phase("driving"):
+            question = Question(self, self._known, vehicle, replace(options, vehicle=None))
+            answer = joined(question, way[0], way[-1], way)
+        if answer.goal != way[-1]:
+            raise InvariantError("a path of a vehicle ends elsewhere", state=answer)
+        return answer
 
     def _slide(self, a: Pose, b: Pose) -> Slide | None:
         """Return the slide that joins two poses; None if there is none."""

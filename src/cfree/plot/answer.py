@@ -22,6 +22,7 @@ from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.plot.boundary import (
     around,
     new_figure,
@@ -44,7 +45,7 @@ from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
 from cfree.scene.naming import all_placed, numbered, placed
-from cfree.scene.scene import Scene, box_of, robot_radius
+from cfree.scene.scene import Scene, box_of, robot_radius, with_ends
 from cfree.words import MOST_NAMES, listed
 
 Floats = NDArray[np.float64]
@@ -103,7 +104,7 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
 
 @checked
 def picture(
-    answer: Path | Separated | AllSeparated | Scene | Shapes,
+    answer: Path | Separated | Stuck | AllSeparated | Scene | Shapes,
     scene: Scene | None = None,
     boundary: Boundary | None = None,
     *,
@@ -113,8 +114,9 @@ def picture(
 
     Parameters
     ----------
-    answer : Path, Separated, AllSeparated, Scene or Shapes
-        The first of several proofs is drawn. A scene is drawn as by `plot_workspace`, round shapes with many edges.
+    answer : Path, Separated, Stuck, AllSeparated, Scene or Shapes
+        The first of several proofs is drawn; of a vehicle that is stuck, the scene with its start and goal. A scene is
+        drawn as by `plot_workspace`, round shapes with many edges.
         Over a scene or shapes the record of reading is drawn: lost lines red, guessed outlines hatched in orange,
         joined gaps as dots.
     scene : Scene, optional
@@ -160,10 +162,9 @@ def picture(
         return drawn
     if isinstance(answer, AllSeparated):
         answer = answer.proofs[0]
-    scene = scene or answer.curved or answer.scene
-    if scene is None:
-        raise ValueError("scene: the answer knows none, as it was read from a file; give the one it is an answer for")
-    scene = of_polygons(answer, scene)
+    if isinstance(answer, Stuck):
+        return picture(with_ends(_scene_of(answer, scene), answer.start, answer.goal))
+    scene = of_polygons(answer, _scene_of(answer, scene))
     if isinstance(answer, Separated):
         return _picture_of_separation(answer, scene)
     track = Track.of(answer, scene)
@@ -173,6 +174,13 @@ def picture(
         _draw_track(_right(figure), track, boundary)
     _head(figure, scene, "a free path", statement(track))
     return figure
+
+
+def _scene_of(answer: Path | Separated | Stuck, scene: Scene | None) -> Scene:
+    scene = scene or answer.curved or answer.scene
+    if scene is None:
+        raise ValueError("scene: the answer knows none, as it was read from a file; give the one it is an answer for")
+    return scene
 
 
 def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:

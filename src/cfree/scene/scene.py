@@ -31,6 +31,7 @@ from cfree.scene.goals import Goal, to_goals
 from cfree.scene.reading import Note, in_order
 from cfree.scene.reading_lines import losses
 from cfree.value import Keeping, Shown
+from cfree.vehicles.vehicle import Vehicle
 from cfree.words import counted
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
@@ -60,6 +61,9 @@ class Scene(Shown, Keeping):
         Configurations, theta as `Pose` takes it. A goal may also be a place (x, y), at which any orientation will do.
     goals : sequence of such, optional
         Several goals instead of one: any one of them will do. The attribute also holds a place given as `goal`.
+    vehicle : Car or DifferentialDrive, optional
+        The machine that `plan` drives; by default the robot moves in any direction. The robot's shapes decide what
+        is free, for any vehicle.
     units, name, note : str, optional
         Unit of length, title and remarks.
     source : mapping of str to str, optional
@@ -104,6 +108,7 @@ class Scene(Shown, Keeping):
     start: Pose | None
     goal: Pose | None
     goals: tuple[Goal, ...]
+    vehicle: Vehicle | None
     units: str
     name: str
     note: str
@@ -124,6 +129,7 @@ class Scene(Shown, Keeping):
         start: PoseLike | None = None,
         goal: PoseLike | Sequence[PoseLike] | None = None,
         goals: Sequence[PoseLike] = (),
+        vehicle: Vehicle | None = None,
         units: str = "",
         name: str = "",
         note: str = "",
@@ -166,6 +172,7 @@ class Scene(Shown, Keeping):
             "start": None if start is None else to_pose(start, "start"),
             "goal": aim,
             "goals": aims if aim is None else (),
+            "vehicle": vehicle,
             "units": units,
             "name": name,
             "note": note,
@@ -322,7 +329,7 @@ def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Sc
             f"no polygon inside the {'workspace' if robot else 'robot'} can be proved: it is too thin, or has cusps",
             error=max(errors),
         )
-    settings = {key: getattr(scene, key) for key in ("bounds", "start", "units", "name", "reading")}
+    settings = {key: getattr(scene, key) for key in ("bounds", "start", "vehicle", "units", "name", "reading")}
     return Scene(
         robot,
         [polygon for _, polygon in named],
@@ -424,6 +431,11 @@ def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
         object.__setattr__(other, "goal", goal)
         object.__setattr__(other, "goals", ())
     return other
+
+
+def vehicle_for(scene: Scene, vehicle: Vehicle | Literal["any"] | None) -> Vehicle | None:
+    """Return the vehicle of a query: the scene's, unless another is given; "any" is none."""
+    return scene.vehicle if vehicle is None else None if vehicle == "any" else vehicle
 
 
 def default_name(index: int) -> str:
@@ -543,6 +555,7 @@ def with_obstacles(scene: Scene, obstacles: Sequence[Polygon], names: Sequence[s
         start=scene.start,
         goal=scene.goal,
         goals=scene.goals,
+        vehicle=scene.vehicle,
         units=scene.units,
         name=scene.name,
         reading=scene.reading,

@@ -15,12 +15,15 @@ from cfree.formats.answers.answer_file import read_answer
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.digest import Stamp, Whole, stamp_of
 from cfree.scene.goals import Moved, text_of, text_of_move
 from cfree.scene.reading import Note, together
 from cfree.scene.reading_lines import Claim
 from cfree.scene.scene import Scene, round_count, shapes_of
+from cfree.vehicles.vehicle import described
 from cfree.verify.curves import mismatches
+from cfree.verify.driving import DRIVABLE, driving_findings
 from cfree.verify.leeway import is_around_disc, roomier, turning, with_disc
 from cfree.verify.motions import (
     CLEARANCE,
@@ -36,6 +39,7 @@ from cfree.verify.motions import (
 from cfree.verify.orientations import left_out
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
+from cfree.verify.stuck import HELD, stuck_findings
 from cfree.verify.whole import part_of, renumbered, whole_of
 from cfree.verify.world import World
 from cfree.words import counted
@@ -55,7 +59,7 @@ NO_ROOM = {
 @checked
 def answer(
     scene: Scene,
-    answer: Path | Separated | AllSeparated | str | os.PathLike[str],
+    answer: Path | Separated | Stuck | AllSeparated | str | os.PathLike[str],
     *,
     progress: Callable[[float], object] | None = None,
 ) -> Verification:
@@ -65,7 +69,7 @@ def answer(
     ----------
     scene : Scene
         If it has a start and a goal, these must be the answer's.
-    answer : Path, Separated, AllSeparated or path
+    answer : Path, Separated, Stuck, AllSeparated or path
         A file written by `cfree.save`, or an answer in memory (its scene is then not compared).
     progress : callable, optional
         Function called with the share done, from 0 to 1.
@@ -117,7 +121,7 @@ def answer(
         part = part_scene
         outcome = renumbered(outcome, whole.obstacles) if isinstance(outcome, Path) else outcome
     if scene.curved:
-        if outcome.scene is None:
+        if outcome.scene is None or isinstance(outcome, Stuck):
             finding = Finding(ROUND, "polygons", "the answer has none for the round shapes of the scene")
             return Verification((Check(ROUND, REFUTED, "nothing else was checked"),), (finding,), (), _since(begin))
         wrong = mismatches(scene, outcome.scene, outward=isinstance(outcome, Path))
@@ -136,6 +140,9 @@ def answer(
             )
         findings += [Finding(name, name, NO_ROOM[name]) for name, there in larger.items() if there is None]
         findings += path_findings(outcome, world, report, {name: there for name, there in larger.items() if there})
+        findings += driving_findings(outcome)
+    elif isinstance(outcome, Stuck):
+        findings += stuck_findings(outcome, world if whole is None else World(part))
     else:
         findings += separation_findings(outcome, world if whole is None else World(part), report)
     report(1.0)
@@ -146,7 +153,7 @@ def answer(
         **(_of_curves(scene, outcome) if scene.curved else {}),
         PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them",
         ENDS: "both are free" + (" among the polygons" if scene.curved else ""),
-        **(_of_path(outcome) if isinstance(outcome, Path) else _of_separation(outcome)),
+        **_of_kind(outcome),
         **_of_decimals(read),
     }
     refuted = {finding.kind for finding in findings}
@@ -159,12 +166,12 @@ def answer(
     return Verification(checks, tuple(findings), (), _since(begin), proved, _record(scene, outcome), _claim(outcome))
 
 
-def _record(scene: Scene, outcome: Path | Separated | AllSeparated) -> tuple[Note, ...]:
+def _record(scene: Scene, outcome: Path | Separated | Stuck | AllSeparated) -> tuple[Note, ...]:
     """Return the records of reading of the scene and of the answer's file."""
     return together(scene.reading, outcome.stamp.reading if outcome.stamp else ())
 
 
-def _claim(outcome: Path | Separated | AllSeparated) -> Claim:
+def _claim(outcome: Path | Separated | Stuck | AllSeparated) -> Claim:
     return "path" if isinstance(outcome, Path) else "no path"
 
 
@@ -187,15 +194,17 @@ def _all_of(scene: Scene, outcome: AllSeparated, report: Callable[[float], objec
         result = answer(without, proof)
         findings += [Finding(fault.kind, f"proof {k}: {fault.where}", fault.text) for fault in result.findings]
         checks.append(Check(f"proof {k}", PROVED if result.verified else REFUTED, result.proved or "see below"))
-        if proof.start != outcome.start or (outcome.of == "closed" and proof.of != "closed"):
+        wrong_kind = {"closed": proof.of != "closed", "pieces": proof.of == "interior", "interior": False}
+        if proof.start != outcome.start or wrong_kind[outcome.of]:
             findings.append(Finding(QUERY, f"proof {k}", "its start differs, or it proves less than all claim"))
     for place in outcome.places:
         there = [proof for proof in outcome.proofs if (proof.goal.x, proof.goal.y) == place]
+        about = [proof for proof in there if isinstance(proof, Separated)]
         where = f"({float(place[0]):g}, {float(place[1]):g})"
         turned = world
         has_clearance = bool(there) and bool(there[0].clearance)
         if world and has_clearance:
-            turned = turning(world, there[0]) if _is_one_robot(there) else None
+            turned = turning(world, about[0]) if about and _is_one_robot(about) else None
             if turned is None:
                 text = "the smaller robots of its proofs differ, or one is not convex, or too large to turn there"
                 findings.append(Finding(TURNS, where, text))
@@ -230,7 +239,7 @@ def _since(begin: float) -> float:
     return time.perf_counter() - begin
 
 
-def _other_poses(scene: Scene, outcome: Path | Separated) -> list[Finding]:
+def _other_poses(scene: Scene, outcome: Path | Separated | Stuck) -> list[Finding]:
     """Findings for a start and a goal that are not the scene's, or were moved from there."""
     requested = outcome.moved or Moved()
     pairs = {"start": (scene.start, outcome.start, requested.start), "goal": (scene.goal, outcome.goal, requested.goal)}
@@ -246,7 +255,7 @@ def _other_poses(scene: Scene, outcome: Path | Separated) -> list[Finding]:
     return findings
 
 
-def _of_moved(outcome: Path | Separated) -> dict[str, str]:
+def _of_moved(outcome: Path | Separated | Stuck) -> dict[str, str]:
     """Moves of start and goal, in words."""
     requested = outcome.moved or Moved()
     pairs = (("start", requested.start, outcome.start), ("goal", requested.goal, outcome.goal))
@@ -261,7 +270,7 @@ def _has_room(world: World, place: ExactPoint) -> bool:
     return x0 <= place[0] <= x1 and y0 <= place[1] <= y1 and left_out(world, place, []) != (0, 0)
 
 
-def _is_left(outcome: Path | Separated) -> bool:
+def _is_left(outcome: Path | Separated | Stuck) -> bool:
     """True if it is not checked that the requested pose of a moved end is forbidden."""
     return (
         bool(outcome.clearance)
@@ -270,7 +279,7 @@ def _is_left(outcome: Path | Separated) -> bool:
     )
 
 
-def _needless(outcome: Path | Separated, world: World) -> list[Finding]:
+def _needless(outcome: Path | Separated | Stuck, world: World) -> list[Finding]:
     """Findings for ends that were moved although their poses are free."""
     requested, findings = outcome.moved or Moved(), list[Finding]()
     for name, end in (("start", requested.start), ("goal", requested.goal)):
@@ -282,7 +291,7 @@ def _needless(outcome: Path | Separated, world: World) -> list[Finding]:
     return findings
 
 
-def other_scene(scene: Scene, outcome: Path | Separated | AllSeparated) -> Finding | None:
+def other_scene(scene: Scene, outcome: Path | Separated | Stuck | AllSeparated) -> Finding | None:
     """Return a finding if an answer is for another scene than this one, and not for a part of it."""
     if whole_of(scene, outcome) is not None or (its := outcome.stamp) is None or its == (stamp := stamp_of(scene)):
         return None
@@ -296,14 +305,14 @@ def _box(stamp: Stamp) -> str:
     return f"[{', '.join(map(str, stamp.robot))}]"
 
 
-def _of_scene(outcome: Path | Separated | None, whole: Whole | None, count: int) -> dict[str, str]:
+def _of_scene(outcome: Path | Separated | Stuck | None, whole: Whole | None, count: int) -> dict[str, str]:
     """Statement about the scene, if a file names its scene or an answer is about some of the obstacles."""
     if whole is not None:
         return {SCENE: f"the answer is about {len(whole.obstacles):,} of its {count:,} obstacles, and true among all"}
     return {SCENE: "the one that the answer is for"} if outcome is not None and outcome.stamp else {}
 
 
-def _of_curves(scene: Scene, outcome: Path | Separated) -> dict[str, str]:
+def _of_curves(scene: Scene, outcome: Path | Separated | Stuck) -> dict[str, str]:
     count = round_count(shapes_of(scene))
     around, inside = ("around", "inside") if isinstance(outcome, Path) else ("inside", "around")
     what = f"{count:,}: the answer's polygons are {around} those of robot and obstacles, {inside} a workspace"
@@ -320,6 +329,14 @@ def _of_decimals(read: Read | None) -> dict[str, str]:
     return {DECIMALS: f"also free as doubles: the path keeps {room:.3g}, four times their error"}
 
 
+def _of_kind(outcome: Path | Separated | Stuck) -> dict[str, str]:
+    if isinstance(outcome, Path):
+        return _of_path(outcome)
+    if isinstance(outcome, Stuck):
+        return {HELD: f"{counted(len(outcome.rail), 'pose')}: no first motion of the vehicle leaves its contacts"}
+    return _of_separation(outcome)
+
+
 def _of_path(path: Path) -> dict[str, str]:
     slides = sum(motion.kind == "slide" for motion in path.motions)
     texts = {KEPT: f"{counted(slides, 'slide')}: two vertices on their edges, all the way"} if slides else {}
@@ -329,6 +346,7 @@ def _of_path(path: Path) -> dict[str, str]:
     return texts | {
         CONTINUOUS: f"{count} from the start to the goal, one after the other",
         FREE: f"{count}: at no pose does the robot overlap anything",
+        **({DRIVABLE: f"{count}: {described(path.vehicle)} can do each"} if path.vehicle else {}),
     }
 
 
@@ -346,14 +364,18 @@ def _of_separation(proof: Separated) -> dict[str, str]:
     }
 
 
-def _sentence(outcome: Path | Separated, read: Read | None) -> str:
+def _sentence(outcome: Path | Separated | Stuck, read: Read | None) -> str:
     requested, far = outcome.moved or Moved(), f"{float(outcome.clearance):g} from obstacles and workspace"
     ends = text_of_move(requested.start, outcome.start), text_of_move(requested.goal, outcome.goal)
     if isinstance(outcome, Path):
         count = counted(len(outcome.motions), "motion")
         only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
         keeps = f"keeps {far}" if outcome.clearance else "is free of collisions"
-        return f"A path of {count} leads from {ends[0]} to {ends[1]}, and {keeps}{only}."
+        drives = f"; {described(outcome.vehicle)} can drive it" if outcome.vehicle else ""
+        return f"A path of {count} leads from {ends[0]} to {ends[1]}, and {keeps}{only}{drives}."
+    if isinstance(outcome, Stuck):
+        sentence = outcome.sentence()
+        return f"From {ends[0]} to {ends[1]}: {sentence}."
     return _none_leads(outcome, f"leads from {ends[0]} to {ends[1]}")
 
 
@@ -362,4 +384,6 @@ def _none_leads(outcome: Separated | AllSeparated, anywhere: str) -> str:
         return f"No path that keeps {float(outcome.clearance):g} from obstacles and workspace {anywhere}."
     if outcome.of == "closed":
         return f"No path {anywhere}, not even one that touches."
+    if outcome.of == "pieces":
+        return f"No path of finitely many lines and arcs of the vehicle {anywhere}."
     return f"No path that keeps a distance from everything {anywhere}; one that touches may."

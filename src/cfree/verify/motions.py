@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from cfree.exact.pose import Pose
     from cfree.paths.path import Path
     from cfree.planning.separation import Separated
+    from cfree.planning.stuck import Stuck
     from cfree.verify.world import World
 
 ENDS, CONTINUOUS, FREE, KEPT = "start and goal", "continuous", "free of collisions", "contacts kept"
@@ -85,7 +86,7 @@ def _course_in(there: World, placed: Placed, motion: Motion, world: World) -> Co
     return Course((factor * x, factor * y, c, s), motion, there.scale)
 
 
-def end_findings(answer: Path | Separated, world: World) -> Iterator[Finding]:
+def end_findings(answer: Path | Separated | Stuck, world: World) -> Iterator[Finding]:
     """Findings for a forbidden start and goal."""
     for name, pose in (("start", answer.start), ("goal", answer.goal)):
         if (fault := fault_at(pose, world)) is not None:

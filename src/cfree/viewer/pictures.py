@@ -24,6 +24,7 @@ from cfree.paths.path import Path
 from cfree.paths.travel import Travel, ghosts
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.plot.labels import BODY, CORNERS, LINE, MAY, WALL
 from cfree.plot.looks import EDGES, smooth
 from cfree.plot.workspace import roomiest
@@ -58,7 +59,7 @@ def picture(value: object) -> str | None:
             return _workspace(smooth(value), [value.start], [value.goal, *value.goals], (), repr(value))
         case Path():
             return _path(value)
-        case Separated() | AllSeparated():
+        case Separated() | Stuck() | AllSeparated():
             return _apart(value)
         case Slice():
             panel = _plane(value.boundary.scene, WIDTH, HEIGHT)
@@ -190,7 +191,7 @@ def _path(path: Path) -> str:
     return _workspace(scene, [path.start], [path.goal], (), caption, rows)
 
 
-def _apart(proof: Separated | AllSeparated) -> str | None:
+def _apart(proof: Separated | Stuck | AllSeparated) -> str | None:
     if proof.scene is None:
         return None
     proofs = proof.proofs if isinstance(proof, AllSeparated) else (proof,)

@@ -84,6 +84,8 @@ class Widget(AnyWidget):
     def answer(self) -> Path | Separated | None:
         """The answer for `scene`: the shown path, proved free again, or that of `cfree.plan`; None without a goal.
 
+        As on the page, the robot moves in any direction: a vehicle of the scene does not count.
+
         Raises
         ------
         ForbiddenPoseError
@@ -95,7 +97,7 @@ class Widget(AnyWidget):
         if question != self._question:
             question, scene = self._question, self.scene
             answer = self._shown(scene)
-            answer = plan(scene, self.start, self.goal) if answer is None else answer
+            answer = plan(scene, self.start, self.goal, vehicle="any") if answer is None else answer
             self._answer = question, answer
         return answer
 

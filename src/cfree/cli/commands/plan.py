@@ -13,7 +13,7 @@ from cfree.cli import drawing, options, reading
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import check_outputs, planner_of
 from cfree.cli.options import Word, examples, file_option
-from cfree.cli.values import read_goals, read_length, read_pose, read_preferences, read_seconds
+from cfree.cli.values import read_goals, read_length, read_pose, read_preferences, read_seconds, read_vehicle
 
 if TYPE_CHECKING:
     from cfree.formats.answers.answer_file import Form
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         "cfree plan scene.json --clearance 0.3",
         "cfree plan scene.json --goal 5,3 --nearest-free",
         "cfree plan scene.json --prefer sideways=5,turning=2 --picture way.png",
+        "cfree plan scene.json --vehicle car --turning-radius 4 --axle -1.3,0.111 --prefer backward=3",
         "cfree plan scene.json --what-if --picture blockers.png",
         "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
     ),
@@ -92,7 +93,27 @@ if TYPE_CHECKING:
 @click.option(
     "--prefer",
     metavar="FACTORS",
-    help='Set costs relative to driving ahead, as "sideways=5,backward=2,turning=3"; the answer lists such motions.',
+    help='Set costs relative to driving ahead, as "sideways=5,backward=2,turning=3"; the answer lists such motions. '
+    'For a vehicle also "cusp=2", the length that a change of direction costs.',
+)
+@click.option(
+    "--vehicle",
+    type=Word(["car", "differential", "forklift", "any"]),
+    metavar="WORD",
+    help='Drive as a "car", "differential" drive or "forklift", about its fixed axle; "any" moves sideways.',
+    show_default="the scene's",
+)
+@click.option("--turning-radius", metavar="R", help="Limit the arcs of a car; or LEFT,RIGHT.")
+@click.option(
+    "--axle", metavar="X,Y", help="Place the middle of the fixed axle, in the robot's frame.", show_default="0,0"
+)
+@click.option("--heading", metavar="ANGLE", help="Turn forward in the robot's frame.", show_default="0deg")
+@click.option(
+    "--gears",
+    type=Word(["both", "forward"]),
+    metavar="WORD",
+    help='Let a car go in "both" gears, or "forward" only.',
+    show_default="both",
 )
 @options.picture
 @file_option("--film", metavar="FILE", help="Write a film of the path or the proof: .mp4 or .gif.")
@@ -113,7 +134,8 @@ if TYPE_CHECKING:
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: Form | None, step: str | None,
     turn: str | None, speed: str | None, clearance: str | None, nearest_free: bool, improve: str | None,
-    objective: Objective, prefer: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
+    objective: Objective, prefer: str | None, vehicle: str | None, turning_radius: str | None, axle: str | None,
+    heading: str | None, gears: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
     part: Path | None, max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
@@ -121,7 +143,8 @@ def plan(
     Each motion is proved free. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads; or a
     boundary written by cfree boundary -o; or a folder written by cfree boundary --folder, of which only tiles near the
     path are read. Exit code 0: a path; 1: proved impossible; 2: bad input; 3: undecided, by a limit, because only paths
-    that touch may exist, because the clearance is too near to the largest, or because round shapes almost touch.
+    that touch may exist, because the clearance is too near to the largest, because round shapes almost touch, or
+    because a vehicle needs too many manoeuvres.
     """
     with one_line_faults():
         from cfree.cli.answering import Answering, Sampling
@@ -146,7 +169,10 @@ def plan(
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         how: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": objective}
-        planner: Any = planner_of(scene, max_seconds, read_preferences(prefer))
+        driver = read_vehicle(vehicle, turning_radius, axle, heading, gears)
+        if scene.is_dir():
+            options.refuse("not for a folder", "vehicle", remedy="give the scene itself")
+        planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), driver)
         if (miss or what_if) and planner.scene.curved:
             raise ValueError(
                 "--nearest-miss, --what-if: only for polygons; convert round shapes by cfree convert --inner"

@@ -21,7 +21,7 @@ from cfree.exact.pose import Pose
 from cfree.formats.answers.contact_format import ContactModel
 from cfree.formats.scenes.json_types import Coordinate, Point, Strict
 from cfree.formats.scenes.reading_format import NoteModel
-from cfree.formats.scenes.scene_format import Bounds, Configuration, Goal, PolygonModel, Text, Version
+from cfree.formats.scenes.scene_format import Bounds, Configuration, Goal, PolygonModel, Text, VehicleValue, Version
 from cfree.formats.scenes.scene_values import Fault, list_of
 from cfree.paths.path import Path
 from cfree.scene.digest import Stamp, Whole
@@ -257,6 +257,7 @@ class PathModel(AnswerModel):
 
     answer: Literal["path"]
     decimals: Literal["free", "approximate"] | None = None
+    vehicle: VehicleValue | None = None
     clearance: Length | None = None
     disc: Annotated[list[Point], Field(default_factory=list)]
     motions: list[Annotated[TranslationModel | RotationModel | SlideModel, Field(discriminator="type")]]
@@ -274,4 +275,4 @@ class PathModel(AnswerModel):
         clearance = self.clearance or Fraction(0), tuple(self.disc)
         asked = self.moved.made if self.moved else None
         context = self.units, self.frame, self._of_polygons, self.stamp
-        return Path(self.ends[0], motions, *context, *clearance, moved=asked, whole=self.part_of)
+        return Path(self.ends[0], motions, *context, *clearance, moved=asked, whole=self.part_of, vehicle=self.vehicle)

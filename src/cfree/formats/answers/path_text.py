@@ -14,6 +14,7 @@ from cfree.exact.number import MAX_DIGITS
 from cfree.exact.pose import Pose
 from cfree.formats.answers.effect import Effect, Written
 from cfree.formats.scenes.reading_text import records
+from cfree.formats.scenes.scene_values import vehicle_record
 from cfree.formats.text.json_positions import Path as Place
 from cfree.formats.text.json_text import json_line
 from cfree.paths.path import Path
@@ -24,6 +25,7 @@ from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
     from cfree.planning.separation import Separated
+    from cfree.planning.stuck import Stuck
 
 
 def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> str:
@@ -42,6 +44,8 @@ def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> st
     leeway = effect.leeway(decimals)
     head = answer_head("path", path, stamp, decimals)
     head["decimals"] = "free" if leeway is not None and keeps(leeway) else "approximate"
+    if path.vehicle:
+        head["vehicle"] = vehicle_record(path.vehicle)
     if path.clearance:
         head |= {"clearance": _exactly(path.clearance), "disc": [_exactly(point) for point in path.disc]}
     lines = ",\n".join(f"  {json_line(_record(k, motion, decimals))}" for k, motion in enumerate(path.motions))
@@ -49,7 +53,7 @@ def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> st
     return "{" + ",\n ".join(members) + "}\n"
 
 
-def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Written) -> dict[str, Any]:
+def answer_head(kind: str, answer: Path | Separated | Stuck, stamp: Stamp, decimals: Written) -> dict[str, Any]:
     """Return the members with which every answer begins."""
     return {
         "version": 1,
@@ -61,7 +65,7 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
         **({"polygons": _polygons(answer.scene)} if answer.scene and has_polygons(answer) else {}),
         "start": _numbers(decimals, ("start",), 3),
         "goal": _numbers(decimals, ("goal",), 3),
-        "exact": {"start": _exact(answer.start), "goal": _exact(answer.goal)},
+        "exact": {"start": exact_pose(answer.start), "goal": exact_pose(answer.goal)},
         **({"moved": _asked(answer.moved)} if answer.moved else {}),
     }
 
@@ -74,10 +78,10 @@ def _reading(stamp: Stamp) -> dict[str, Any]:
 def _asked(moved: Moved) -> dict[str, Any]:
     """Return the requested start and goal, exactly."""
     ends = {"start": moved.start, "goal": moved.goal}
-    return {name: _exact(end) if isinstance(end, Pose) else _exactly(end) for name, end in ends.items() if end}
+    return {name: exact_pose(end) if isinstance(end, Pose) else _exactly(end) for name, end in ends.items() if end}
 
 
-def has_polygons(answer: Path | Separated) -> bool:
+def has_polygons(answer: Path | Separated | Stuck) -> bool:
     """True if the answer's scene has polygons in place of the round shapes of the scene it answers."""
     return answer.curved is not None or (answer.scene is not None and answer.stamp is not None)
 
@@ -115,7 +119,8 @@ def _numbers(decimals: Written, place: Place, count: int = 2) -> list[Decimal]:
     return [decimals[(*place, k)] for k in range(count)]
 
 
-def _exact(pose: Pose) -> list[Any]:
+def exact_pose(pose: Pose) -> list[Any]:
+    """Return the exact numbers of a pose as JSON."""
     return [_exactly(pose.x), _exactly(pose.y), {"tau": "inf" if pose.tau is None else _exactly(pose.tau)}]
 
 

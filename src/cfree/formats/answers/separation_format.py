@@ -16,6 +16,7 @@ from cfree.forbidden.columns import CODED, COLUMNS, Trapezoids
 from cfree.formats.answers.contact_format import ContactModel
 from cfree.formats.answers.path_format import AnswerModel, Length
 from cfree.formats.answers.separation_text import KINDS
+from cfree.formats.answers.stuck_format import StuckModel
 from cfree.formats.scenes.json_types import Point, Strict
 from cfree.formats.scenes.scene_format import Bounds, PolygonModel, Version
 from cfree.formats.scenes.scene_values import Fault
@@ -153,9 +154,9 @@ class AllSeparatedModel(Strict):
 
     version: Version = 1
     answer: Literal["all separated"]
-    of: Literal["closed", "interior"]
+    of: Literal["closed", "interior", "pieces"]
     places: Annotated[list[Point], Field(default_factory=list)]
-    proofs: Annotated[list[SeparationModel], Field(min_length=1)]
+    proofs: Annotated[list[Annotated[SeparationModel | StuckModel, Field(discriminator="answer")]], Field(min_length=1)]
 
     @model_validator(mode="after")
     def _fits(self) -> AllSeparatedModel:
@@ -163,6 +164,8 @@ class AllSeparatedModel(Strict):
             raise Fault("not all proofs have the same start and scene; correct them")
         if self.of == "closed" and any(proof.of != "closed" for proof in self.proofs):
             raise Fault('a proof is of "interior", but all of them of "closed"; correct one of them')
+        if self.of == "pieces" and any(proof.of == "interior" for proof in self.proofs):
+            raise Fault('a proof is of "interior", but all of them of "pieces"; correct one of them')
         if not set(self.places) <= {(proof.ends[1].x, proof.ends[1].y) for proof in self.proofs}:
             raise Fault("there is no proof for one of the places; add it")
         return self

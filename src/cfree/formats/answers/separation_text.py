@@ -7,11 +7,13 @@ from typing import Any
 
 from cfree.forbidden.columns import COLUMNS
 from cfree.formats.answers.effect import Effect
-from cfree.formats.answers.path_text import answer_head, polygon_record
+from cfree.formats.answers.path_text import answer_head, exact_pose, polygon_record
+from cfree.formats.scenes.scene_values import vehicle_record
 from cfree.formats.text.json_text import json_line
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Pieces, Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.digest import Stamp
 from cfree.scene.features import unpacked
 
@@ -43,13 +45,32 @@ def separation_text(proof: Separated, stamp: Stamp) -> str:
     return "{" + ",\n ".join(members) + "}\n"
 
 
+def stuck_text(proof: Stuck, stamp: Stamp) -> str:
+    """Return the JSON of a vehicle that is stuck; reading it gives an equal proof."""
+    decimals = Effect(Path(proof.start, ()), proof.goal, stamp).decimals()
+    head: dict[str, Any] = {
+        **answer_head("stuck", proof, stamp, decimals),
+        "vehicle": vehicle_record(proof.vehicle),
+        "at": proof.at,
+        "of": proof.of,
+        "obstacles": proof.obstacles,
+        "rail": [exact_pose(pose) for pose in proof.rail],
+    }
+    return "{" + ",\n ".join(f'"{key}": {json_line(value)}' for key, value in head.items()) + "}\n"
+
+
+def proof_text(proof: Separated | Stuck, stamp: Stamp) -> str:
+    """Return the JSON of one proof."""
+    return separation_text(proof, stamp) if isinstance(proof, Separated) else stuck_text(proof, stamp)
+
+
 def all_separated_text(answer: AllSeparated, stamp: Stamp) -> str:
     """Return the JSON of separations from all goals; reading it gives an equal answer."""
     head = {"version": 1, "answer": "all separated", "of": answer.of}
     members = [f'"{key}": {json.dumps(value)}' for key, value in head.items()]
     if answer.places:
         members.append(f'"places": {json.dumps([[str(x), str(y)] for x, y in answer.places])}')
-    proofs = ",\n".join(separation_text(proof, stamp).rstrip() for proof in answer.proofs)
+    proofs = ",\n".join(proof_text(proof, stamp).rstrip() for proof in answer.proofs)
     return "{" + ",\n ".join([*members, f'"proofs": [\n{proofs}\n]']) + "}\n"
 
 

@@ -9,22 +9,22 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, PlainValidator, Wit
 
 from cfree.formats.scenes.scene_values import angle, coordinate, list_of
 
-_NUMBER_SCHEMA = {"type": ["number", "string"], "examples": [0.1, "1/3"]}
-_ANGLE_SCHEMA = {
+NUMBER_SCHEMA = {"type": ["number", "string"], "examples": [0.1, "1/3"]}
+ANGLE_SCHEMA = {
     "anyOf": [
         {"type": "number", "title": "radians"},
         {"type": "string", "examples": ["90deg"]},
         {
             "type": "object",
-            "properties": {"tau": _NUMBER_SCHEMA},
+            "properties": {"tau": NUMBER_SCHEMA},
             "required": ["tau"],
             "additionalProperties": False,
         },
     ]
 }
-Coordinate = Annotated[Fraction, PlainValidator(coordinate), WithJsonSchema(_NUMBER_SCHEMA)]
+Coordinate = Annotated[Fraction, PlainValidator(coordinate), WithJsonSchema(NUMBER_SCHEMA)]
 Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(list_of(2, "a point [x, y]"))]
-Angle = Annotated[Any, PlainValidator(angle), WithJsonSchema(_ANGLE_SCHEMA)]
+Angle = Annotated[Any, PlainValidator(angle), WithJsonSchema(ANGLE_SCHEMA)]
 
 
 class Strict(BaseModel):

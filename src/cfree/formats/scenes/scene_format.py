@@ -32,7 +32,7 @@ from pydantic_core import ErrorDetails
 from cfree.curves.curved import Curved
 from cfree.errors import InvalidPolygonError
 from cfree.formats.scenes.curve_format import ROUND_KEYS, TAGS, CurvedModel, keys_of
-from cfree.formats.scenes.json_types import Angle, Coordinate, Point, Strict
+from cfree.formats.scenes.json_types import ANGLE_SCHEMA, NUMBER_SCHEMA, Angle, Coordinate, Point, Strict
 from cfree.formats.scenes.reading_format import ItemModel, NoteModel, notes_of_lists
 from cfree.formats.scenes.scene_values import (
     MAX_NAME,
@@ -48,6 +48,7 @@ from cfree.formats.scenes.scene_values import (
     plain,
     plain_polygon,
     pose,
+    vehicle,
 )
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_positions import Path, shortened
@@ -114,6 +115,22 @@ def _place_or(value: Any, handler: ValidatorFunctionWrapHandler) -> Any:
 
 _GOAL_SCHEMA = {"anyOf": [TypeAdapter(Configuration).json_schema(), _A_PLACE.json_schema()]}
 Goal = Annotated[Configuration, WrapValidator(_place_or), WithJsonSchema(_GOAL_SCHEMA)]
+_TWO_NUMBERS = {"type": "array", "items": NUMBER_SCHEMA, "minItems": 2, "maxItems": 2}
+_VEHICLE_SCHEMA: dict[str, Any] = {
+    "type": "object",
+    "properties": {
+        "type": {"enum": ["car", "differential"]},
+        "turning_radius": {
+            "anyOf": [NUMBER_SCHEMA, {"type": "array", "items": NUMBER_SCHEMA, "minItems": 2, "maxItems": 2}]
+        },
+        "axle": {"type": "array", "items": NUMBER_SCHEMA, "minItems": 2, "maxItems": 2},
+        "heading": ANGLE_SCHEMA,
+        "gears": {"enum": ["both", "forward"]},
+    },
+    "required": ["type"],
+    "additionalProperties": False,
+}
+VehicleValue = Annotated[Any, PlainValidator(vehicle), WithJsonSchema(_VEHICLE_SCHEMA)]
 Version = Annotated[int, PlainValidator(known_version), WithJsonSchema({"const": VERSION})]
 Text = Annotated[str, Field(max_length=MAX_TEXT)]
 Name = Annotated[str, Field(max_length=MAX_NAME)]
@@ -203,6 +220,7 @@ class SceneModel(Strict):
     start: Configuration | None = None
     goal: Goal | None = None
     goals: list[Goal] = Field([])
+    vehicle: VehicleValue | None = None
     check: Plain = Field({})
     reading: list[NoteModel] = Field([])
     changed: list[Text] = Field([])

@@ -10,7 +10,8 @@ from pydantic import TypeAdapter, ValidationError
 from cfree.exact.pose import Pose
 from cfree.formats.scenes.reading_format import NoteModel
 from cfree.formats.scenes.reading_text import records
-from cfree.formats.scenes.scene_format import Bounds, Configuration, Goal, Plain, Text, report
+from cfree.formats.scenes.scene_format import Bounds, Configuration, Goal, Plain, Text, VehicleValue, report
+from cfree.formats.scenes.scene_values import vehicle_record
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_positions import Path
 from cfree.scene.scene import Scene
@@ -20,6 +21,7 @@ ADAPTERS: dict[str, TypeAdapter[Any]] = {
     "start": TypeAdapter(Configuration),
     "goal": TypeAdapter(Goal),
     "goals": TypeAdapter(list[Goal]),
+    "vehicle": TypeAdapter(VehicleValue),
     "units": TypeAdapter(Text),
     "note": TypeAdapter(Text),
     "scene": TypeAdapter(Text),
@@ -56,6 +58,7 @@ def settings_of(scene: Scene) -> dict[str, Any]:
         "start": _goal(scene.start) if scene.start else None,
         "goal": _goal(scene.goal) if scene.goal else None,
         "goals": [_goal(goal) for goal in scene.goals],
+        "vehicle": vehicle_record(scene.vehicle) if scene.vehicle else None,
         "units": scene.units,
         "note": scene.note,
         "scene": scene.name,

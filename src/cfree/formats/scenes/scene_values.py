@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Set
 from decimal import Decimal
+from difflib import get_close_matches
 from fractions import Fraction
 from math import isfinite
 from typing import Any
@@ -22,6 +23,7 @@ from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
+from cfree.vehicles.vehicle import Car, DifferentialDrive, Vehicle
 
 VERSION = 1
 MAX_NESTING = 32
@@ -84,6 +86,76 @@ def pose(value: tuple[Fraction, Fraction, Any]) -> Pose:
 def place(value: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
     pose((*value, 0))
     return value
+
+
+VEHICLES: dict[str, tuple[str, ...]] = {
+    "car": ("type", "turning_radius", "axle", "heading", "gears"),
+    "differential": ("type", "axle", "heading"),
+}
+
+
+def vehicle(value: Any) -> Vehicle:
+    """Return a car or a differential drive."""
+    value = plain_object(value)
+    kind = value.get("type")
+    if not isinstance(kind, str) or kind not in VEHICLES:
+        raise Fault('expected a vehicle {"type": "car" or "differential", ...}, got {got}')
+    keys = VEHICLES[kind]
+    for key in value:
+        if key not in keys:
+            guess = get_close_matches(key, keys, 1)
+            remedy = f'did you mean "{guess[0]}"?' if guess else f"the keys here are {', '.join(keys)}"
+            raise Fault(f'unknown key "{key[:40]}" of a vehicle; {remedy}')
+    try:
+        pose = {"axle": _numbers(value.get("axle", [0, 0]), "axle"), "heading": angle(value.get("heading", 0))}
+        if kind == "differential":
+            return DifferentialDrive(**pose)
+        if "turning_radius" not in value:
+            raise Fault('key "turning_radius" of the vehicle is missing; add it')
+        radius = value["turning_radius"]
+        sides = _numbers(radius, "turning_radius") if isinstance(radius, list) else coordinate(radius)
+        return Car(sides, gears=value.get("gears", "both"), **pose)
+    except Fault:
+        raise
+    except (TypeError, ValueError) as error:
+        raise Fault(str(error)) from None
+
+
+def plain_object(value: Any) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise Fault('expected a vehicle {"type": "car" or "differential", ...}, got {got}')
+    return {key: number_of(part) if isinstance(part, Literal) else part for key, part in value.items()}
+
+
+def _numbers(value: Any, name: str) -> tuple[Fraction, Fraction]:
+    try:
+        x, y = map(coordinate, list_of(2, "two numbers")(value))
+    except Fault:
+        raise Fault(f"{name} of the vehicle: expected two numbers, got {value!r}") from None
+    return x, y
+
+
+def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
+    """Return a vehicle as JSON members, exactly; `vehicle` reads them.
+
+    Examples
+    --------
+    >>> record = vehicle_record(Car((4, 5), axle=("-1.3", 0)))
+    >>> record
+    {'type': 'car', 'turning_radius': ['4', '5'], 'axle': ['-13/10', '0']}
+    >>> from cfree.formats.scenes.scene_values import vehicle
+    >>> vehicle(record)
+    Car((4, 5), axle=(-13/10, 0))
+    """
+    left, right = map(str, vehicle.radii)
+    heading = {"tau": "inf" if vehicle.heading is None else str(vehicle.heading)}
+    return {
+        "type": vehicle.kind,
+        **({"turning_radius": left if left == right else [left, right]} if vehicle.kind == "car" else {}),
+        "axle": [*map(str, vehicle.axle)],
+        **({} if vehicle.heading == 0 else {"heading": heading}),
+        **({} if vehicle.gears == "both" else {"gears": vehicle.gears}),
+    }
 
 
 def not_empty(value: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
@@ -223,5 +295,6 @@ READERS: dict[str, Callable[[Any], Any]] = {
     "start": _configuration,
     "goal": lambda value: None if value is None else _goal(value),
     "goals": lambda value: [_goal(goal) for goal in (value if isinstance(value, list) else [None])],
+    "vehicle": lambda value: None if value is None else vehicle(value),
     "check": _object,
 }

@@ -1,0 +1,1 @@
+"""Vehicles: cars and differential drives, which cannot move sideways."""

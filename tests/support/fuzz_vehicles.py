@@ -1,0 +1,76 @@
+"""Plan for vehicles in random rooms: ``python tests/support/fuzz_vehicles.py 1000 --seed 1``.
+
+Between poses that touch nothing, a vehicle that reverses has a path if and only if the robot has one. Each path is
+integrated from its controls alone, compared with shapely, and verified by both checkers. It prints faults, and exits
+with 1.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import sys
+import time
+from collections import Counter
+
+from cfree import Path, Separated, UndecidedError, plan
+from cfree.scene.scene import with_ends
+from second_opinion import verified_in_a_file
+from vehicles import VEHICLES, faults, room
+
+MOST_VERIFIED = 30  # motions
+
+
+def mistakes(number: int, tally: Counter[str], slowest: list[float]) -> list[str]:
+    """Faults of the answers in one room."""
+    rng = random.Random(f"room {number}")
+    scene, vehicle = room(rng), rng.choice(VEHICLES)
+    if rng.random() < 0.5:
+        scene = with_ends(scene, scene.goal, scene.start)
+    plain = plan(scene, improve=0)
+    begin = time.perf_counter()
+    try:
+        answer = plan(scene, vehicle=vehicle, improve=rng.choice((0, None)))
+    except UndecidedError as error:  # it exists, and is too long to write down
+        is_proof = isinstance(error.path, Path) and verified_in_a_file(scene, error.path).verified
+        tally["too many manoeuvres"] += is_proof
+        return [] if is_proof and isinstance(plain, Path) else [f"{vehicle}: {error}"]
+    slowest.append(time.perf_counter() - begin)
+    tally[type(answer).__name__] += 1
+    if isinstance(plain, Separated):
+        return [] if answer == plain else [f"{vehicle}: {answer}, and without a vehicle {plain}"]
+    if not isinstance(answer, Path):
+        return [f"{vehicle}: {answer}, and without a vehicle {plain}"]
+    tally["cusps"] += answer.cusps
+    wrong = faults(scene, answer)
+    if len(answer) <= MOST_VERIFIED:
+        tally["verified"] += 1
+        wrong += map(str, verified_in_a_file(scene, answer).findings)
+    return [f"{vehicle}: {fault}" for fault in wrong]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("count", type=int, help="rooms")
+    parser.add_argument("--seed", type=int, default=0)
+    chosen = parser.parse_args()
+    tally, seconds = Counter[str](), list[float]()
+    for number in range(chosen.seed * 1_000_000, chosen.seed * 1_000_000 + chosen.count):
+        try:
+            wrong = mistakes(number, tally, seconds)
+        except Exception as error:
+            wrong = [repr(error)[:400]]
+        tally["rooms"] += 1
+        if wrong:
+            tally["wrong"] += 1
+            print(f"room {number}", *wrong, sep="\n  ", flush=True)
+        if tally["rooms"] % 200 == 0:
+            print(
+                dict(tally), f"median {sorted(seconds)[len(seconds) // 2]:.3f} s, most {max(seconds):.2f} s", flush=True
+            )
+    print(dict(tally))
+    sys.exit(tally["wrong"] > 0)
+
+
+if __name__ == "__main__":
+    main()
