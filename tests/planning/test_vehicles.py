@@ -258,7 +258,7 @@ def test_too_many_manoeuvres_are_an_error_with_a_proof_that_a_path_exists() -> N
 @pytest.mark.slow
 def test_too_many_manoeuvres_among_round_shapes_are_told_at_once() -> None:
     scene = Scene(Curved.circle((0, 0), "1/2"), [Curved.circle((2, 0), 1)], bounds=(-5, -5, 5, 5))
-    with pytest.raises(UndecidedError, match="^a path of a car") as caught:
+    with pytest.raises(UndecidedError, match=r"^a path of a car") as caught:
         plan(scene, (-2, 0, 0), (4, 0, 0), vehicle=Car(10**9), improve=0)
     assert caught.value.manoeuvres > 1000
     assert isinstance(caught.value.path, Path) and caught.value.path.curved == scene

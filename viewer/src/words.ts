@@ -101,7 +101,9 @@ function pose(value: Json, place: string): FilePose | undefined {
 }
 
 const RECORD = ["reading", "changed", "dropped"];
-const KEYS = "version name note units source robot obstacles workspace bounds start goal goals vehicle check".split(" ");
+const KEYS = "version name note units source robot obstacles workspace bounds start goal goals vehicle check".split(
+  " ",
+);
 
 function refuse_deep(source: string): void {
   let depth = 0;
