@@ -255,6 +255,16 @@ def test_too_many_manoeuvres_are_an_error_with_a_proof_that_a_path_exists() -> N
     assert place and place.least > 0
 
 
+@pytest.mark.slow
+def test_too_many_manoeuvres_among_round_shapes_are_told_at_once() -> None:
+    scene = Scene(Curved.circle((0, 0), "1/2"), [Curved.circle((2, 0), 1)], bounds=(-5, -5, 5, 5))
+    with pytest.raises(UndecidedError, match=r"^a path of a car") as caught:
+        plan(scene, (-2, 0, 0), (4, 0, 0), vehicle=Car(10**9), improve=0)
+    assert caught.value.manoeuvres > 1000
+    assert isinstance(caught.value.path, Path) and caught.value.path.curved == scene
+    assert cfree.verify.answer(scene, caught.value.path).verified
+
+
 @pytest.mark.parametrize("vehicle", [Car(1, axle=(10**9, 0)), DifferentialDrive(axle=(0, 10**9))])
 def test_an_axle_far_away_is_no_fault(vehicle: Any) -> None:
     with pytest.raises(UndecidedError, match="exists"):

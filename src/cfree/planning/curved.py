@@ -178,7 +178,7 @@ class CurvedQuery:
         try:
             return self._refined(ask, poses)
         except UndecidedError as error:
-            if not self.options.clearance:
+            if not self.options.clearance or error.path is not None:
                 raise
             lo, hi = self._around(ask, error.error)
             message = f"{error}; the largest clearance that a path keeps is between {lo:.8g} and {hi:.8g}"
@@ -238,6 +238,9 @@ class CurvedQuery:
         except OutOfWork:
             raise self._undecided(OUT_OF_WORK) from None
         except UndecidedError as error:
+            if isinstance(error.path, Path):  # finer polygons need no fewer manoeuvres
+                proof = self._for_curves(error.path)
+                raise UndecidedError(str(error), path=proof, manoeuvres=error.manoeuvres) from None
             lo, hi = self._interval
             self._interval = (max(lo, error.lo), hi) if outward else (lo, min(hi, error.hi))
             if options.vehicle and not options.clearance:
