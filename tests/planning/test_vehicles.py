@@ -256,6 +256,15 @@ def test_too_many_manoeuvres_are_an_error_with_a_proof_that_a_path_exists() -> N
 
 
 @pytest.mark.slow
+def test_too_many_manoeuvres_with_a_clearance_are_proved_by_a_path_that_keeps_it() -> None:
+    with pytest.raises(UndecidedError, match=r"a path of a car") as caught:
+        plan(WALL, vehicle=Car(10**9), clearance="0.3", improve=0)
+    proof = caught.value.path
+    assert isinstance(proof, Path) and (proof.scene, proof.clearance) == (WALL, Fraction(3, 10))
+    assert verified_in_a_file(WALL, proof).verified
+
+
+@pytest.mark.slow
 def test_too_many_manoeuvres_among_round_shapes_are_told_at_once() -> None:
     scene = Scene(Curved.circle((0, 0), "1/2"), [Curved.circle((2, 0), 1)], bounds=(-5, -5, 5, 5))
     with pytest.raises(UndecidedError, match=r"^a path of a car") as caught:

@@ -113,22 +113,27 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
             return None
         return replace(path, scene=scene, frame=frame_of(scene), clearance=clearance, disc=tuple(disc))
 
-    for sides in SIDES:
-        disc, inside = around_disc(clearance, sides), inside_disc(clearance, sides)
-        larger = _grown(scene, disc, scene.bounds)
-        outer = PosePlanner(larger)
-        ends = _ends(larger, start, goal) if is_free_at(PoseChecker(larger), start) else []
-        ways = ([start] if start == end else outer.quick(start, end, options) for end in ends)
-        answers: list[Path | Separated | Stuck] = [outer.answered(way, options) for way in ways if way]
-        if paths := [path for path in map(for_scene, answers) if path]:
-            return cheapest(paths, larger, options.preferences)
-        if proofs := _proofs(query, goal, inside, name):
-            return proofs
-        answers = [outer.path_or_proof(start, end, options) for end in ends]
-        if paths := [path for path in map(for_scene, answers) if path]:
-            return cheapest(paths, larger, options.preferences)
-        if all(isinstance(answer, Separated) and answer.of == "closed" for answer in answers):
-            hi = _farthest(disc)
+    try:
+        for sides in SIDES:
+            disc, inside = around_disc(clearance, sides), inside_disc(clearance, sides)
+            larger = _grown(scene, disc, scene.bounds)
+            outer = PosePlanner(larger)
+            ends = _ends(larger, start, goal) if is_free_at(PoseChecker(larger), start) else []
+            ways = ([start] if start == end else outer.quick(start, end, options) for end in ends)
+            answers: list[Path | Separated | Stuck] = [outer.answered(way, options) for way in ways if way]
+            if paths := [path for path in map(for_scene, answers) if path]:
+                return cheapest(paths, larger, options.preferences)
+            if proofs := _proofs(query, goal, inside, name):
+                return proofs
+            answers = [outer.path_or_proof(start, end, options) for end in ends]
+            if paths := [path for path in map(for_scene, answers) if path]:
+                return cheapest(paths, larger, options.preferences)
+            if all(isinstance(answer, Separated) and answer.of == "closed" for answer in answers):
+                hi = _farthest(disc)
+    except UndecidedError as error:  # of a vehicle
+        if isinstance(error.path, Path):
+            error.path = for_scene(error.path)
+        raise
     for held in answers:
         if isinstance(held, Stuck):
             more = f"if it keeps a little more than {float(clearance):g}"
