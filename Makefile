@@ -19,7 +19,7 @@ unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: help build demo test check ctest sanitize fuzz fuzz-answers fuzz-files fuzz-round lint bench docs viewer viewer-test dev stub clean
+.PHONY: help build demo test check ctest sanitize fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round lint bench docs viewer viewer-test dev stub clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
@@ -65,6 +65,13 @@ fuzz-answers: $(TESTED)  ## questions whose answers are known, and hard ones, as
 
 fuzz-files: $(TESTED)  ## files of boundaries with flipped bits
 	$(BIN)/python tests/support/fuzz_files.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
+
+fuzz-readers: $(TESTED)  ## damaged and hostile drawings, maps and footprints; bombs of a million parts
+	$(BIN)/python tests/support/fuzz_readers.py --count $(or $(COUNT),100000) --seed $(or $(SEED),0)000000
+	$(BIN)/python tests/support/fuzz_readers.py --count 50 --seed $(or $(SEED),0)000999 --step 1000 --most 1000000
+
+fuzz-drawings: $(TESTED)  ## generated drawings against their known regions
+	$(BIN)/python tests/support/fuzz_drawings.py --count $(or $(COUNT),10000) --seed $(or $(SEED),0)000000
 
 fuzz-round: $(TESTED)  ## thin and flat round shapes against exact points of their rims
 	$(BIN)/python tests/support/fuzz_thin.py --count $(or $(COUNT),100000) --seed $(or $(SEED),0)

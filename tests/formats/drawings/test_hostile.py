@@ -1,11 +1,14 @@
 """Damaged and hostile files: each is read or refused with one error; `fuzz_readers.py` tries as many as one likes."""
 
 import random
+import time
 from pathlib import Path
 
 import pytest
 
+import cfree
 import hostile
+from cfree.errors import FormatError
 from cfree.scene.reading import Item, Note
 from fuzz_readers import BOMBS, result_of, words_of, wrong_note
 
@@ -19,9 +22,12 @@ def test_damaged_files_are_read_or_refused_with_one_error(tens: int, tmp_path: P
         assert not result_of(number, tmp_path)[2], f"file {number}"
 
 
-@pytest.mark.parametrize("name", BOMB)
+SLOW = ("svg_uses_of_uses", "svg_crossing_curves", "dxf_polyline", "svg_clips_of_clips")
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow) if n in SLOW else n for n in BOMB])
 def test_small_bombs_are_read_or_refused_with_one_error(name: str, tmp_path: Path) -> None:
-    came = result_of(BOMB[name], tmp_path, most=30)
+    came = result_of(BOMB[name], tmp_path, most=10)
     assert came[0] == name and not came[2]
 
 
@@ -61,3 +67,16 @@ def test_notes_of_a_wrong_shape_are_faults(note: Note, fault: str) -> None:
 def test_options_are_words_of_the_command() -> None:
     options = {"join": 0.5, "repair": False, "join_holes": True, "roles": {"a": "robot"}, "curves": True}
     assert words_of(options) == ["--join", "0.5", "--no-repair", "--join-holes", "--role", "a=robot"]
+
+
+def test_uses_of_uses_that_are_too_many_are_refused_at_once(tmp_path: Path) -> None:
+    uses = [f"<use href='#a{k}'/>" * 10 for k in range(29)]
+    groups = "".join(f"<g id='a{k + 1}'>{use}</g>" for k, use in enumerate(uses))
+    file = tmp_path / "a.svg"
+    file.write_text(f"<svg><defs><rect id='a0' width='1' height='1'/>{groups}</defs><use href='#a29'/></svg>")
+    begin = time.process_time()
+    with pytest.raises(FormatError, match="more than 3,000,000 elements and points"):
+        cfree.load_shapes(file)
+    assert time.process_time() - begin < 2
+    file.write_text(f"<svg><defs><rect id='a0' width='1' height='1'/>{groups}</defs><use href='#a2'/></svg>")
+    assert len(cfree.load_shapes(file).shapes) == 100

@@ -9,7 +9,7 @@ from cfree.curves.drawn import IDENTITY, Affine, Line, compose, translation
 from cfree.curves.hulls import Outline
 from cfree.formats.drawings.content import Drawn, Lines
 from cfree.formats.drawings.regions import clipped, filled_outlines
-from cfree.formats.drawings.source import DEEPEST, Source
+from cfree.formats.drawings.source import DEEPEST, MOST_STEPS, Source
 from cfree.formats.drawings.svg_clips import Clip, convex_clip
 from cfree.formats.drawings.svg_conditions import applies
 from cfree.formats.drawings.svg_element import Element, State
@@ -66,6 +66,7 @@ class Walk:
         self.known: dict[str, Node] = {}
         self.twice: set[str] = set()
         self.clips: dict[tuple[int, Affine], Clip] = {}
+        self.expanded: dict[int, int] = {}
         waiting = [root]
         while waiting:
             node = waiting.pop()
@@ -311,9 +312,23 @@ class Walk:
             what = "use of an element that is not in this file"
             self.source.note("lost", what, "less", where=link[:60], at=None, handle=element.handle)
             return
+        if (count := self._expanded(target)) > MOST_STEPS:
+            self.source.spend(count)
         sizes = element.sizes() if target.tag in _VIEWPORTS else None
         frame = compose(element.state.frame, translation(*element.corner()))
         self._node(target, replace(element.state, frame=frame, sizes=sizes), depth + 1, used=True)
+
+    def _expanded(self, node: Node, depth: int = 0) -> int:
+        """Return the number of elements in an element with all uses expanded, so that a bomb is refused at once."""
+        if depth > DEEPEST:
+            return 1
+        if id(node) not in self.expanded:
+            self.expanded[id(node)] = 1  # for references in a circle
+            parts = [child for child in node.children if child.tag not in _UNDRAWN]
+            if node.tag == "use" and (target := self.known.get(node.attributes.get("href", "").strip()[1:])):
+                parts.append(target)
+            self.expanded[id(node)] = 1 + sum(self._expanded(part, depth + 1) for part in parts)
+        return self.expanded[id(node)]
 
     def _switch(self, element: Element, depth: int) -> None:
         """Walk the first branch that applies."""
