@@ -98,9 +98,7 @@ def test_collections_have_the_width_of_their_feature(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("width", [-1, "wide", [1]])
 def test_a_width_that_is_none_is_a_fault(width: Any, tmp_path: Path) -> None:
-    with pytest.raises(
-        FormatError, match=r"features\[0\].properties.width: expected a length, 0 or more and below 1e150, got"
-    ):
+    with pytest.raises(FormatError, match=r"properties.width: expected a length, 0 or more, below 1e150, got"):
         read(tmp_path, feature(shape("LineString", [[0, 0], [1, 0]]), width=width))
 
 
@@ -123,7 +121,7 @@ def test_lines_and_points_too_far_away_or_too_wide_are_faults_with_their_place(t
     far = 10**200
     with pytest.raises(FormatError, match=r"a.geojson:1:\d+ .*a coordinate beyond 1e150; scale the drawing"):
         read(tmp_path, feature(shape("LineString", [[0, 0], [far, 0]]), width=1))
-    with pytest.raises(FormatError, match=r"radius: expected a length, 0 or more and below 1e150"):
+    with pytest.raises(FormatError, match=r"radius: expected a length, 0 or more, below 1e150"):
         read(tmp_path, feature(shape("Point", [0, 0]), radius=far))
 
 

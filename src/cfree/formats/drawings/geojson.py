@@ -223,7 +223,7 @@ class _Flat:
                 length = Fraction(-1)
             if 0 <= length < _LONGEST:
                 return length if key == "radius" else length / 2
-            self.findings.under((*self.feature.path, key), "expected a length, 0 or more and below 1e150, got {got}")
+            self.findings.under((*self.feature.path, key), "expected a length, 0 or more, below 1e150, got {got}")
         if key == "width" and isinstance(strokes, (int, float)):
             return Fraction(str(strokes)) / 2
         return Fraction(0)
