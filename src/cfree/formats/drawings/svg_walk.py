@@ -35,7 +35,7 @@ MOST_CLIPS = 20
 """Maximum depth of clip paths that refer to each other."""
 _UNIT_BOX = tuple(map(Fraction, (0, 0, 1, 1)))
 _NAMES = ("data-role", "label", "data-name", "id", "class")
-USING = 12
+USING = 8
 """Steps for a use, beside those of its elements."""
 
 
