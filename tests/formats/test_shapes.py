@@ -258,3 +258,9 @@ def test_names_of_wkt_take_roles(tmp_path: Path) -> None:
 def test_strokes_wider_than_any_drawing_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"strokes: 1e\+300; give a width above 0 and below 1e150"):
         cfree.load_shapes(tmp_path / "a.svg", strokes=1e300)
+
+
+def test_a_scale_beyond_doubles_is_refused_by_its_name(tmp_path: Path) -> None:
+    (tmp_path / "a.wkt").write_text("POLYGON ((0 0, 1e200 0, 0 1))")
+    with pytest.raises(ValueError, match=r"scale: the shapes would be too large: .*beyond 4e307"):
+        cfree.load_shapes(tmp_path / "a.wkt", scale="1e200")

@@ -19,6 +19,7 @@ from typing import Any, Literal
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
+from cfree.errors import InvalidPolygonError
 from cfree.exact.half_angle import Angle
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose
@@ -203,7 +204,10 @@ def _sized(shapes: Shapes, units: str, scale: Fraction | None) -> Shapes:
         notes.append(Note("warning" if meant else "info", f"lengths multiplied by {scale}{still}", remedy=remedy))
     if not notes:
         return shapes
-    result = shapes.scaled(scale or 1)
+    try:
+        result = shapes.scaled(scale or 1)
+    except InvalidPolygonError as error:
+        raise ValueError(f"scale: the shapes would be too large: {error}") from None
     settings = {**result.settings, "units": unit_of(units)} if units else result.settings
     return replace(result, settings=settings, reading=together(result.reading, notes))
 
