@@ -281,3 +281,13 @@ def test_a_footprint_given_as_text_has_the_unit_of_the_drawing_which_is_reported
         result = run("check", tmp_path / "a.svg", "--robot", "[[0.3, 0], [0, 0.3], [0, 0]]", *scale)
         assert result.exit_code == 0
         assert ("footprint of --robot taken in mm" in result.stderr) == (unit == "mm")
+
+
+def test_the_frame_of_the_scene_is_that_of_its_poses(tmp_path: Path) -> None:
+    scene = cfree.Scene([(0, 0), (1, 0), (0, 1)], bounds=(-9, -9, 9, 9), start=(0, 0, 0), goal=(3, 0, 0))
+    cfree.save(scene, tmp_path / "a.json")
+    question = "plan", tmp_path / "a.json", "--format", "ros", "-o", tmp_path / "p.yaml"
+    assert run(*question, "--frame", "odom").exit_code == 0
+    assert 'frame_id: "odom"' in (tmp_path / "p.yaml").read_text()
+    assert run(*question).exit_code == 0
+    assert "odom" not in (tmp_path / "p.yaml").read_text()

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from cfree.exact.pose import Pose
     from cfree.formats.drawings.source import Reading
     from cfree.formats.fitting import Pivot
+    from cfree.formats.shapes import Shapes
     from cfree.scene.scene import Scene
 
 _VALUES, _NAMED, _FORM = (f"cfree.cli.drawing:{name}" for name in ("values", "named", "form"))
@@ -88,6 +89,8 @@ _OPTIONS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     (("--units",), {"metavar": "UNIT", "help": "Name the unit of a file that names none: mm, m, in ..."}),
     (("--scale",), {"metavar": "S", "help": "Multiply the lengths of SCENE by S, as in 0.001 or 1/12."}),
     (("--pivot",), {"metavar": "PIVOT", "help": "Move the robot's reference point to its centroid, or to X,Y."}),
+    (("--frame",), {"metavar": "NAME", "help": "Name the frame of the scene in answers, as in the header of ROS poses.",
+     "show_default": "a map's: map"}),
     (("--padding",), {"type": click.FloatRange(min=0), "default": 0.0, "metavar": "D",
      "help": "Pad the robot by D, as nav2 pads a footprint."}),
     (("--join",), {"type": click.FloatRange(min=0), "metavar": "D", "show_default": "size / 1,000,000",
@@ -198,6 +201,17 @@ def pivot() -> Pivot | None:
     except ValueError:
         raise ValueError(f'--pivot: {text!r}; give centroid, or X,Y as in "0.5,1/3"') from None
     return x, y
+
+
+def framed(shapes: Shapes) -> Shapes:
+    """Return shapes whose scene has the frame of --frame, if it is given."""
+    from dataclasses import replace
+
+    name: str | None = _values().get("frame")
+    if name is None:
+        return shapes
+    source = {**shapes.settings.get("source", {}), "frame": name}
+    return replace(shapes, settings={**shapes.settings, "source": source})
 
 
 def robot(reading: Reading) -> Any:

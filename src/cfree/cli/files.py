@@ -50,7 +50,7 @@ def read_shapes(source: Path) -> tuple[Shapes, Any]:
 
 def scene_of(shapes: Shapes, robot: Any, source: Path, most: int | None = MOST_LINES) -> Scene:
     """Make the scene of shapes, and report its record of reading; refuse options that had no effect on it."""
-    scene = made(shapes, source, robot, drawing.pivot(), most)
+    scene = made(drawing.framed(shapes), source, robot, drawing.pivot(), most)
     drawing.keep_form(shapes.form)
     drawing.refuse_unused((shapes.form, *([robot.form] if hasattr(robot, "form") else [])), curved=scene.curved)
     return scene
