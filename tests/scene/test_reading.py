@@ -162,3 +162,8 @@ def test_scenes_made_from_a_scene_keep_its_record() -> None:
 def test_the_text_of_a_scene_tells_the_worst_loss() -> None:
     assert repr(scene(PLAIN)) == "Scene(robot: 4 vertices; 1 obstacle: 3 vertices)"
     assert repr(scene(LOST)).endswith("; LOST: 39 open lines of A-WALL)")
+
+
+def test_what_forbids_less_is_worse_than_what_forbids_more() -> None:
+    notes = [Note("guess", "footprint", "more", 2), Note("warning", "free cell", "less", 4)]
+    assert as_read(notes) == "in the scene as read: less may be forbidden than drawn (4 free cells)"

@@ -86,10 +86,15 @@ def as_read(notes: Iterable[Note], claim: Claim = "scene") -> str:
 
 
 def harms(notes: Iterable[Note], claim: Claim) -> tuple[Note, ...]:
-    """Return the notes that harm a claim, the worst first; if there are none, those about tolerances."""
+    """Return the notes that harm a claim, the worst first; if there are none, those about tolerances.
+
+    A note that forbids less than drawn is worse than one that forbids more.
+    """
     ordered = in_order(notes)
-    harmful = tuple(note for note in ordered if note.effect in HARMFUL[claim] or note.effect not in EFFECTS)
-    return harmful or tuple(note for note in ordered if note.effect == "near")
+    harmful = [note for note in ordered if note.effect in HARMFUL[claim] or note.effect not in EFFECTS]
+    return tuple(sorted(harmful, key=lambda note: note.effect == "more")) or tuple(
+        note for note in ordered if note.effect == "near"
+    )
 
 
 def qualified(statement: str, notes: Sequence[Note], claim: Claim) -> str:

@@ -406,8 +406,9 @@ def _note_guesses(layer: Layer, rings: list[list[int]]) -> None:
     graph = layer.mesh.graph
     for ring in rings:
         gaps = [join.gap for k, join in enumerate(layer.joins) if k in layer.guesses and _is_in(layer, k, ring)]
+        meaning = "only its inside is allowed" if layer.workspace else "solid, and no hole"
         layer.source.note(
-            "guess", "outline that only a join closes: solid, and no hole", "more", where=layer.name,
+            "guess", f"outline that only a join closes: {meaning}", "more", where=layer.name,
             at=graph.place(graph.edges[ring[0]][0]), size=max(gaps, default=None), remedy="--join-holes",
             points=next(iter(_chains(layer, ring)), ()),
         )  # fmt: skip
