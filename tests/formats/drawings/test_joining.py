@@ -236,3 +236,10 @@ def test_lines_inside_of_a_workspace_are_lost(wall: tuple[float, float, float, f
     losses = [note for note in outlines(room, workspace=True)[1].notes if note.kind == "lost"]
     assert [(note.effect, note.count, note.items[0].handle) for note in losses] == [("less", 1, "line 0")]
     assert not notes(outlines(closed(box(0, 0, 40, 40)), workspace=True)[1])
+
+
+def test_a_guess_of_a_workspace_has_its_own_words_and_loses_no_line() -> None:
+    _, source = outlines(with_gap(box(0, 0, 40, 40), 0.05), join=0.1, workspace=True)
+    assert [note.what for note in source.notes if note.kind in ("lost", "guess")] == [
+        "outline that only a join closes: only its inside is allowed"
+    ]

@@ -503,6 +503,8 @@ def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
     for owner, edges in sorted(lost.items()):
         length = sum(math.dist(*map(graph.place, graph.edges[edge])) for edge in edges)
         handle = _handle(layer, owner)
+        if layer.workspace and all(_is_at_bridge(layer, node) for edge in edges for node in graph.edges[edge]):
+            continue  # a part in the square around a bridge
         if length <= max(DEFAULT_JOIN * layer.size, 4 * layer.curves[owner].rounding):
             place = graph.place(graph.edges[edges[0]][0])
             layer.source.note("near", SHORT, "near", where=layer.name, at=place, size=length, handle=handle)
@@ -524,6 +526,13 @@ def _note_losses(layer: Layer, faces: Faces, solid: list[bool]) -> None:
                 remedy,
             )
         )
+
+
+def _is_at_bridge(layer: Layer, node: int) -> bool:
+    """True if a node is in the square around a guessed join, or on it."""
+    place = layer.mesh.graph.place
+    guesses = (layer.joins[k] for k in layer.guesses)
+    return any(math.dist(place(node), place(join.start)) <= 2 * join.gap for join in guesses)
 
 
 def _remedy(layer: Layer, lost: Iterable[int], gaps: list[float]) -> str:
