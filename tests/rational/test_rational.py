@@ -290,7 +290,10 @@ def test_exact_poses_hold_both_models(tau: Fraction | None) -> None:
     q, number = Pose(1, 2, {"tau": tau}), math.inf if tau is None else float(tau)
     assert q.tau == tau and q.theta_error == 0 and 0 <= q.theta < math.tau
     # eqs. (1) and (2): one pose, theta in [0, 2 pi) and tau = tan(theta / 2)
-    assert math.isclose(math.atan(number), math.remainder(q.theta / 2, math.pi), rel_tol=1e-13) or abs(number) > 1e12
+    assert (
+        math.isclose(math.atan(number), math.remainder(q.theta / 2, math.pi), rel_tol=1e-13, abs_tol=1e-15)
+        or abs(number) > 1e12
+    )
     x, y, theta = to_geometrical([1, 2, number])
     assert (x, y) == (1, 2) and math.isclose(theta, q.theta, rel_tol=1e-15)
     if tau is None or abs(tau) < 1e6:  # near the half turn a little of theta is much of tau
