@@ -130,3 +130,19 @@ def test_polygons_of_chords_contain_the_curves_or_are_inside_of_them() -> None:
     curved = Outline([Cubic(((0, 0), (9, 9), (-5, 9), (4, 0))), Line(point(4, 0), point(0, 0))])
     around, within = (chord_polygons(curved, 0.01, inside=inside) for inside in (False, True))
     assert 0 < area(around) - area(within) < 1
+
+
+def test_hidden_elements_can_be_drawn(tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_text(
+        '<svg><rect width="2" height="1" display="none"/><rect width="9" height="9"/></svg>'
+    )
+    (note,) = (note for note in cfree.load_shapes(tmp_path / "a.svg").reading if note.kind == "hidden")
+    assert {(2, 0), (2, -1), (0, -1)} <= set(note.items[0].points)
+    ezdxf = pytest.importorskip("ezdxf")
+    document = ezdxf.new()
+    document.layers.add("off").off()
+    document.modelspace().add_lwpolyline([(0, 0), (4, 0), (4, 3)], dxfattribs={"layer": "off"})
+    document.modelspace().add_circle((9, 9), 2)
+    document.saveas(tmp_path / "a.dxf")
+    (note,) = (note for note in cfree.load_shapes(tmp_path / "a.dxf").reading if note.kind == "hidden")
+    assert note.items[0].points == ((0, 0), (4, 0), (4, 3))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -106,6 +107,10 @@ class Layers:
     not_plotted: frozenset[str]
 
 
+MOST_TRACED = 300
+"""Maximum number of hidden entities that have points for pictures."""
+
+
 class Walk:
     """The curves and fills of a drawing."""
 
@@ -113,6 +118,7 @@ class Walk:
         self.source, self.layers, self.tags = source, layers, tags
         self.lines: dict[str, list[Curve]] = defaultdict(list)
         self.filled: list[Drawn] = []
+        self.left_to_trace = MOST_TRACED
         self.heights = (math.inf, -math.inf)
 
     def all(self, entities: Iterable[Any], place: Place) -> None:
@@ -147,8 +153,20 @@ class Walk:
             if name in self.layers.not_plotted and entity.dxftype() in DRAWING:
                 self.source.note("info", "entity on a layer that is not plotted", where=layer)
             return True
-        self.source.note("hidden", hidden, where=layer)
+        self.source.note("hidden", hidden, where=layer, points=self.traced(entity))
         return False
+
+    def traced(self, entity: Any) -> list[tuple[float, float]]:
+        """Return points along a hidden entity for pictures; nothing after the first hundreds."""
+        if self.left_to_trace == 0:
+            return []
+        self.left_to_trace -= 1
+        from ezdxf import path
+
+        with suppress(Exception):  # of kinds without an outline, and of damaged ones
+            outline = path.make_path(entity)
+            return [(point.x, point.y) for point in outline.flattening(1.0, segments=8)]
+        return []
 
     def one(self, entity: Any, layer: str, place: Place) -> None:
         kind = entity.dxftype()

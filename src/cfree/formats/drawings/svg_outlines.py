@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
-from cfree.curves.drawn import Ring
+from cfree.curves.drawn import Ring, points_along
 from cfree.curves.hulls import box_of
 from cfree.formats.drawings.content import Curve, Drawn, Lines
 from cfree.formats.drawings.outlines import PIVOT
@@ -46,12 +47,18 @@ class Outlines:
         size = max(x1 - x0, y1 - y0)
         return self.filled + [lines for group in groups for lines in group.lines(self.source, size)]
 
+    def hide(self, element: Element) -> None:
+        """Note a hidden path or basic shape, with its outline for pictures."""
+        what, points = f"hidden {element.node.tag}", []
+        with suppress(ValueError, ArithmeticError):  # a fault of a hidden element is none
+            points = [p for part in element.form().parts()[0][:1] for p in points_along(part.segments)]
+        self.source.note("hidden", what, "less", where=element.name, points=points)
+
     def add(self, element: Element) -> None:
         """Add the outline of a path or a basic shape."""
         style, names = element.state.style, element.state.names
         if style["visibility"].lower() != "visible":
-            self.source.note("hidden", f"hidden {element.node.tag}", "less", where=element.name)
-            return
+            return self.hide(element)
         parts, fault = element.form().parts()
         if fault is not None:
             self._broken(element, parts, fault)

@@ -102,7 +102,9 @@ class Walk:
         group = self.outlines.group(names) if names != state.names and tag not in FORMS else state.group
         state = replace(state, style=style, names=names, group=group)
         element = Element(self.source, node, state, declared)
-        if style["display"].lower() == "none":
+        if style["display"].lower() == "none" and tag in FORMS:
+            self._hide(element)
+        elif style["display"].lower() == "none":
             self.source.note("hidden", f"hidden {tag[:40]}", "less", where=element.name)
         elif not applies(self.source, node):
             self.source.note("hidden", f"{tag[:40]} for other languages or programs", "less", where=element.name)
@@ -115,6 +117,13 @@ class Walk:
                 element.refuse(str(error)[:200])
             except ArithmeticError:
                 element.refuse("a coordinate beyond 1e308; scale the drawing")
+
+    def _hide(self, element: Element) -> None:
+        try:
+            element = self._placed(element)
+        except (ValueError, ArithmeticError):
+            return self.source.note("hidden", f"hidden {element.node.tag}", "less", where=element.name)
+        self.outlines.hide(element)
 
     def _drawn(self, element: Element, depth: int) -> None:
         tag, state = element.node.tag, element.state
