@@ -37,7 +37,7 @@ def with_fault(raised: str, *arguments: str) -> subprocess.CompletedProcess[str]
     """The command, where reading a scene raises something."""
     program = (
         "import errno, os, signal, sys, cfree.formats.readers\n"
-        f"def read_file(path):\n    {raised}\n"
+        f"def read_file(*arguments):\n    {raised}\n"
         "cfree.formats.readers.read_file = read_file\n"
         "from cfree.cli.app import main\n"
         f"sys.argv = ['cfree', *{arguments or ('boundary', FIG9)!r}]\n"
@@ -138,7 +138,7 @@ def test_outputs_are_checked_before_anything_is_computed(
 
     for place in (
         "cfree.planning.planner.Planner",  # first: it imports the others as they are
-        "cfree.formats.readers.read_file",
+        "cfree.formats.scene_file.read_file",
         "cfree.forbidden.boundary.boundary",
     ):
         monkeypatch.setattr(place, too_late)
