@@ -124,6 +124,7 @@ _MOVED = {
 register("page", "cfree.viewer.notebook", "live")
 register("picture", "cfree.viewer.pictures", "picture")
 register("scene_from_grid", "cfree.formats.drawings.grid_scene", "scene_from_grid")
+register("drive_along", "cfree.planning.vehicles", "drive_along")
 register("figure", "cfree.plot", "picture")
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES, _MOVED)
 __all__ = ["__version__", *_NAMES]

@@ -21,6 +21,7 @@ from cfree.collision.slide import Slide
 from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.free.space import FreeSpace, built_space
+from cfree.lazy import registered
 from cfree.paths.path import Path
 from cfree.planning.core_ways import Slides, end_of, from_numbers, numbers_of, way_of
 from cfree.planning.improving import Improver
@@ -156,11 +157,9 @@ class PosePlanner:
 
     def _driven(self, way: Sequence[Pose], vehicle: Vehicle, options: Options) -> Path | Stuck:
         """Return a path of a vehicle between the ends of a path of the robot, or a proof that it is stuck."""
-        from cfree.planning.vehicles import Question, joined
-
         with options.phase("driving"):
-            question = Question(self, self._known, vehicle, replace(options, vehicle=None))
-            answer = joined(question, way[0], way[-1], way)
+            drive = registered("drive_along")
+            answer: Path | Stuck = drive(self, self._known, vehicle, replace(options, vehicle=None), way)
         if answer.goal != way[-1]:
             raise InvariantError("a path of a vehicle ends elsewhere", state=answer)
         return answer

@@ -108,6 +108,13 @@ class Question:
         return not is_certainly_apart and bool(self.onward.pairs(pose))
 
 
+def drive_along(
+    planner: PosePlanner, known: _core.KnownScene, vehicle: Vehicle, options: Options, way: Sequence[Pose]
+) -> Path | Stuck:
+    """Return a path of a vehicle between the ends of a path of the robot, or a proof that it is stuck; see `joined`."""
+    return joined(Question(planner, known, vehicle, options), way[0], way[-1], way)
+
+
 def joined(question: Question, start: Pose, goal: Pose, way: Sequence[Pose]) -> Path | Stuck:
     """Return a path of the vehicle between two poses that a path of the robot joins; or a proof that it is stuck.
 
