@@ -44,7 +44,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.usefixtures("here")
 @pytest.mark.parametrize(("command", "lines"), [item for page in PAGES for item in commands(page)])
 def test_commands_print_the_lines_that_are_shown(command: str, lines: list[str]) -> None:
-    result = CliRunner().invoke(app, shlex.split(command))
+    result = CliRunner(env={"COLUMNS": "140"}).invoke(app, shlex.split(command))
     assert result.exit_code == 2 if lines and lines[-1].startswith("error") else result.exit_code in (0, 1), (
         result.output
     )

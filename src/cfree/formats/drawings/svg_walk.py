@@ -242,10 +242,10 @@ class Walk:
         measure = replace(state.measure, width=inner[0], height=inner[1])
         return replace(state, frame=shortened(compose(state.frame, by)), measure=measure, clips=clips, sizes=None)
 
-    def _clip_path(self, element: Element, state: State) -> tuple[Clip, ...]:
+    def _clip_path(self, element: Element, state: State, depth: int = 0) -> tuple[Clip, ...]:
         """Return the clip that an element refers to, which may be unknown."""
         value = state.style["clip-path"]
-        if not value.lower().startswith("url("):
+        if depth > MOST_CLIPS or not value.lower().startswith("url("):
             return (Clip("clip-path"),)
         target = self._target(value[4:].split(")")[0].strip(" \"'"))
         if target is None or target.tag != "clipPath":
@@ -261,7 +261,7 @@ class Walk:
         key = id(target), frame
         if key not in self.clips:
             self.clips[key] = Clip("clip-path")  # as long as it is not known; for ever, if it refers to itself
-            region = self._clip_region(target, replace(state, frame=frame, style=ROOT, clips=()), 0)
+            region = self._clip_region(target, replace(state, frame=frame, style=ROOT, clips=()), depth)
             self.clips[key] = Clip("clip-path", None if region is None else tuple(region))
         return (self.clips[key],)
 
@@ -299,7 +299,7 @@ class Walk:
         else:
             return None
         if style["clip-path"].lower() != "none":
-            for clip in self._clip_path(replace(element, state=state), state):
+            for clip in self._clip_path(replace(element, state=state), state, depth + 1):
                 if clip.region is None:
                     return None
                 region = clipped(self.source, region, clip.region)
