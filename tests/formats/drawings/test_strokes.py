@@ -9,6 +9,7 @@ import pytest
 import shapely
 
 from cfree.curves.drawn import Cubic, Line, Ring, bulged, point_of
+from cfree.errors import FormatError
 from cfree.formats.drawings.content import Curve
 from cfree.formats.drawings.source import Reading, Source
 from cfree.formats.drawings.strokes import wall, walls
@@ -105,3 +106,9 @@ def test_a_thin_line_around_a_curve_takes_few_pieces() -> None:
     curve = Cubic(((0, 0), (300, 600), (500, -400), (800, 100)))
     source = Source("a.dxf", reading=Reading(strokes=1e-9))
     assert len(walls(source, [Curve([curve])])) < 2000
+
+
+def test_an_arc_far_larger_than_its_tolerance_is_refused() -> None:
+    source = Source("a.svg", reading=Reading(strokes=1.0, tolerance=1e-9))
+    with pytest.raises(FormatError, match="elements and points"):
+        walls(source, [Curve([bulged((0.0, 0.0), (1e140, 0.0), 1.0)])])

@@ -264,7 +264,7 @@ class _Stroke:
         r = math.hypot(*arc.u)
         sweep = arc.last - arc.first
         step = min(math.pi / 8, 2 * math.acos(1 / (1 + self.error / (r + half))))
-        count = max(1, math.ceil(min(abs(sweep) / step, 1e9)))
+        count = max(1, math.ceil(min(abs(sweep) / step, 1e9))) if step else 10**9
         self.spend(PIECE * count)
         margin = half * MARGIN + NOISE * (r + abs(arc.center[0]) + abs(arc.center[1]))
         way = math.copysign(margin / r, sweep)
