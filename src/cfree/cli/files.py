@@ -70,18 +70,15 @@ def read_source(source: Path, *, straight: bool = True) -> Scene | Boundary:
 
 def _straight(scene: Scene, source: Path) -> Scene:
     """Return a scene of polygons around round shapes, within --tolerance; report them."""
-    from cfree.formats.drawings.source import CURVE_SHARE
-    from cfree.scene.reading import Note, together
-    from cfree.scene.scene import largest_of, round_count, shapes_of, with_reading
+    from cfree.formats.conversion import straightened
+    from cfree.scene.reading import together
+    from cfree.scene.scene import with_reading
 
     if not scene.curved:
         return scene
-    error = drawing.tolerance() or largest_of(scene) / CURVE_SHARE
-    what = "polygon around a round shape"
-    note = Note("near", what, "near", round_count(shapes_of(scene)), size=error, remedy="--tolerance")
-    report([note], Path(f"polygons of {source}"))
-    straight = scene.outer(error)
-    return with_reading(straight, together(straight.reading, [note]))
+    straight, notes = straightened(scene, drawing.tolerance(), remedy="--tolerance")
+    report(notes, Path(f"polygons of {source}"))
+    return with_reading(straight, together(straight.reading, notes))
 
 
 def computed(

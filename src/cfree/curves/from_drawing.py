@@ -10,7 +10,7 @@ from itertools import pairwise
 from cfree.curves import drawn
 from cfree.curves.curved import Curved
 from cfree.curves.hulls import Outline
-from cfree.curves.pieces import joints_of, spans
+from cfree.curves.pieces import exactly, joints_of, spans
 from cfree.curves.rings import Arc, Bezier, Circle, GivenRing, Segment
 from cfree.exact.number import ExactPoint
 
@@ -62,9 +62,9 @@ def _items(segment: drawn.Segment, start: ExactPoint, end: ExactPoint) -> Sequen
         case drawn.Line():
             return [end]
         case drawn.Cubic((_, q, r, _), _):
-            return [Bezier([_exactly(q), _exactly(r), end])]
+            return [Bezier([exactly(q), exactly(r), end])]
         case drawn.Arc() if _is_circular(segment) and start != end:
-            return [Arc(end, through=_exactly(drawn.middle(segment)))]
+            return [Arc(end, through=exactly(drawn.middle(segment)))]
         case drawn.Arc():
             return [
                 Arc(span.end, center=span.center, conjugate=span.v, clockwise=_turn(span.u, span.v) < 0)
@@ -80,7 +80,3 @@ def _is_circular(arc: drawn.Arc) -> bool:
 
 def _turn(u: ExactPoint, v: ExactPoint) -> Fraction:
     return u[0] * v[1] - u[1] * v[0]
-
-
-def _exactly(p: drawn.Vector) -> ExactPoint:
-    return Fraction(p[0]), Fraction(p[1])

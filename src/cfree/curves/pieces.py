@@ -225,7 +225,7 @@ def exact_of(ring: Sequence[drawn.Segment]) -> list[Piece]:
             case Line():
                 pieces.append(Line(start, end))
             case drawn.Cubic((_, q, r, _), _):
-                pieces.append(Cubic((start, _exactly(q), _exactly(r), end)))
+                pieces.append(Cubic((start, exactly(q), exactly(r), end)))
             case drawn.Arc():
                 pieces += spans(segment, start, end)
     return pieces
@@ -244,7 +244,8 @@ def _joint(before: drawn.Segment, segment: drawn.Segment) -> ExactPoint:
     return segment.tips[0] if segment.tips else drawn.point_of(*drawn.ends(segment)[0])
 
 
-def _exactly(p: drawn.Vector) -> ExactPoint:
+def exactly(p: drawn.Vector) -> ExactPoint:
+    """Return a point in doubles as fractions."""
     return Fraction(p[0]), Fraction(p[1])
 
 
@@ -252,11 +253,11 @@ def spans(arc: drawn.Arc, start: ExactPoint, end: ExactPoint) -> Iterator[Span]:
     """Split an arc into spans of less than a right angle each."""
     count = math.floor(abs(arc.last - arc.first) / (math.pi / 2)) + 1
     step = (arc.last - arc.first) / count
-    places = [start, *(_exactly(arc.at(arc.first + k * step)) for k in range(1, count)), end]
+    places = [start, *(exactly(arc.at(arc.first + k * step)) for k in range(1, count)), end]
     tau = Fraction(math.tan(abs(step) / 2))
     square = 1 + tau * tau
     c, s = (1 - tau * tau) / square, 2 * tau / square
-    center = _exactly(arc.center)
+    center = exactly(arc.center)
     for p, q in pairwise(places):
         u = p[0] - center[0], p[1] - center[1]
         v = (q[0] - center[0] - c * u[0]) / s, (q[1] - center[1] - c * u[1]) / s

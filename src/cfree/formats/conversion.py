@@ -103,11 +103,17 @@ def _straight(
     error = outer if inner is None else inner
     if not scene.curved or (error is None and tolerance is None and not is_without_curves(target)):
         return scene, ()
-    if error is None:
-        error = tolerance or largest_of(scene) / CURVE_SHARE
-    straight = scene.outer(error) if inner is None else scene.inner(error)
-    what = f"polygon {'around' if inner is None else 'inside'} a round shape"
-    return straight, (Note("near", what, "near", round_count(shapes_of(scene)), size=error),)
+    return straightened(scene, error or tolerance, inside=inner is not None)
+
+
+def straightened(
+    scene: Scene, error: float | None, *, inside: bool = False, remedy: str = ""
+) -> tuple[Scene, tuple[Note, ...]]:
+    """Replace round shapes by polygons around them, or inside, by default within a thousandth of the size; note it."""
+    error = error or largest_of(scene) / CURVE_SHARE
+    what = f"polygon {'inside' if inside else 'around'} a round shape"
+    note = Note("near", what, "near", round_count(shapes_of(scene)), size=error, remedy=remedy)
+    return scene.inner(error) if inside else scene.outer(error), (note,)
 
 
 def is_without_curves(target: Path) -> bool:
