@@ -21,6 +21,7 @@ Vector = tuple[float, float]
 Tips = tuple[ExactPoint, ExactPoint] | None
 """Exact first and last point of a curve, if known."""
 
+ROUND = 1e-12  # relative difference of the radii of an arc that was meant as an arc of a circle
 IDENTITY: Affine = (Fraction(1), Fraction(0), Fraction(0), Fraction(1), Fraction(0), Fraction(0))
 
 
@@ -53,6 +54,13 @@ class Arc:
         origin, s = self.base or self.center, math.sin(t) / scale
         c = -2 * math.sin((t + half) / 2) * math.sin((t - half) / 2) / scale if self.base else math.cos(t) / scale
         return origin[0] + self.u[0] * c + self.v[0] * s, origin[1] + self.u[1] * c + self.v[1] * s
+
+    @property
+    def circular(self) -> bool:
+        """True if its radii are perpendicular and equally long, but for rounding."""
+        (a, b), (c, d) = self.u, self.v
+        square = a * a + b * b
+        return abs(c * c + d * d - square) <= ROUND * square and abs(a * c + b * d) <= ROUND * square
 
     @property
     def closed(self) -> bool:
@@ -163,10 +171,11 @@ def chord_points(segment: Segment, count: int) -> list[Vector]:
         case Arc(_, _, _, first, last):
             return [segment.at(first + (last - first) * k / count) for k in range(count)]
         case Cubic(points, _):
-            return [_at(points, k / count) for k in range(count)]
+            return [cubic_at(points, k / count) for k in range(count)]
 
 
-def _at(p: Sequence[Vector], t: float) -> Vector:
+def cubic_at(p: Sequence[Vector], t: float) -> Vector:
+    """Point of a Bézier curve of degree 3 at a parameter."""
     weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3)
     x, y = (sum(w * q[k] for w, q in zip(weights, p, strict=True)) for k in (0, 1))
     return x, y

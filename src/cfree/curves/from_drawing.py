@@ -14,8 +14,6 @@ from cfree.curves.pieces import exactly, joints_of, spans
 from cfree.curves.rings import Arc, Bezier, Circle, GivenRing, Segment
 from cfree.exact.number import ExactPoint
 
-ROUND = 1e-12  # relative difference of the conjugate radii of an arc that was meant as an arc of a circle
-
 
 def curved_of(outline: Outline) -> Curved:
     """Return the exact round shape of an outline whose curves are in doubles.
@@ -51,7 +49,7 @@ def _path(ring: drawn.Ring) -> GivenRing:
 
 def _whole(arc: drawn.Arc) -> GivenRing:
     center, u, v = (drawn.point_of(*p) for p in (arc.center, arc.u, arc.v))
-    if _is_circular(arc):
+    if arc.circular:
         return Circle(center, drawn.decimal(math.hypot(*arc.u)))
     start = center[0] + u[0], center[1] + u[1]
     return start, Arc(start, center=center, conjugate=v, clockwise=u[0] * v[1] < u[1] * v[0])
@@ -63,19 +61,13 @@ def _items(segment: drawn.Segment, start: ExactPoint, end: ExactPoint) -> Sequen
             return [end]
         case drawn.Cubic((_, q, r, _), _):
             return [Bezier([exactly(q), exactly(r), end])]
-        case drawn.Arc() if _is_circular(segment) and start != end:
+        case drawn.Arc() if segment.circular and start != end:
             return [Arc(end, through=exactly(drawn.middle(segment)))]
         case drawn.Arc():
             return [
                 Arc(span.end, center=span.center, conjugate=span.v, clockwise=_turn(span.u, span.v) < 0)
                 for span in spans(segment, start, end)
             ]
-
-
-def _is_circular(arc: drawn.Arc) -> bool:
-    (a, b), (c, d) = arc.u, arc.v
-    size = a * a + b * b
-    return abs(a * c + b * d) <= ROUND * size and abs(c * c + d * d - size) <= ROUND * size
 
 
 def _turn(u: ExactPoint, v: ExactPoint) -> Fraction:

@@ -48,7 +48,7 @@ def place_at(curve: Segment, t: float) -> Vector:
 
 def nearest(curve: Segment, p: Vector, first: float, last: float) -> float:
     """Return the parameter in a short range whose point is nearest to another point."""
-    if isinstance(curve, Arc) and is_circle(curve):
+    if isinstance(curve, Arc) and curve.circular:
         (x, y), (a, b), (c, d) = curve.center, curve.u, curve.v
         dx, dy = p[0] - x, p[1] - y
         t = math.atan2(dx * c + dy * d, dx * a + dy * b)
@@ -104,13 +104,6 @@ def _split(row: list[Vector], t: float) -> tuple[list[Vector], list[Vector]]:
         left.append(row[0])
         right.append(row[-1])
     return left, right[::-1]
-
-
-def is_circle(arc: Arc) -> bool:
-    """True if an arc's radii are perpendicular and equally long."""
-    (a, b), (c, d) = arc.u, arc.v
-    square = a * a + b * b
-    return abs(c * c + d * d - square) <= 1e-12 * square and abs(a * c + b * d) <= 1e-12 * square
 
 
 def joints(segments: list[Segment], *, closed: bool) -> Iterator[ExactPoint]:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
-from cfree.curves.drawn import Cubic, Line, Ring, Segment, Vector, point_of, quadratic
+from cfree.curves.drawn import Cubic, Line, Ring, Segment, Vector, cubic_at, point_of, quadratic
 
 DEEPEST, SHARE = 8, 1e-6
 """Halvings of a span, and the error aimed at, as a share of the curve's size."""
@@ -81,7 +81,7 @@ def _near(
     spend(len(points))
     (a, u), (b, v) = _end(points), _end(points[::-1])
     cubic = (a, (a[0] + u[0] / 3, a[1] + u[1] / 3), (b[0] + v[0] / 3, b[1] + v[1] / 3), b)
-    distance = max(math.dist(_at(cubic, t), _place(_split(points, t)[0][-1])) for t in (0.25, 0.5, 0.75))
+    distance = max(math.dist(cubic_at(cubic, t), _place(_split(points, t)[0][-1])) for t in (0.25, 0.5, 0.75))
     if distance <= error or depth == DEEPEST:
         yield Cubic(cubic), distance
         return
@@ -107,9 +107,3 @@ def _split(points: Sequence[Row], t: float) -> tuple[list[Row], list[Row]]:
         left.append(row[0])
         right.append(row[-1])
     return left, right[::-1]
-
-
-def _at(p: Sequence[Vector], t: float) -> Vector:
-    weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3)
-    x, y = (sum(w * q[k] for w, q in zip(weights, p, strict=True)) for k in (0, 1))
-    return x, y

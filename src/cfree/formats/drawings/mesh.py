@@ -19,7 +19,6 @@ import numpy as np
 from cfree.curves.drawn import Arc, Cubic, Line, Ring, Segment, Vector, point_of
 from cfree.exact.number import ExactPoint
 from cfree.formats.drawings.chords import (
-    is_circle,
     joints,
     nearest,
     noise,
@@ -261,7 +260,7 @@ class Mesh:
         near: dict[tuple[int, ...], list[int]] = defaultdict(list)
         for piece, segment in parts:
             reach = 2 * max(self.rounding[piece.start], self.rounding[piece.end]) + noise(segment)
-            is_arc = isinstance(segment, Arc) and is_circle(segment)
+            is_arc = isinstance(segment, Arc) and segment.circular
             if is_arc:
                 assert isinstance(segment, Arc)
                 numbers = (*segment.center, math.hypot(*segment.u))
@@ -281,7 +280,7 @@ class Mesh:
         """True if two curves lie on one circle, or are equal, as far as the digits say."""
         match a[1], b[1]:
             case Arc() as p, Arc() as q:
-                if not (is_circle(p) and is_circle(q)):
+                if not (p.circular and q.circular):
                     return p == q and a[0].start == b[0].start
                 apart = max(math.dist(p.center, q.center), abs(math.hypot(*p.u) - math.hypot(*q.u)))
                 return apart <= 2 * reach

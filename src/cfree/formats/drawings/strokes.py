@@ -226,7 +226,7 @@ class _Stroke:
             self.spend(PIECE)
             if isinstance(segment, Line):
                 yield self.around_line(k, segment, half)
-            elif isinstance(segment, Arc) and _is_circular(segment) and first == last:
+            elif isinstance(segment, Arc) and segment.circular and first == last:
                 yield from self.around_arc(k, segment, float(half[0]))
             else:
                 yield from self.around_chords(segment, half)
@@ -371,12 +371,6 @@ def _hull(points: Sequence[ExactPoint]) -> list[ExactPoint]:
             half.append(p)
         ring += half[:-1]
     return ring
-
-
-def _is_circular(arc: Arc) -> bool:
-    (a, b), (c, d) = arc.u, arc.v
-    scale = a * a + b * b
-    return abs(a * c + b * d) <= 1e-12 * scale and abs(c * c + d * d - scale) <= 1e-12 * scale
 
 
 def _on(arc: Arc, t: float, share: float, beside: float) -> Vector:
