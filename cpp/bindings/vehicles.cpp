@@ -134,9 +134,9 @@ void bind_vehicles(nb::module_& m) {
         .def_prop_ro("poses", [](const Shortened& of) { return list_of(of.by->poses(of.path.legs())); });
     nb::class_<Driving>(m, "Driving")
         .def("__init__", [](Driving* of, std::shared_ptr<const cfree::KnownScene> scene, const VehicleNumbers& vehicle,
-                            const std::vector<EndNumbers>& way, const std::array<double, 7>& wishes) {
-            const auto [backward, cusp, in_place, size, radius, share, most] = wishes;
-            new (of) Driving(std::move(scene), vehicle_of(vehicle), ends_of(way), {backward, cusp, in_place, size, radius, share, most});
+                            const std::vector<EndNumbers>& way, const std::array<double, 8>& wishes) {
+            const auto [backward, cusp, stop, in_place, size, radius, share, most] = wishes;
+            new (of) Driving(std::move(scene), vehicle_of(vehicle), ends_of(way), {backward, cusp, stop, in_place, size, radius, share, most});
         }, "scene"_a, "vehicle"_a, "way"_a, "wishes"_a)
         .def_prop_ro("distance", &Driving::distance)
         .def("search_forward", [](const std::shared_ptr<Driving>& of, std::uint64_t seed, int poses) -> std::unique_ptr<Shortened> {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double nearby = 0x1p-20;      // relative to coordinates: nearer poses are compared exactly
 constexpr double same_cost = 1e-9;    // relative
+constexpr double same_curvature = 2e-4;  // in reciprocals of the radius: a hundredth of a degree of the wheels
 constexpr int zigzags = 8;
 constexpr double widest_zigzag = 1.4;  // radians
 
@@ -73,6 +74,8 @@ double Driver::cost_of(const Word& word) const {
         if (gear == -its) {
             sum += dues.cusp + (changes > 0 ? short_run(run) : 0);
             ++changes, run = 0;
+        } else if (gear == its) {
+            sum += dues.stop;
         }
         gear = its, run += length;
     }
@@ -81,22 +84,31 @@ double Driver::cost_of(const Word& word) const {
 
 void Driver::set_costs(Leg& leg) const {
     leg.cost = 0, leg.first = leg.last = {}, leg.changes = false;
+    Run begin;
     for (const Piece& p : leg.word.pieces) {
         const int gear = gear_of(p);
         if (gear == 0) {
-            leg.cost += std::abs(p.turn) * dues.in_place;
+            leg.cost += std::abs(p.turn) * dues.in_place + dues.stop;
             continue;
         }
-        const double length = std::abs(p.travel);
+        const double length = std::abs(p.travel), curvature = p.turn / p.travel;
         leg.cost += gear > 0 ? length : length * dues.backward;
         if (leg.last.gear == -gear) {
             leg.cost += dues.cusp + (leg.changes ? short_run(leg.last.length) : 0);
             if (!leg.changes) leg.first = leg.last;
             leg.changes = true, leg.last = {};
+        } else if (leg.last.gear == gear) {
+            leg.cost += steering(leg.last.curvature, curvature);
         }
-        leg.last = {gear, leg.last.length + length};
+        if (begin.gear == 0) begin = {gear, 0, curvature};
+        leg.last = {gear, leg.last.length + length, curvature};
     }
     if (!leg.changes) leg.first = leg.last;
+    leg.first.curvature = begin.curvature;
+}
+
+double Driver::steering(double from, double to) const {
+    return vehicle.turns_in_place || std::abs(to - from) * vehicle.radius < same_curvature ? 0 : dues.stop;
 }
 
 double Driver::total(std::span<const Leg> legs, Run run, const Run& beyond) const {
@@ -105,12 +117,13 @@ double Driver::total(std::span<const Leg> legs, Run run, const Run& beyond) cons
         sum += leg.cost;
         if (leg.first.gear == 0) continue;
         if (run.gear == -leg.first.gear) sum += dues.cusp + short_run(run.length), run = {};
-        run = {leg.first.gear, run.length + leg.first.length};
+        else if (run.gear != 0) sum += steering(run.curvature, leg.first.curvature);
+        run = {leg.first.gear, run.length + leg.first.length, leg.last.curvature};
         if (leg.changes) sum += short_run(run.length), run = leg.last;
     }
     if (run.gear == 0) return sum;
     if (run.gear == -beyond.gear) return sum + dues.cusp + short_run(run.length) + short_run(beyond.length);
-    return sum + short_run(run.length + beyond.length);
+    return sum + short_run(run.length + beyond.length) + (beyond.gear != 0 ? steering(run.curvature, beyond.curvature) : 0);
 }
 
 bool Driver::seems_free(const Place& from, const Word& word) const {

@@ -36,7 +36,7 @@ Run Shortening::run_before(std::size_t i) const {
         const Leg& leg = path[--i];
         if (leg.last.gear == 0) continue;
         if (run.gear == -leg.last.gear) break;
-        run = {leg.last.gear, run.length + leg.last.length};
+        run = {leg.last.gear, run.length + leg.last.length, run.gear == 0 ? leg.last.curvature : run.curvature};
         if (leg.changes) break;
     }
     return run;
@@ -48,7 +48,7 @@ Run Shortening::run_after(std::size_t j) const {
         const Leg& leg = path[j];
         if (leg.first.gear == 0) continue;
         if (run.gear == -leg.first.gear) break;
-        run = {leg.first.gear, run.length + leg.first.length};
+        run = {leg.first.gear, run.length + leg.first.length, run.gear == 0 ? leg.first.curvature : run.curvature};
         if (leg.changes) break;
     }
     return run;
@@ -219,7 +219,7 @@ bool Shortening::window() {
                 if (best[i][g].cost == HUGE_VAL) continue;
                 for (std::size_t j = i + 1; j < m; ++j)
                     for (std::size_t a = 0; a < 2; ++a) {
-                        const double here = best[i][g].cost + (a != g && (i > 0 || before.gear != 0) ? driver.dues.cusp : 0);
+                        const double here = best[i][g].cost + (i == 0 && before.gear == 0 ? 0 : a == g ? driver.dues.stop : driver.dues.cusp);
                         for (std::size_t b = 0; b < 2; ++b)
                             if (const double c = here + edge(i, j, a, b).cost; c < best[j][b].cost) best[j][b] = {c, i, g, a};
                     }
@@ -227,7 +227,7 @@ bool Shortening::window() {
         std::size_t gear = 0;
         std::array<double, 2> ends{};
         for (std::size_t g = 0; g < 2; ++g)
-            ends[g] = best[m - 1][g].cost + (beyond.gear != 0 && (beyond.gear > 0) != (g == 1) ? driver.dues.cusp : 0);
+            ends[g] = best[m - 1][g].cost + (beyond.gear == 0 ? 0 : (beyond.gear > 0) == (g == 1) ? driver.dues.stop : driver.dues.cusp);
         if (ends[1] < ends[0]) gear = 1;
         if (!(ends[gear] < cost * (1 - worth))) return false;
         struct Step {

@@ -28,10 +28,11 @@ LEAST = 0.01  # least amount in a report, in robot radii or radians
 @checked
 @dataclass(frozen=True)
 class Dues:
-    """Costs of driving: the factor of going backward, a cusp, a radian turned in place; and the robot's length."""
+    """Costs of driving: the factor of going backward; a cusp, another stop, a radian turned in place; the robot's length."""
 
     backward: float
     cusp: float
+    stop: float
     in_place: float
     length: float
 
@@ -133,9 +134,11 @@ def robot_length(scene: Scene, vehicle: Vehicle) -> float:
 def dues_of(preferences: Preferences, scene: Scene, vehicle: Vehicle) -> Dues:
     """Return the costs of a vehicle, with their defaults."""
     length = robot_length(scene, vehicle)
+    cusp = length if preferences.cusp is None else preferences.cusp
     return Dues(
         backward=BACKWARD if preferences.backward is None else preferences.backward,
-        cusp=length if preferences.cusp is None else preferences.cusp,
+        cusp=cusp,
+        stop=cusp / 4,
         in_place=preferences.turning * robot_radius(scene),
         length=length,
     )

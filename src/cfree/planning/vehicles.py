@@ -41,11 +41,11 @@ from cfree.scene.scene import Scene
 from cfree.vehicles.vehicle import Vehicle, described
 
 WORDS = 40_000  # most words tried to follow one path, for each share
-SHARES: dict[Objective, tuple[float, ...]] = {"balanced": (0.5, 0.0), "short": (0.0,), "clear": (0.75, 0.5, 0.0)}
+SHARES: dict[Objective, tuple[float, ...]] = {"balanced": (0.5, 0.25, 0.125, 0.0), "short": (0.0,), "clear": (0.75, 0.5, 0.25, 0.125, 0.0)}
 CAP = 1 / 20  # of the robot's length: the most distance that is asked
-ROUNDS = 400  # attempts to shorten each way, before the dearer half of the ways is left out
+ROUNDS = 800  # attempts to shorten each way, before the dearer half of the ways is left out
 SEEDS = 3  # random numbers for each path that is followed
-IDLE = 300  # attempts without gain that end this
+IDLE = 400  # attempts without gain that end this
 BLOCK = 50  # attempts between two checks of the clock
 GUIDED = Preferences(sideways=10, turning=3)  # of a path that is easily driven
 GUESSES = 5000  # of a search for another path of the robot
@@ -334,6 +334,8 @@ def driven(question: Question, way: Sequence[Pose]) -> Path:
     if not drives:
         raise _too_many(question, way, max(shortfalls))
     if improve == 0:
+        for drive in drives:
+            drive.join_far()
         return _path(question, min(drives, key=_cost))
 
     end = begin + improve if improve else math.inf
@@ -435,7 +437,7 @@ def _followed(
 def _driving(question: Question, guide: Sequence[Pose], share: float, objective: Objective) -> _core.Driving:
     dues = question.dues
     cap = dues.length * CAP if objective == "balanced" else question.planner.angle_scale
-    wishes = (dues.backward, dues.cusp, dues.in_place, dues.length, question.planner.angle_scale, share, cap)
+    wishes = (dues.backward, dues.cusp, dues.stop, dues.in_place, dues.length, question.planner.angle_scale, share, cap)
     return _core.Driving(question.known, numbers_of_vehicle(question.vehicle), [*map(end_of, guide)], wishes)
 
 

@@ -17,7 +17,7 @@ Vehicle vehicle_of(const GivenVehicle& given, const Scene& scene);
 
 // What the driver is to keep and to save; lengths are in the user's units.
 struct DrivingWishes {
-    double backward = 1, cusp = 0, in_place = 0, size = 1, radius = 1;
+    double backward = 1, cusp = 0, stop = 0, in_place = 0, size = 1, radius = 1;
     double share = 0, most_distance = 0;  // of the path's distance from obstacles, and the most that is kept
 };
 

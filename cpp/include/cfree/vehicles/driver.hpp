@@ -10,15 +10,15 @@
 
 namespace cfree {
 
-// Costs of driving: factor of going back, cost of a change of gear, and of a radian turned in place, as lengths.
+// Costs of driving: factor of going back; of a change of gear, of another stop, and of a radian turned in place, as lengths.
 struct Dues {
-    double backward = 1, cusp = 0, in_place = 0;
+    double backward = 1, cusp = 0, stop = 0, in_place = 0;
 };
 
-// Travel in one gear: 1, -1, or 0 for none.
+// Travel in one gear: 1, -1, or 0 for none; with the curvature at the end that is joined.
 struct Run {
     int gear = 0;
-    double length = 0;
+    double length = 0, curvature = 0;
 };
 
 // A word from one axle pose to another.
@@ -73,7 +73,9 @@ private:
     bool seems_free(const ExactWord& word) const;
     bool proved(const ExactWord& word, double from, double to) const;
     void set_costs(Leg& leg) const;
-    // Further cost of a run between two stops, if it is short.
+    // Cost of going on in one gear where the curvature changes: a car stands while its wheels turn.
+    double steering(double from, double to) const;
+    // Further cost of a run between two cusps, if it is short.
     double short_run(double length) const { return length < 0.25 * size ? 0.5 * dues.cusp : 0; }
     void car_words(const Configuration& a, const Configuration& b);
     void drive_words(const Configuration& a, const Configuration& b, bool at_any_scale);
