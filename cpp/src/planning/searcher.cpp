@@ -45,7 +45,7 @@ Area search_area(const KnownScene& scene, std::span<const Place> poses, double r
 
 Searcher::Searcher(std::shared_ptr<const KnownScene> of, std::span<const Place> poses, const Costs& given)
     : unit(nearest(of->scene().scale, power_of_two(of->scene().shift).n)), scene(std::move(of)),
-      costs{given.weight * unit, given.sideways, given.backward, given.turning},
+      costs{given.weight * unit, given.sideways, given.backward, given.turning, {given.axle.x * unit, given.axle.y * unit, given.axle.theta}},
       area(scaled(search_area(*scene, poses, given.weight), unit)), extent(extent_of(area)) {}
 
 Grid Searcher::grid(int of_places, int of_angles) const { return {scene->scene().shift, of_places - extent, of_angles}; }

@@ -62,7 +62,11 @@ double wrapped(double angle) {
 }
 
 double travel_between(const Configuration& a, const Configuration& b) {
-    const double half = 0.5 * std::abs(turn_between(a, b)), chord = norm(b.px - a.px, b.py - a.py);
+    return arc_over(norm(b.px - a.px, b.py - a.py), turn_between(a, b));
+}
+
+double arc_over(double chord, double turn) {
+    const double half = 0.5 * std::abs(turn);
     return half > 1e-6 ? chord * half / sine(half) : chord;
 }
 

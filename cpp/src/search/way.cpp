@@ -17,9 +17,13 @@ void Marked::append(const Marked& further) {
 }
 
 double cost_between(const Configuration& a, const Configuration& b, const Costs& costs) {
-    const double turn = turn_between(a, b), turning = costs.weight * std::abs(turn), travel = travel_between(a, b);
-    if (!costs.prefer()) return travel + turning;
-    const double heading = a.theta + 0.5 * turn, dx = b.px - a.px, dy = b.py - a.py;  // constant, like that of the chord
+    const double turn = turn_between(a, b), turning = costs.weight * std::abs(turn);
+    if (!costs.prefer()) return travel_between(a, b) + turning;
+    const Place& axle = costs.axle;
+    const auto [ca, sa] = cosine_sine(a.theta);
+    const auto [cb, sb] = cosine_sine(b.theta);
+    const double dx = b.px - a.px + (cb - ca) * axle.x - (sb - sa) * axle.y, dy = b.py - a.py + (sb - sa) * axle.x + (cb - ca) * axle.y;
+    const double travel = arc_over(norm(dx, dy), turn), heading = a.theta + 0.5 * turn + axle.theta;  // constant, like the chord's
     const auto [c, s] = cosine_sine(heading);
     const double ahead = c * dx + s * dy, across = c * dy - s * dx;
     const double factor = norm(ahead < 0 ? costs.backward * ahead : ahead, costs.sideways * across) / std::max(norm(dx, dy), 1e-300);

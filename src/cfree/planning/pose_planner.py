@@ -150,9 +150,11 @@ class PosePlanner:
         return path
 
     def improver(self, poses: Sequence[Pose], options: Options) -> Improver:
-        """Return an improver of a path, given by its poses."""
+        """Return an improver of a path, given by its poses; preferences count at the axle of a vehicle."""
         costs = self.angle_scale, *options.preferences.factors
-        searcher = _core.Searcher(self._known, [end_of(pose)[1] for pose in poses], costs)
+        frame = options.vehicle.frame if options.vehicle else Pose(0, 0)
+        axle = float(frame.x), float(frame.y), frame.theta
+        searcher = _core.Searcher(self._known, [end_of(pose)[1] for pose in poses], costs, axle)
         return Improver(self.scene, self.checker, searcher, options.preferences, options.stop)
 
     def _driven(self, way: Sequence[Pose], vehicle: Vehicle, options: Options) -> Path | Stuck:

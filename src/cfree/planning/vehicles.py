@@ -407,7 +407,7 @@ def _cost(drive: _core.Drive) -> float:
 
 def _guide(question: Question, way: Sequence[Pose], preferences: Preferences) -> Sequence[Pose]:
     """Return a balanced path of the robot beside this one, by preferences."""
-    options = replace(question.options, preferences=preferences)
+    options = replace(question.options, preferences=preferences, vehicle=question.vehicle)
     return question.planner.improver(way, options).balanced_once(way)
 
 

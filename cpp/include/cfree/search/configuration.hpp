@@ -32,6 +32,7 @@ double wrapped(double angle);
 // Angle by which the motion turns, and travel of the reference point.
 double turn_between(const Configuration& a, const Configuration& b);
 double travel_between(const Configuration& a, const Configuration& b);
+double arc_over(double chord, double turn);  // length of an arc that turns so far
 
 // Place after a share of the motion, in doubles.
 Place along(const Place& a, const Place& b, double share);

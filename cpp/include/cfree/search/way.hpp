@@ -19,10 +19,11 @@ struct Marked {
     void append(const Marked& further);  // `further` begins at the end of this one
 };
 
-// Costs of motions: travel plus `weight` per radian. There are factors, at least 1, for travel sideways and backward in the
-// robot's frame, whose x axis is forward; and for turning without travel.
+// Costs of motions: travel plus `weight` per radian. There are factors, at least 1, for travel sideways and backward of the
+// axle, a place in the robot's frame that looks forward; and for turning without travel.
 struct Costs {
     double weight, sideways = 1, backward = 1, turning = 1;
+    Place axle{0, 0, 0};
     bool prefer() const { return sideways > 1 || backward > 1 || turning > 1; }
 };
 double cost_between(const Configuration& a, const Configuration& b, const Costs& costs);
