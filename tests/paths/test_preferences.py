@@ -67,10 +67,17 @@ def test_the_core_and_the_report_count_the_same() -> None:
         poses = [Pose(*row) for row in rng.uniform(-3, 3, (6, 3)).tolist()]
         costs = math.hypot(2, 0.5), *preferences.factors
         ends = [*map(end_of, poses)]
-        searcher = Searcher(known_scene(MotionChecker(scene)), [place for _, place in ends], costs)
+        known = known_scene(MotionChecker(scene))
+        searcher = Searcher(known, [place for _, place in ends], costs, (0.0, 0.0, 0.0))
         path = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)])
         core = searcher.shortener(ends, 0).length()
         assert preferences.cost(path, scene) == pytest.approx(core, rel=1e-9)
+        # counted at an axle, as the path of the axle's poses
+        x, y, angle = rng.uniform(-2, 2, 3).tolist()
+        inverse = Pose(x, y, angle).inverse()
+        robot = [end_of(pose @ inverse) for pose in poses]
+        at_axle = Searcher(known, [place for _, place in robot], costs, (x, y, angle))
+        assert at_axle.shortener(robot, 0).length() == pytest.approx(core, rel=1e-9)
 
 
 def test_all_ones_are_no_preferences(hall: Scene) -> None:
