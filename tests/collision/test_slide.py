@@ -31,7 +31,8 @@ from cfree.paths.clearance import narrowest
 from cfree.planning.core_ways import numbers_of, slide_of
 from cfree.scene.features import SceneFeatures
 from cfree.verify.course import Course, place_of
-from cfree.verify.motions import CONTINUOUS, ENDS, FREE, KEPT, is_nowhere_positive, positive
+from cfree.verify.motions import CONTINUOUS, ENDS, FREE, KEPT
+from cfree.verify.positivity import is_nowhere_positive, positive
 from compared import scene_of
 from moving import CORRIDORS, CURVE, ON_CORNER, ON_FLOOR, SQUARE, TEE, box, poses, turning, way
 from shapes import PlainScene

@@ -16,7 +16,8 @@ import cfree.verify
 import strategies
 from answers import corridor
 from cfree import MotionChecker, Path, Pose, Rotation, Scene, Translation, load_scene, save
-from cfree.verify.motions import _samples, is_nowhere_positive, touches
+from cfree.verify.motions import touches
+from cfree.verify.positivity import is_nowhere_positive, samples
 from cfree.verify.world import World
 from compared import scene_of
 from moving import motions, poses
@@ -72,7 +73,7 @@ def test_sliding_turning_on_a_corner_and_exact_fits() -> None:
 def test_two_edges_take_turns_at_a_contact_that_no_halving_meets(monkeypatch: pytest.MonkeyPatch) -> None:
     """A corner of the robot passes a corner of the obstacle, touching it at u = 5/7."""
     asked = []
-    monkeypatch.setattr("cfree.verify.motions._samples", lambda *a: asked.append(a) or _samples(*a))
+    monkeypatch.setattr("cfree.verify.motions.samples", lambda *a: asked.append(a) or samples(*a))
     disc = Scene([(0, 0), (3, 0), (3, 1), (0, 1)], [[(1, 3), (9, 3), (9, 9), (1, 9)]])  # corners at sqrt 10
     turn = {"tau": "3/4"}
     assert verified(disc, Pose(0, 0), Rotation((0, 0), turn)) and asked

@@ -108,7 +108,7 @@ class Curved(Shown):
         return f"<Curved in ({x0:g}, {y0:g}, {x1:g}, {y1:g}), {counted(len(self.holes), 'hole')}>"
 
     def __getattr__(self, name: str) -> Any:
-        if hasattr(Polygon, name) or name == "_handle":
+        if name == "_handle" or (hasattr(Polygon, name) and not name.startswith("__")):
             raise UnsupportedError(REFUSED)
         raise AttributeError(name)
 

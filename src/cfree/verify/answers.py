@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
@@ -22,6 +23,8 @@ from cfree.scene.reading import Note, together
 from cfree.scene.reading_lines import Claim
 from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.vehicles.vehicle import described
+from cfree.verify.arc_motions import ArcWorld
+from cfree.verify.arcs import is_of_arcs
 from cfree.verify.curves import mismatches
 from cfree.verify.driving import DRIVABLE, driving_findings
 from cfree.verify.leeway import is_around_disc, roomier, turning, with_disc
@@ -103,8 +106,7 @@ def answer(
     assert not isinstance(outcome, (str, os.PathLike))
     whole = whole_of(scene, outcome)
     if read and (finding := other_scene(scene, outcome)):
-        check = Check(SCENE, REFUTED, "nothing else was checked")
-        return Verification((check,), (finding,), (), _since(begin))
+        return _refuted(finding, begin)
 
     def report(done: float) -> None:
         if progress is not None:
@@ -117,42 +119,47 @@ def answer(
         part_scene = part_of(scene, outcome, whole)
         if part_scene is None:
             finding = Finding(SCENE, "whole", "its obstacles are not those that the answer is about; plan anew")
-            return Verification((Check(SCENE, REFUTED, "nothing else was checked"),), (finding,), (), _since(begin))
+            return _refuted(finding, begin)
         part = part_scene
         outcome = renumbered(outcome, whole.obstacles) if isinstance(outcome, Path) else outcome
-    if scene.curved:
-        if outcome.scene is None or isinstance(outcome, Stuck):
-            finding = Finding(ROUND, "polygons", "the answer has none for the round shapes of the scene")
-            return Verification((Check(ROUND, REFUTED, "nothing else was checked"),), (finding,), (), _since(begin))
-        wrong = mismatches(scene, outcome.scene, outward=isinstance(outcome, Path))
+    its = (outcome.scene or (part if isinstance(outcome, Path) else None)) if scene.curved else scene
+    if its is None or (its.curved and not isinstance(outcome, Path)):
+        return _refuted(Finding(ROUND, "polygons", "the answer has none for the round shapes of the scene"), begin)
+    if its.curved and not all(map(is_of_arcs, shapes_of(its))):
+        text = "the answer has none for a shape of other curves than lines and circular arcs"
+        return _refuted(Finding(ROUND, "polygons", text), begin)
+    if scene.curved and its is not part:
+        wrong = mismatches(scene, its, outward=isinstance(outcome, Path))
         findings += [Finding(ROUND, where, text) for where, text in wrong]
-    world = World(outcome.scene if scene.curved and outcome.scene else scene)
-    findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
+    world = ArcWorld(its) if its.curved else World(its)
+    if isinstance(world, World):
+        findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
     findings += end_findings(outcome, world)
     findings += _needless(outcome, world)
     if isinstance(outcome, Path):
-        larger: dict[str, World | None] = {}
+        larger: dict[str, World | ArcWorld | None] = {}
         if read and read.decimals == "free":
-            larger[DECIMALS] = None if read.leeway is None else roomier(world, read.leeway)
+            larger[DECIMALS] = None if read.leeway is None else _roomier(world, read.leeway)
         if outcome.clearance:
-            larger[CLEARANCE] = (
-                with_disc(world, outcome.disc) if is_around_disc(outcome.disc, outcome.clearance) else None
-            )
+            larger[CLEARANCE] = _with_clearance(world, outcome)
         findings += [Finding(name, name, NO_ROOM[name]) for name, there in larger.items() if there is None]
         findings += path_findings(outcome, world, report, {name: there for name, there in larger.items() if there})
         findings += driving_findings(outcome)
-    elif isinstance(outcome, Stuck):
-        findings += stuck_findings(outcome, world if whole is None else World(part))
     else:
-        findings += separation_findings(outcome, world if whole is None else World(part), report)
+        assert isinstance(world, World)
+        there = world if whole is None else World(part)
+        if isinstance(outcome, Stuck):
+            findings += stuck_findings(outcome, there)
+        else:
+            findings += separation_findings(outcome, there, report)
     report(1.0)
     extents = {
         **_of_scene(outcome if read else None, whole, len(scene.obstacles)),
         QUERY: "start and goal, where the scene has them",
         **_of_moved(outcome),
-        **(_of_curves(scene, outcome) if scene.curved else {}),
-        PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them",
-        ENDS: "both are free" + (" among the polygons" if scene.curved else ""),
+        **(_of_curves(scene, its, outcome) if scene.curved else {}),
+        **_of_pieces(world),
+        ENDS: "both are free" + (" among the polygons" if scene.curved and not its.curved else ""),
         **_of_kind(outcome),
         **_of_decimals(read),
     }
@@ -164,6 +171,21 @@ def answer(
     checks = tuple(Check(name, how[name], text) for name, text in extents.items())
     proved = "" if findings else _sentence(outcome, read)
     return Verification(checks, tuple(findings), (), _since(begin), proved, _record(scene, outcome), _claim(outcome))
+
+
+def _refuted(finding: Finding, begin: float) -> Verification:
+    """Return the result of a check that ends at its first finding."""
+    return Verification((Check(finding.kind, REFUTED, "nothing else was checked"),), (finding,), (), _since(begin))
+
+
+def _roomier(world: World | ArcWorld, leeway: Fraction) -> World | ArcWorld | None:
+    return world.larger(leeway) if isinstance(world, ArcWorld) else roomier(world, leeway)
+
+
+def _with_clearance(world: World | ArcWorld, path: Path) -> World | ArcWorld | None:
+    if isinstance(world, ArcWorld):
+        return world.with_robot(path.clearance)
+    return with_disc(world, path.disc) if is_around_disc(path.disc, path.clearance) else None
 
 
 def _record(scene: Scene, outcome: Path | Separated | Stuck | AllSeparated) -> tuple[Note, ...]:
@@ -279,13 +301,16 @@ def _is_left(outcome: Path | Separated | Stuck) -> bool:
     )
 
 
-def _needless(outcome: Path | Separated | Stuck, world: World) -> list[Finding]:
+def _needless(outcome: Path | Separated | Stuck, world: World | ArcWorld) -> list[Finding]:
     """Findings for ends that were moved although their poses are free."""
     requested, findings = outcome.moved or Moved(), list[Finding]()
     for name, end in (("start", requested.start), ("goal", requested.goal)):
         if end is None or _is_left(outcome):
             continue
-        is_free = fault_at(end, world) is None if isinstance(end, Pose) else _has_room(world, end)
+        if isinstance(end, Pose):
+            is_free = fault_at(end, world) is None
+        else:
+            is_free = isinstance(world, World) and _has_room(world, end)
         if is_free:
             findings.append(Finding(MOVED, name, f"{text_of(end)} is free, and it was moved; plan anew"))
     return findings
@@ -312,11 +337,20 @@ def _of_scene(outcome: Path | Separated | Stuck | None, whole: Whole | None, cou
     return {SCENE: "the one that the answer is for"} if outcome is not None and outcome.stamp else {}
 
 
-def _of_curves(scene: Scene, outcome: Path | Separated | Stuck) -> dict[str, str]:
-    count = round_count(shapes_of(scene))
+def _of_curves(scene: Scene, its: Scene, outcome: Path | Separated | Stuck) -> dict[str, str]:
+    count, polygons = round_count(shapes_of(scene)), round_count(shapes_of(scene)) - round_count(shapes_of(its))
+    exactly = f"{round_count(shapes_of(its)):,}: lines and circular arcs, exactly"
+    if not polygons:
+        return {ROUND: exactly}
     around, inside = ("around", "inside") if isinstance(outcome, Path) else ("inside", "around")
-    what = f"{count:,}: the answer's polygons are {around} those of robot and obstacles, {inside} a workspace"
-    return {ROUND: what}
+    what = f"{polygons:,}: the answer's polygons are {around} those of robot and obstacles, {inside} a workspace"
+    return {ROUND: what if polygons == count else f"{exactly}; {what}"}
+
+
+def _of_pieces(world: World | ArcWorld) -> dict[str, str]:
+    if isinstance(world, ArcWorld):
+        return {}
+    return {PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them"}
 
 
 def _of_decimals(read: Read | None) -> dict[str, str]:

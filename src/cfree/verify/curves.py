@@ -44,18 +44,23 @@ def mismatches(scene: Scene, polygons: Scene, *, outward: bool) -> Wrong:
     yield from _list("obstacles", obstacles, polygons.obstacles, outward)
     if (scene.workspace is None) != (polygons.workspace is None):
         yield "workspace", "only one of scene and answer has it"
-    elif scene.workspace is not None and polygons.workspace is not None:
-        yield from _shape("workspace", scene.workspace, [polygons.workspace], not outward)
+    elif scene.workspace is not None and polygons.workspace is not None and scene.workspace != polygons.workspace:
+        own = [polygons.workspace] if isinstance(polygons.workspace, Polygon) else []
+        yield from _shape("workspace", scene.workspace, own, not outward)
     if scene.bounds != polygons.bounds:
         yield "bounds", "those of the answer are others"
 
 
-def _list(place: str, shapes: Sequence[tuple[str, AnyShape]], polygons: Sequence[Polygon], outward: bool) -> Wrong:
-    """Shapes of the robot, or obstacles, and their polygons one after the other."""
+def _list(place: str, shapes: Sequence[tuple[str, AnyShape]], polygons: Sequence[AnyShape], outward: bool) -> Wrong:
+    """Shapes of the robot, or obstacles, and their polygons one after the other, or the shapes themselves."""
     missing = sum(_count(shape) for _, shape in shapes) - len(polygons)
     k = 0
     for name, shape in shapes:
-        faults = [*_shape(name, shape, polygons[k : k + _count(shape)], outward)]
+        if isinstance(shape, Curved) and [*polygons[k : k + 1]] == [shape]:
+            k += 1
+            continue
+        own = [polygon for polygon in polygons[k : k + _count(shape)] if isinstance(polygon, Polygon)]
+        faults = [*_shape(name, shape, own, outward)]
         if faults and missing > 0 and not outward and isinstance(shape, Curved) and not shape.grown:
             missing -= 1
             continue

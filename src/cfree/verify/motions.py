@@ -11,19 +11,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from itertools import pairwise
-from operator import mul
 from typing import TYPE_CHECKING
 
 import numpy as np
-from flint import fmpz_poly
 
 from cfree.collision.motion import Translation
 from cfree.collision.slide import Touch
-from cfree.exact.algebraic import Root, between, part, roots, sign
+from cfree.exact.algebraic import sign
 from cfree.forbidden.columns import Ints
-from cfree.verify.course import ALL, Course, Interval, Placed, Poly, bernstein, bernstein_rows, combined, place_of
+from cfree.verify.arc_motions import ArcWorld
+from cfree.verify.course import ALL, Course, Interval, Placed, combined, place_of
 from cfree.verify.polygons import Ring, near
+from cfree.verify.positivity import is_nowhere_positive, positive, samples
 from cfree.verify.result import Finding
 from cfree.verify.surfaces import Fault
 from cfree.verify.world import numbers
@@ -36,6 +35,8 @@ if TYPE_CHECKING:
     from cfree.planning.stuck import Stuck
     from cfree.verify.world import World
 
+    AnyWorld = World | ArcWorld
+
 ENDS, CONTINUOUS, FREE, KEPT = "start and goal", "continuous", "free of collisions", "contacts kept"
 DECIMALS, CLEARANCE = "decimals", "clearance"
 TOO_NEAR = {
@@ -47,7 +48,7 @@ HALVINGS = 16
 
 
 def path_findings(
-    path: Path, world: World, report: Callable[[float], object], larger: dict[str, World] | None = None
+    path: Path, world: AnyWorld, report: Callable[[float], object], larger: dict[str, AnyWorld] | None = None
 ) -> Iterator[Finding]:
     """Findings about a path in a scene, and in worlds of larger robots in which it is claimed to be free.
 
@@ -69,7 +70,8 @@ def path_findings(
             yield Finding(CONTINUOUS, f"motion {k}", "its formula divides by zero, or begins elsewhere")
             return
         for touch in motion.contacts:
-            if (why := _not_kept(world, course, touch)) is not None:
+            why = "slides are for polygons" if isinstance(world, ArcWorld) else _not_kept(world, course, touch)
+            if why is not None:
                 yield Finding(KEPT, f"motion {k}", f"{touch.kind} {touch.robot}, {touch.obstacle}: {why}")
         yield from too_near(motion, f"motion {k}")
         if not open_ and (u := collision(world, course)) is not None:
@@ -79,22 +81,24 @@ def path_findings(
         yield Finding(CONTINUOUS, "goal", "the motions do not lead to it")
 
 
-def _course_in(there: World, placed: Placed, motion: Motion, world: World) -> Course:
+def _course_in(there: AnyWorld, placed: Placed, motion: Motion, world: AnyWorld) -> Course:
     """The same motion in the coordinates of another world."""
     x, y, c, s = placed
     factor = there.scale // world.scale
     return Course((factor * x, factor * y, c, s), motion, there.scale)
 
 
-def end_findings(answer: Path | Separated | Stuck, world: World) -> Iterator[Finding]:
+def end_findings(answer: Path | Separated | Stuck, world: AnyWorld) -> Iterator[Finding]:
     """Findings for a forbidden start and goal."""
     for name, pose in (("start", answer.start), ("goal", answer.goal)):
         if (fault := fault_at(pose, world)) is not None:
             yield Finding(ENDS, name, fault)
 
 
-def fault_at(pose: Pose, world: World) -> str | None:
+def fault_at(pose: Pose, world: AnyWorld) -> str | None:
     """Fault of a pose; None if it is free."""
+    if isinstance(world, ArcWorld):
+        return None if world.is_free(place_of(pose, world.scale)) else "it is forbidden"
     placed = place_of(pose, world.scale)
     where = _beyond(world, placed)
     if where is None and collision(world, Course(placed, STANDING, world.scale)) is not None:
@@ -154,8 +158,10 @@ def _not_kept(world: World, course: Course, touch: Touch) -> str | None:
     return None
 
 
-def collision(world: World, course: Course) -> Fraction | None:
+def collision(world: AnyWorld, course: Course) -> Fraction | None:
     """Some u at which a pose is forbidden, if there is one."""
+    if isinstance(world, ArcWorld):
+        return world.collision(course)
     for k, b in enumerate(world.bounds):
         sign = -1 if k < 2 else 1
         over = combined((sign, -sign * b), (course.x, course.y)[k % 2], course.d)
@@ -181,7 +187,7 @@ def _collision(world: World, course: Course, part: Ring, interval: Interval, pie
             continue
         left.append(k)
         every = [height for heights in edges for height in heights]
-        for u in _samples(every, interval) if last else [Fraction(a + b, 2 * n)]:
+        for u in samples(every, interval) if last else [Fraction(a + b, 2 * n)]:
             if all(any(sign(height, u) > 0 for height in heights) for heights in edges):
                 return u
     if last or not left:
@@ -191,36 +197,3 @@ def _collision(world: World, course: Course, part: Ring, interval: Interval, pie
         if place is not None:
             return place
     return None
-
-
-def is_nowhere_positive(poly: Poly, interval: Interval) -> bool:
-    """True if Bernstein coefficients prove it: all are <= 0, or (f, m, g) with f, g <= 0 and m^2 <= f g.
-
-    Notes
-    -----
-    For a quadratic the result is exact. For other polynomials False may be wrong, but not True.
-    """
-    rows = bernstein_rows(len(poly) - 1, interval)
-    if all(sum(map(mul, row, poly)) <= 0 for row in rows):
-        return True
-    if len(poly) != 3:
-        return False
-    f, m, g = bernstein(poly, interval)
-    return f <= 0 and g <= 0 and m * m <= f * g
-
-
-def positive(poly: Poly) -> Fraction | None:
-    """Some u in [0, 1] at which a polynomial is positive, if there is one."""
-    if is_nowhere_positive(poly, ALL):
-        return None
-    return next((u for u in _samples([poly], ALL) if sign(poly, u) > 0), None)
-
-
-def _samples(polys: list[Poly], interval: Interval) -> Iterator[Fraction]:
-    """One number between any two neighbouring roots in an interval."""
-    lo, hi = Fraction(interval[0], interval[2]), Fraction(interval[1], interval[2])
-    ends = {root.key: root for f in polys if any(f[1:]) for root, _ in roots(fmpz_poly(list(f)), lo, hi)}
-    ends |= {end.key: end for end in map(Root.of, (lo, hi))}
-    for one, other in pairwise(sorted(ends.values())):
-        part(one, other)
-        yield between(one.hi, other.lo)
