@@ -28,7 +28,7 @@ LEAST = 0.01  # least amount in a report, in robot radii or radians
 @checked
 @dataclass(frozen=True)
 class Dues:
-    """Costs of driving: the factor of going backward; a cusp, another stop, a radian turned in place; the robot's length."""
+    """Costs of driving: the factor of going backward; a cusp, another stop, a radian in place; the robot's length."""
 
     backward: float
     cusp: float

@@ -41,7 +41,11 @@ from cfree.scene.scene import Scene
 from cfree.vehicles.vehicle import Vehicle, described
 
 WORDS = 40_000  # most words tried to follow one path, for each share
-SHARES: dict[Objective, tuple[float, ...]] = {"balanced": (0.5, 0.25, 0.125, 0.0), "short": (0.0,), "clear": (0.75, 0.5, 0.25, 0.125, 0.0)}
+SHARES: dict[Objective, tuple[float, ...]] = {
+    "balanced": (0.5, 0.25, 0.125, 0.0),
+    "short": (0.0,),
+    "clear": (0.75, 0.5, 0.25, 0.125, 0.0),
+}
 CAP = 1 / 20  # of the robot's length: the most distance that is asked
 ROUNDS = 800  # attempts to shorten each way, before the dearer half of the ways is left out
 SEEDS = 3  # random numbers for each path that is followed
