@@ -12,6 +12,7 @@
 #include "cfree/collision/edge_distances.hpp"
 #include "cfree/collision/motion_checker.hpp"
 #include "cfree/support/elementary.hpp"
+#include "given_motions.hpp"
 #include "given_poses.hpp"
 #include "watched.hpp"
 
@@ -57,27 +58,9 @@ static cfree::Motion motion(bool turns, const MotionIntegers& n) {
 
 // A `Translation` or a `Rotation` from a pose, in doubles or as a `Pose`: is it free? None for other poses.
 static std::optional<bool> is_motion_free(const MotionChecker& checker, nb::handle from, nb::handle motion, bool turns) {
-    static const Attribute vector("vector"), pole("pole"), tau("tau"), clockwise("clockwise");
-    const auto given = given_pose(from);
-    if (!given) return {};
-    const nb::object pair = (turns ? pole : vector).of(motion);
-    const cfree::Ratio vx = ratio_of(item(pair, 0)), vy = ratio_of(item(pair, 1));
-    const auto& [x, y, q, p, theta] = *given;
-    using cfree::common_multiple;
-    const Int unit = common_multiple(common_multiple(x.d, y.d), common_multiple(vx.d, vy.d)), scale = unit * checker.scene->scale;
-    const auto whole = [&](const cfree::Ratio& c) { return Int(c.d == unit ? c.n * checker.scene->scale : c.n * (scale / c.d)); };
-    cfree::Motion m{q * q - p * p, 2 * p * q, q * q + p * p, whole(x), whole(y), unit, turns, whole(vx), whole(vy), 1, 1, 0};
-    if (turns) {
-        const nb::object half = tau.of(motion);
-        if (half.is_none()) {
-            m.q = 0, m.p = clockwise.of(motion).is(nb::handle(Py_True)) ? -1 : 1;
-        } else {
-            const cfree::Ratio tangent = ratio_of(half);
-            m.q = tangent.d, m.p = tangent.n;
-        }
-        m.start = cfree::root_below(m.q * m.q + m.p * m.p);
-    }
-    return !checker.begins_outside(m) && checker.is_free(m);
+    const auto m = given_motion(checker.scene->scale, from, motion, turns);
+    if (!m) return {};
+    return !checker.begins_outside(*m) && checker.is_free(*m);
 }
 
 // c, s, w, q, p; and five coefficients each of x, y, d

@@ -18,6 +18,7 @@ void bind_arrangement(nb::module_& m);
 void bind_search(nb::module_& m);
 void bind_planning(nb::module_& m);
 void bind_vehicles(nb::module_& m);
+void bind_arcs(nb::module_& m);
 
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false);  // objects that globals hold at exit are no news to users
@@ -36,4 +37,5 @@ NB_MODULE(_core, m) {
     bind_search(m);
     bind_planning(m);
     bind_vehicles(m);
+    bind_arcs(m);
 }

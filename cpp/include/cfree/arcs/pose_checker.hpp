@@ -1,0 +1,43 @@
+// Test that poses are free among shapes of segments and arcs: in doubles with a bound, else exactly; theory, "Exact arcs".
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "cfree/arcs/shape.hpp"
+#include "cfree/collision/pose_checker.hpp"
+
+namespace cfree {
+
+class NearScene;
+
+// A distance is in an interval; 0, 0 if shapes overlap. In the user's units.
+struct DistanceBounds {
+    double low, high;
+};
+
+class ArcPoseChecker {
+public:
+    explicit ArcPoseChecker(std::shared_ptr<const ArcScene> scene);
+    ~ArcPoseChecker();
+    ArcPoseChecker(const ArcPoseChecker&) = delete;
+    ArcPoseChecker& operator=(const ArcPoseChecker&) = delete;
+
+    // Verdicts of poses x, y and theta in [0, 2 pi], radians.
+    void check(const double* poses, std::size_t count, int threads, Verdict* out) const;
+    // One pose, exactly.
+    bool is_free(const GivenPose& pose) const;
+    // Exactly the pose that Python's `Pose` makes of three finite doubles. Nothing for an angle that `read_radians` leaves out.
+    std::optional<bool> is_free(double x, double y, double theta) const;
+    // Distance of the robot from all obstacles, at most `most`.
+    DistanceBounds distance(const GivenPose& pose, double most) const;
+
+    const std::shared_ptr<const ArcScene> scene;
+
+private:
+    struct Placed;
+    Verdict verdict(Placed& placed, double x, double y, double c, double s) const;
+    bool decide(const Placed& placed, const ExactPlacement& at) const;
+    std::unique_ptr<const NearScene> near;
+};
+
+}  // namespace cfree

@@ -1,0 +1,264 @@
+#include "arcs/near_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "arcs/vectors.hpp"
+#include "cfree/support/elementary.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double length(const Vec<double>& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
+Vec<double> along(const Vec<double>& p, double t, const Vec<double>& d) { return {p.x + t * d.x, p.y + t * d.y}; }
+
+// Where a direction is with respect to the cone of an arc: at least this far inside, times the length, or, below 0, outside.
+double depth_in_cone(const NearCurve& arc, const Vec<double>& d) {
+    const Vec<double> u = arc.start - arc.center, w = arc.end - arc.center;
+    if (dot(u, d) + dot(w, d) <= 0) return -std::max(length(d), margin);
+    return std::min(cross(u, d) * arc.turn, cross(d, w) * arc.turn) / arc.radius;
+}
+
+double distance_of_point(const Vec<double>& p, const NearCurve& b) {
+    if (b.turn == 0) {
+        const Vec<double> e = b.end - b.start, d = p - b.start;
+        const double square = dot(e, e), t = square > 0 ? std::clamp(dot(e, d) / square, 0.0, 1.0) : 0;
+        return length(d - Vec<double>{t * e.x, t * e.y});
+    }
+    const Vec<double> d = p - b.center;
+    if (depth_in_cone(b, d) >= 0) return std::abs(length(d) - b.radius);
+    return std::min(length(p - b.start), length(p - b.end));
+}
+
+enum class Meeting { none, certain, maybe };
+
+// A place where the lines or circles meet, which is off by at most `error`: is it on both curves?
+Meeting at(const Vec<double>& x, double error, const NearCurve& a, const NearCurve& b) {
+    Meeting all = Meeting::certain;
+    for (const NearCurve* c : {&a, &b}) {
+        double depth;
+        if (c->turn == 0) {
+            const Vec<double> e = c->end - c->start;
+            const double size = length(e), t = dot(e, x - c->start) / size;
+            depth = std::min(t, size - t);
+        } else {
+            depth = depth_in_cone(*c, x - c->center);
+        }
+        if (depth < -error) return Meeting::none;
+        if (!(depth > error)) all = Meeting::maybe;
+    }
+    return all;
+}
+
+// The places foot +- sqrt(square) direction; `error` bounds that of the square, `shift` that of the foot.
+Meeting at_two(const Vec<double>& foot, const Vec<double>& direction, double square, double error, double shift, const NearCurve& a,
+               const NearCurve& b) {
+    if (square < -error) return Meeting::none;
+    if (square <= 0x1p8 * error) {
+        const Meeting one = at(foot, std::sqrt(0x1p9 * error) + shift, a, b);
+        return one == Meeting::none ? one : Meeting::maybe;
+    }
+    const double half = std::sqrt(square), off = error / half + shift;
+    const Meeting first = at(along(foot, half, direction), off, a, b);
+    if (first == Meeting::certain) return first;
+    const Meeting second = at(along(foot, -half, direction), off, a, b);
+    return second == Meeting::none ? first : second;
+}
+
+Meeting lines_meet(const NearCurve& a, const NearCurve& b) {
+    bool is_certain = true;
+    for (const auto& [p, q] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+        const Vec<double> e = p->end - p->start;
+        const double size = length(e), s = cross(e, q->start - p->start) / size, t = cross(e, q->end - p->start) / size;
+        if (std::min(s, t) > margin || std::max(s, t) < -margin) return Meeting::none;
+        if (!(std::min(std::abs(s), std::abs(t)) > margin)) is_certain = false;
+    }
+    return is_certain ? Meeting::certain : Meeting::maybe;
+}
+
+Meeting line_meets(const NearCurve& a, const NearCurve& b, double& gap) {
+    const Vec<double> e = a.end - a.start, d = b.center - a.start;
+    const double size = length(e), height = cross(e, d) / size, t = dot(e, d) / size, r = b.radius;
+    const Vec<double> unit{e.x / size, e.y / size}, up{-unit.y * height, unit.x * height};
+    if (std::abs(height) > r + margin) {
+        if (0 <= t && t <= size && depth_in_cone(b, -up) >= 0) gap = std::min(gap, std::abs(height) - r);
+        return Meeting::none;
+    }
+    if (std::max(length(d), length(b.center - a.end)) < r - margin) return Meeting::none;
+    return at_two(b.center - up, unit, r * r - height * height, 4 * r * margin, 4 * margin, a, b);
+}
+
+Meeting arcs_meet(const NearCurve& a, const NearCurve& b, double& gap) {
+    const Vec<double> d = b.center - a.center;
+    const double apart = length(d), r = a.radius, s = b.radius;
+    if (apart > r + s + margin) {
+        if (depth_in_cone(a, d) >= 0 && depth_in_cone(b, -d) >= 0) gap = std::min(gap, apart - r - s);
+        return Meeting::none;
+    }
+    if (apart < std::abs(r - s) - margin) {
+        const Vec<double> to = r > s ? d : -d;
+        if (depth_in_cone(a, to) >= 0 && depth_in_cone(b, to) >= 0) gap = std::min(gap, std::abs(r - s) - apart);
+        return Meeting::none;
+    }
+    const double from = (apart + (r - s) * (r + s) / apart) / 2, off = 8 * margin * (r + s) / apart;
+    if (!(off < r)) return Meeting::maybe;
+    const Vec<double> unit{d.x / apart, d.y / apart};
+    return at_two(along(a.center, from, unit), {-unit.y, unit.x}, (r - from) * (r + from), 4 * r * off, off, a, b);
+}
+
+// The number of units n / scale, times 2^-shift.
+double rounded(const Int& n, const Int& scale, int shift) {
+    const int bits = bits_of(scale);
+    return ball(n, bits + shift).hi / ball(scale, bits).hi;
+}
+
+Box box_of(const NearCurve& curve) {
+    Box box;
+    box.add(curve.start.x, curve.start.y), box.add(curve.end.x, curve.end.y);
+    if (curve.turn != 0) box.add(curve.corner.x, curve.corner.y);
+    return {box.x0 - margin, box.y0 - margin, box.x1 + margin, box.y1 + margin};
+}
+
+bool meet(const Box& a, const Box& b, double by) {
+    return a.x0 - by <= b.x1 && b.x0 - by <= a.x1 && a.y0 - by <= b.y1 && b.y0 - by <= a.y1;
+}
+
+}  // namespace
+
+double gap_between(const NearCurve& a, const NearCurve& b) {
+    double gap = infinity;
+    const Meeting found = a.turn == 0 ? b.turn == 0 ? lines_meet(a, b) : line_meets(a, b, gap)
+                          : b.turn == 0 ? line_meets(b, a, gap)
+                                        : arcs_meet(a, b, gap);
+    if (found == Meeting::certain) return -1;
+    if (found == Meeting::maybe) return 0;
+    for (const auto* p : {&a.start, &a.end}) gap = std::min(gap, distance_of_point(*p, b));
+    for (const auto* p : {&b.start, &b.end}) gap = std::min(gap, distance_of_point(*p, a));
+    return gap > margin ? gap : 0;
+}
+
+NearShape::NearShape(const ArcShape& shape, int shift) : ring(shape.ring), is_outside(shape.is_outside) {
+    const auto rounded = [&](const Vec<Int>& p) {
+        return Vec<double>{cfree::rounded(p.x, shape.scale, shift), cfree::rounded(p.y, shape.scale, shift)};
+    };
+    radius = cfree::rounded(shape.radius, shape.scale, shift);
+    for (const RoundEdge& curve : shape.curves) {
+        NearCurve c{rounded(curve.start), rounded(curve.end), rounded(curve.center), {}, 0, curve.turn};
+        if (curve.turn != 0) {
+            const Vec<double> u = rounded(curve.start - curve.center), w = rounded(curve.end - curve.center);
+            const double tangent = cross(u, w) / (dot(u, u) + dot(u, w));  // of half the turn, with its sign
+            c.corner = {c.start.x - u.y * tangent, c.start.y + u.x * tangent};
+            c.radius = length(u);
+        }
+        curves.push_back(c);
+    }
+    set_boxes();
+}
+
+void NearShape::set_boxes() {
+    boxes.resize(curves.size());
+    around = {};
+    for (std::size_t k = 0; k < curves.size(); ++k) around.add(boxes[k] = box_of(curves[k]));
+}
+
+// The ray to the right, past chords; a point on the outer side of a chord and in the disc is around it. Each sign is taken
+// once, so that a point near a chord counts alike in both.
+bool NearShape::has(const Vec<double>& p) const {
+    int turns = 0;
+    for (const NearCurve& c : curves) {
+        const bool is_up = c.start.y <= p.y && p.y < c.end.y, is_down = c.end.y <= p.y && p.y < c.start.y;
+        if (c.turn == 0 && !is_up && !is_down) continue;
+        const bool is_left = cross(c.end - c.start, p - c.start) > 0;
+        if (is_up && is_left) ++turns;
+        if (is_down && !is_left) --turns;
+        if (c.turn != 0 && is_left == (c.turn < 0)) {
+            const Vec<double> d = p - c.center;
+            if (dot(d, d) < c.radius * c.radius) turns += c.turn;
+        }
+    }
+    return turns + (is_outside ? 1 : 0) != 0;
+}
+
+Verdict verdict_on(const NearShape& a, const NearShape& b, double within, double slack, CurvePairs* near) {
+    bool is_open = false, is_forbidden = false;
+    const double most = within + slack + margin, least = within - slack - margin;
+    for (std::size_t i = 0; i < a.curves.size(); ++i) {
+        if (!b.is_outside && !meet(a.boxes[i], b.around, most)) continue;
+        for (std::size_t j = 0; j < b.curves.size(); ++j) {
+            if (!meet(a.boxes[i], b.boxes[j], most)) continue;
+            const double gap = gap_between(a.curves[i], b.curves[j]);
+            if (gap > most) continue;
+            is_open = true;
+            if (slack == 0 && gap < 0) is_forbidden = true;
+            if (within > 0 && gap < least && (slack == 0 || gap > 0)) is_forbidden = true;
+            if (near) near->emplace_back(static_cast<Index>(i), static_cast<Index>(j));
+            else if (is_forbidden) return Verdict::forbidden;
+        }
+    }
+    if (is_forbidden) return Verdict::forbidden;
+    if (is_open) return Verdict::uncertain;
+    for (std::size_t k = 0; k + 1 < a.ring.size(); ++k) {
+        const Vec<double>& p = a.curves[static_cast<std::size_t>(a.ring[k])].start;
+        if ((b.is_outside || b.around.meets({p.x, p.y, p.x, p.y})) && b.has(p)) return Verdict::forbidden;
+    }
+    for (std::size_t k = 0; k + 1 < b.ring.size(); ++k) {
+        const Vec<double>& p = b.curves[static_cast<std::size_t>(b.ring[k])].start;
+        if (a.around.meets({p.x, p.y, p.x, p.y}) && a.has(p)) return Verdict::forbidden;
+    }
+    return Verdict::free;
+}
+
+double distance_of(const NearShape& a, const NearShape& b, double most) {
+    if (verdict_on(a, b, a.radius + b.radius, 0) != Verdict::free) return 0;
+    double least = most + a.radius + b.radius;
+    for (std::size_t i = 0; i < a.curves.size(); ++i)
+        for (std::size_t j = 0; j < b.curves.size(); ++j)
+            if (meet(a.boxes[i], b.boxes[j], least)) least = std::min(least, gap_between(a.curves[i], b.curves[j]));
+    return least - a.radius - b.radius;
+}
+
+NearScene::NearScene(std::shared_ptr<const ArcScene> of) : scene(std::move(of)) {
+    int bits = -(1 << 20);
+    for (const auto* shapes : {&scene->robot, &scene->obstacles})
+        for (const ArcShape& shape : *shapes) {
+            const int own = bits_of(shape.scale) - 1;
+            if (!shape.radius.is_zero()) bits = std::max(bits, bits_of(shape.radius) - own);
+            for (const RoundEdge& curve : shape.curves)
+                for (const auto* p : {&curve.start, &curve.center}) bits = std::max({bits, bits_of(p->x) - own, bits_of(p->y) - own});
+        }
+    shift = bits + 4;  // the robot turns, radii are at most twice as long, and sums have two of them
+    unit = std::ldexp(1.0, -shift);
+    for (const ArcShape& shape : scene->robot) robot.emplace_back(shape, shift);
+    for (const NearShape& shape : robot)
+        for (const NearCurve& c : shape.curves)
+            for (const auto* p : {&c.start, &c.end, &c.corner}) reach = std::max(reach, length(*p) + shape.radius + margin);
+    std::vector<Box> boxes;
+    for (const ArcShape& shape : scene->obstacles) {
+        const auto j = static_cast<Index>(obstacles.size());
+        const NearShape& near = obstacles.emplace_back(shape, shift);
+        (near.is_outside ? outside : inside).push_back(j);
+        if (!near.is_outside) boxes.push_back(near.around);
+        most_radius = std::max(most_radius, near.radius);
+    }
+    tree = std::make_unique<BoxTree>(std::move(boxes));
+}
+
+void NearScene::place(std::size_t part, double x, double y, double c, double s, NearShape& placed) const {
+    const NearShape& still = robot[part];
+    if (placed.ring.empty()) placed = still;
+    const auto move = [&](const Vec<double>& p) { return Vec<double>{x + (c * p.x - s * p.y), y + (s * p.x + c * p.y)}; };
+    placed.around = {};
+    for (std::size_t k = 0; k < still.curves.size(); ++k) {
+        const NearCurve& from = still.curves[k];
+        NearCurve& to = placed.curves[k];
+        to.start = move(from.start), to.end = move(from.end);
+        if (from.turn != 0) to.center = move(from.center), to.corner = move(from.corner);
+        placed.around.add(placed.boxes[k] = box_of(to));
+    }
+}
+
+}  // namespace cfree

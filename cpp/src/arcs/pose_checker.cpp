@@ -1,0 +1,138 @@
+#include "cfree/arcs/pose_checker.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "arcs/near_shape.hpp"
+#include "arcs/overlap.hpp"
+#include "cfree/exact/radians.hpp"
+#include "cfree/support/elementary.hpp"
+#include "collision/pose_grid.hpp"
+#include "support/parallel.hpp"
+
+namespace cfree {
+
+namespace {
+constexpr std::size_t chunk = 256;
+constexpr double far = 1;  // beyond it nothing is near, as all coordinates of shapes are below a sixteenth
+
+double rounded(const Ratio& x) {
+    const bool is_large = !x.n.is_zero() && msb(abs(x.n)) > msb(x.d) + 1000;
+    return is_large ? std::copysign(0x1p1000, x.n.sign()) : nearest(x.n, x.d);
+}
+}  // namespace
+
+// Parts of the robot in a pose, and the pairs of parts and obstacles that doubles leave open there.
+struct ArcPoseChecker::Placed {
+    std::vector<NearShape> part;
+    std::vector<std::pair<std::size_t, std::size_t>> open;
+};
+
+ArcPoseChecker::ArcPoseChecker(std::shared_ptr<const ArcScene> s) : scene(std::move(s)), near(std::make_unique<NearScene>(scene)) {}
+ArcPoseChecker::~ArcPoseChecker() = default;
+
+Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, double s) const {
+    placed.open.clear();
+    x *= near->unit, y *= near->unit;
+    if (!(std::abs(x) < far && std::abs(y) < far))
+        return std::any_of(near->obstacles.begin(), near->obstacles.end(), [](const NearShape& o) { return o.is_outside; })
+                   ? Verdict::forbidden
+                   : Verdict::free;
+    placed.part.resize(near->robot.size());
+    Verdict all = Verdict::free;
+    for (std::size_t i = 0; i < near->robot.size(); ++i) {
+        NearShape& part = placed.part[i];
+        near->place(i, x, y, c, s, part);
+        near->near(part.around, part.radius + margin, [&](Index number) {
+            if (all == Verdict::forbidden) return;
+            const auto j = static_cast<std::size_t>(number);
+            const NearShape& obstacle = near->obstacles[j];
+            const Verdict v = verdict_on(part, obstacle, part.radius + obstacle.radius, 0);
+            if (v == Verdict::free) return;
+            if (v == Verdict::uncertain) placed.open.emplace_back(i, j);
+            all = v;
+        });
+        if (all == Verdict::forbidden) return all;
+    }
+    return placed.open.empty() ? all : Verdict::uncertain;
+}
+
+bool ArcPoseChecker::decide(const Placed& placed, const ExactPlacement& at) const {
+    for (const auto& [i, j] : placed.open) {
+        const ArcShape &a = scene->robot[i], &b = scene->obstacles[j];
+        const CommonScale scale(a, b, Int(1));
+        const Int dx = at.x * scale.whole * at.w, dy = at.y * scale.whole * at.w, own = at.unit * scale.of_robot;
+        const Int unit = at.w * at.unit * scale.of_obstacle;
+        const auto place = [&](const Vec<Int>& p) {
+            return Vec<Int>{(at.c * p.x - at.s * p.y) * own + dx, (at.s * p.x + at.c * p.y) * own + dy};
+        };
+        std::vector<RoundEdge> moved, still;
+        for (const RoundEdge& k : a.curves) moved.push_back({place(k.start), place(k.end), place(k.center), k.turn});
+        for (const RoundEdge& k : b.curves)
+            still.push_back({{k.start.x * unit, k.start.y * unit}, {k.end.x * unit, k.end.y * unit}, {k.center.x * unit, k.center.y * unit}, k.turn});
+        const int shift = shift_for(moved, still);
+        if (overlap({a, std::move(moved), shift}, {b, std::move(still), shift}, (a.radius * scale.of_robot * at.w * at.unit + b.radius * unit))) return false;
+    }
+    return true;
+}
+
+void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
+    std::array<double, 4> limits{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    if (scene->bounds)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Ratio& bound = (*scene->bounds)[k];
+            limits[k] = rounded(bound);  // the nearest double: moved inwards if it is outside
+            if (k < 2 ? ratio_of(limits[k]) < bound : ratio_of(limits[k]) > bound) limits[k] = std::nextafter(limits[k], k < 2 ? HUGE_VAL : -HUGE_VAL);
+        }
+    std::atomic<bool> stop = false;
+    std::atomic<std::size_t> next = 0;
+    const auto chunks = static_cast<int>(std::min<std::size_t>((count + chunk - 1) / chunk, 1 << 20));
+    in_parallel(std::min(threads, chunks), stop, [&] {
+        Placed placed;
+        for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
+            heed_stop();
+            for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k) {
+                const double *q = poses + 3 * k, x = q[0], y = q[1];
+                const bool is_within = limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3];
+                const auto [c, s] = cosine_sine(q[2]);
+                out[k] = is_within ? verdict(placed, x, y, c, s) : Verdict::forbidden;
+            }
+        }
+    });
+}
+
+bool ArcPoseChecker::is_free(const GivenPose& pose) const {
+    if (scene->bounds) {
+        const auto& [x0, y0, x1, y1] = *scene->bounds;
+        if (pose.x < x0 || x1 < pose.x || pose.y < y0 || y1 < pose.y) return false;
+    }
+    Placed placed;
+    const ExactPlacement at = pose.exact();
+    const Verdict v = verdict(placed, rounded(pose.x), rounded(pose.y), ratio(at.c, at.w), ratio(at.s, at.w));
+    return v == Verdict::uncertain ? decide(placed, at) : v == Verdict::free;
+}
+
+std::optional<bool> ArcPoseChecker::is_free(double x, double y, double theta) const {
+    const auto read = read_radians(theta);
+    if (!read) return {};
+    return is_free({ratio_of(x), ratio_of(y), read->q, read->p, read->theta});
+}
+
+DistanceBounds ArcPoseChecker::distance(const GivenPose& pose, double most) const {
+    const ExactPlacement at = pose.exact();
+    double least = std::min(most * near->unit, 4.0);
+    const double x = rounded(pose.x) * near->unit, y = rounded(pose.y) * near->unit;
+    if (!(std::abs(x) < far && std::abs(y) < far)) return {0, HUGE_VAL};
+    NearShape part;
+    for (std::size_t i = 0; i < near->robot.size(); ++i) {
+        part = near->robot[i];
+        near->place(i, x, y, ratio(at.c, at.w), ratio(at.s, at.w), part);
+        near->near(part.around, least + part.radius, [&](Index j) {
+            least = std::min(least, distance_of(part, near->obstacles[static_cast<std::size_t>(j)], least));
+        });
+    }
+    return {std::max(0.0, least - 2 * margin) / near->unit, (least + 2 * margin) / near->unit};
+}
+
+}  // namespace cfree
