@@ -437,7 +437,7 @@ class Vehicle:
     def __init__(self, value: Any) -> None:
         place = "vehicle"
         kind = one_of(value.get("type") if isinstance(value, dict) else None, f"{place}.type", "car", "differential")
-        car = {"turning_radius": REQUIRED, "gears": "both"} if kind == "car" else {}
+        car = {"turning_radius": REQUIRED, "gears": "both", "wheelbase": 1} if kind == "car" else {}
         got = members(value, place, type=kind, axle=[0, 0], heading=0, **car)
         self.turns_in_place, self.radii = kind != "car", (ZERO, ZERO)
         if kind == "car":
@@ -445,6 +445,7 @@ class Vehicle:
             sides = radius if isinstance(radius, list) else [radius, radius]
             self.radii = numbers(items(sides, place, 2, 2), place, 2)  # type: ignore[assignment]
             refuse_if(min(self.radii) <= 0, f"{place}: expected a turning radius above 0")
+            refuse_if(number(got["wheelbase"], place) <= 0, f"{place}: expected a wheelbase above 0")
         self.forward_only = one_of(got.get("gears", "both"), f"{place}.gears", "both", "forward") == "forward"
         self.axle, self.heading = numbers(got["axle"], place, 2), read_angle(got["heading"], place)
         left, right = (f"{float(radius):.6g}" for radius in self.radii)

@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from cfree.paths.path import Path as Path
     from cfree.paths.preferences import Preferences as Preferences
     from cfree.paths.preferences import unwanted as unwanted
+    from cfree.paths.timing import timed as timed
     from cfree.planning.goals import AllSeparated as AllSeparated
     from cfree.planning.many import plan_many as plan_many
     from cfree.planning.plan import plan as plan
@@ -92,6 +93,7 @@ _HOMES = {
     "paths.driving": "is_drivable",
     "paths.clearance": "clearance narrowest",
     "paths.preferences": "Preferences unwanted",
+    "paths.timing": "timed",
     "planning.goals": "AllSeparated",
     "planning.plan": "plan",
     "planning.planner": "Planner",

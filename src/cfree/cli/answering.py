@@ -23,10 +23,12 @@ if TYPE_CHECKING:
     from cfree.formats.answers.answer_file import Form
     from cfree.paths.path import Path as Motions
     from cfree.paths.preferences import Unwanted
+    from cfree.paths.timing import Limits
     from cfree.planning.goals import AllSeparated
     from cfree.planning.planner import Planner
     from cfree.planning.separation import Separated
     from cfree.planning.stuck import Stuck
+    from cfree.vehicles.vehicle import Vehicle
 
 
 @dataclass
@@ -36,39 +38,72 @@ class Sampling:
     Attributes
     ----------
     form : "json", "csv", "ros" or "geojson"
-    step, speed : float or None
+    step : float or None
     turn : float, radians
+    limits : Limits or None
+        None for poses without times.
+    per_gear : bool
     """
 
     form: Form
     step: float | None
     turn: float
-    speed: float | None
+    limits: Limits | None
+    per_gear: bool
 
     @classmethod
     def of(
-        cls, output: Path | None, form: Form | None, step: str | None, turn: str | None, speed: str | None
+        cls,
+        output: Path | None,
+        form: Form | None,
+        step: str | None,
+        turn: str | None,
+        limits: dict[str, str | None],
+        per_gear: bool = False,
     ) -> Sampling:
-        """Read the options of the command line.
+        """Read the options of the command line; `limits` has the texts of those that `timed` takes.
 
         Raises
         ------
         ValueError
-            If an option needs sampled poses, and the form has none.
+            If an option needs sampled poses, and the form has none; or needs a speed.
         """
-        from cfree.cli.values import read_length, read_turn
-        from cfree.formats.answers.answer_file import form_of
+        from cfree.cli.values import read_length, read_rate, read_turn
+        from cfree.formats.answers.answer_file import form_of, limits_of
 
         form = "json" if output is None or (str(output) == "-" and form is None) else form_of(output, form)
-        options = {name: text for name, text in (("--step", step), ("--turn", turn), ("--speed", speed)) if text}
-        if form == "json" and options:
-            wrong = ", ".join(options)
+        texts = {name: text for name, text in {"step": step, "turn": turn, **limits}.items() if text}
+        if form == "json" and texts:
+            wrong = ", ".join(map(_option, texts))
             raise ValueError(f"{wrong}: only for sampled poses; give -o with .csv, .yaml or .geojson, or --format")
-        kinds = {"--step": "a length", "--speed": "a speed"}
-        length, most = (
-            float(read_length(options[name], name, what)) if name in options else None for name, what in kinds.items()
-        )
-        return cls(form, length, read_turn(turn) if turn else math.radians(5), most)
+        if per_gear and form != "ros":
+            raise ValueError("--per-gear: only for ROS messages; give -o with .yaml")
+        if per_gear and str(output) == "-":
+            raise ValueError("--per-gear: it writes several files; give -o with the name of a .yaml")
+        others = [name for name in limits if name in texts]
+        if others and "speed" not in texts:
+            raise ValueError(f"{', '.join(map(_option, others))}: only with a speed; give --speed as well")
+        kinds = {"step": "a length", "speed": "a speed", "acceleration": "an acceleration", "wheelbase": "a length"}
+        values: dict[str, Any] = {
+            name: float(read_length(texts[name], _option(name), what)) if name in texts else None
+            for name, what in kinds.items()
+        }
+        length = values.pop("step")
+        values["steer_rate"] = read_rate(texts["steer_rate"], "--steer-rate") if "steer_rate" in texts else None
+        its = limits_of(**values, stops="cusps" if texts.get("stops") == "cusps" else "all")
+        return cls(form, length, read_turn(turn) if turn else math.radians(5), its, per_gear)
+
+    def require_fit(self, vehicle: Vehicle | None) -> None:
+        """Raise a ValueError if an option does not fit the vehicle."""
+        if self.per_gear and vehicle is None:
+            raise ValueError("--per-gear: of a vehicle's path only; give --vehicle, or leave it out")
+        if self.limits and (fault := self.limits.fault(vehicle)):
+            names, why = fault
+            raise ValueError(f"{', '.join(map(_option, names))}: {why}")
+
+
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
 
 
 @dataclass
@@ -156,24 +191,34 @@ class Answering:
 
     def write(self, output: Path, poses: Sampling) -> None:
         """Write a path in any form, or a proof as JSON, to a file or to standard output."""
-        from cfree.formats.answers.answer_file import text_of, text_of_proof
+        from cfree.formats.answers.answer_file import text_of_proof, texts_of
         from cfree.formats.text.atomic import replacing
         from cfree.paths.path import Path as Motions
 
         if isinstance(self.answer, Motions):
-            scene = self.planner.scene
-            text = text_of(
-                self.answer, output, step=poses.step, turn=poses.turn, speed=poses.speed, scene=scene, form=poses.form
+            texts = texts_of(
+                self.answer,
+                output,
+                step=poses.step,
+                turn=poses.turn,
+                limits=poses.limits,
+                scene=self.planner.scene,
+                form=poses.form,
+                per_gear=poses.per_gear,
             )
+            if poses.per_gear:
+                self.files.pop("answer", None)
+                self.files |= {f"run {k}": name for k, name in enumerate(texts, 1)}
         elif poses.form == "json":
-            text = text_of_proof(self.answer, output)
+            texts = {str(output): text_of_proof(self.answer, output)}
         else:
             self._leave_out("answer", output, f"there is no path to write as {poses.form}; a proof is written as .json")
             return
-        if str(output) == "-":
-            print(text, end="")
-        else:
-            with replacing(output) as unfinished:
+        for name, text in texts.items():
+            if name == "-":
+                print(text, end="")
+                continue
+            with replacing(name) as unfinished:
                 unfinished.write_text(text, encoding="utf-8", newline="\n")
 
     @cached_property
@@ -230,9 +275,12 @@ class Answering:
         with bar("film") as progress:
             film_separation(shown, boundary, film, progress=progress)
 
-    def rows(self, *, for_machines: bool, nearest_miss: bool, what_if: bool) -> dict[str, Any]:
-        """Describe the answer in words and numbers."""
-        from cfree.cli.report import answer_facts, answer_rows, moved_facts, moved_rows
+    def rows(
+        self, limits: Limits | None = None, *, for_machines: bool, nearest_miss: bool, what_if: bool
+    ) -> dict[str, Any]:
+        """Describe the answer in words and numbers, with its times if there are limits."""
+        from cfree.cli.report import answer_facts, answer_rows, drive_facts, drive_rows, moved_facts, moved_rows
+        from cfree.formats.answers.answer_file import in_time
 
         with bar("least clearance"):
             described = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
@@ -255,6 +303,8 @@ class Answering:
                 rows["rather not"] = [asdict(part) for part in parts]
             else:
                 rows["penalised motions"] = self._unwanted(parts)
+        if self.path is not None and (drive := in_time(self.path, "times", limits, self.planner.scene)):
+            rows |= (drive_facts if for_machines else drive_rows)(drive, self.planner.scene)
         if self.goal is None and self.path is not None:
             goal = self.path.goal
             x, y, theta = float(goal.x), float(goal.y), goal.theta

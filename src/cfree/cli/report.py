@@ -18,6 +18,7 @@ from cfree.words import counted
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
     from cfree.paths.path import Path
+    from cfree.paths.timing import Timed
     from cfree.planning.goals import AllSeparated
     from cfree.planning.separation import Separated
     from cfree.planning.stuck import Stuck
@@ -141,6 +142,7 @@ def answer_rows(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -
         radius = facts["least radius"]
         rows |= {
             "changes of direction": facts["cusps"],
+            "stops": facts["stops"],
             "backward": f"{facts['backward']:.6g}{unit} of {facts['travel']:.6g}{unit}, at the axle point",
             "least radius": "none, all motions are straight" if radius is None else f"{radius:.6g}{unit}",
             "shortest motion": f"{facts['shortest']:.6g}{unit}",
@@ -215,12 +217,63 @@ def driving_facts(path: Path) -> dict[str, Any]:
     radii = [abs(float(part.radius)) for part in parts if part.radius]
     return {
         "cusps": path.cusps,
+        "stops": path.stops,
         "travel": math.fsum(lengths),
         "backward": math.fsum(part.length for part in parts if part.gear == "backward"),
         "in place": math.fsum(abs(part.angle) for part in parts if part.gear == "turning"),
         "least radius": min(radii, default=None),
         "shortest": min(lengths, default=0.0),
     }
+
+
+def drive_rows(drive: Timed, scene: Scene) -> dict[str, str]:
+    """Describe the times of a path in words, and the error of driving through jumps of curvature."""
+    unit = f" {scene.units}" if scene.units else ""
+    facts = drive_facts(drive, scene)["drive"]
+    standing = f", {facts['standing']:.4g} s of it standing" if facts["standing"] else ""
+    rows = {"drive time": f"{facts['duration']:.6g} s{standing}"}
+    passed = drive.path.stops - len(drive.stops)
+    if not drive.through and passed > 0 and drive.limits.steer_rate is None:
+        remedy = "give --steer-rate and --wheelbase for the error of this"
+        return rows | {"driven through": f"{counted(passed, 'jump')} of curvature; {remedy}"}
+    if not drive.through:
+        return rows
+    off, centred = ((f"{d:.4g}{unit} and {math.degrees(a):.3g} degrees") for d, a in (facts["off"], facts["centred"]))
+    rows["driven through"] = (
+        f"{counted(len(drive.through), 'jump')} of curvature; until the wheels have turned it is off by at most {off}, "
+        f"by {centred} if they turn half before each joint"
+    )
+    room, proved = facts["room"], facts["proved clearance"]
+    rows["clearance for that"] = f"{room:.4g}{unit} suffices, {proved or 0:.4g}{unit} is proved: " + (
+        f"at up to {drive.limits.speed:.4g}{unit} a second each jump stays clear of obstacles"
+        if proved is None or proved >= room
+        else f"lower --speed, leave out --stops, or give --clearance {room:.3g}"
+    )
+    return rows
+
+
+def drive_facts(drive: Timed, scene: Scene) -> dict[str, Any]:
+    """Describe the times of a path by numbers, for machines: seconds, lengths and radians."""
+    from cfree.paths.clearance import clearance
+
+    facts: dict[str, Any] = {
+        "duration": drive.duration,
+        "standing": math.fsum(stop.pause for stop in drive.stops),
+        "stops": [asdict(stop) for stop in drive.stops],
+    }
+    if drive.through:
+        least = clearance(drive.path, scene)
+        facts |= {
+            "through": [asdict(ramp) for ramp in drive.through],
+            "off": [max(r.sideways for r in drive.through), max(r.heading for r in drive.through)],
+            "centred": [
+                max(r.centred_sideways for r in drive.through),
+                max(r.centred_heading for r in drive.through),
+            ],
+            "room": drive.room,
+            "proved clearance": max(least.least, float(drive.path.clearance)) if least else None,
+        }
+    return {"drive": facts}
 
 
 def moved_rows(answer: Path | Separated | Stuck | AllSeparated) -> dict[str, str]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from os import PathLike, fspath
 from pathlib import Path as FilePath
+from typing import Any
 
 from cfree.arguments import checked
 from cfree.collector import collection_paused
@@ -23,6 +24,7 @@ from cfree.formats.text.findings import Findings, read_text
 from cfree.formats.text.json_text import read_literals, with_numbers
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
+from cfree.paths.stops import Stops
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
@@ -37,6 +39,11 @@ def save(
     step: float | None = None,
     turn: float = math.radians(5),
     speed: float | None = None,
+    acceleration: float | None = None,
+    steer_rate: float | None = None,
+    wheelbase: float | None = None,
+    stops: Stops = "all",
+    per_gear: bool = False,
     scene: Scene | None = None,
     form: Form | None = None,
 ) -> None:
@@ -56,6 +63,10 @@ def save(
     speed : float, optional
         Maximum speed of any point of the robot along a path, in lengths a second. It adds times to the poses, in
         seconds.
+    acceleration, steer_rate, wheelbase, stops
+        Further limits of a vehicle on its path, see `timed`; with `speed` only.
+    per_gear : bool
+        Write a ``.yaml`` for each run of a vehicle in one gear: ``way-1-forward.yaml``, ``way-2-backward.yaml``.
     scene : Scene, optional
         The scene of a path that was read from a file: needed for ``.geojson``, and for ``.json`` if that file had none.
     form : "json", "csv", "ros" or "geojson", optional
@@ -80,8 +91,12 @@ def save(
     True
     """
     if isinstance(value, Path):
-        return save_path(value, path, step=step, turn=turn, speed=speed, scene=scene, form=form)
-    options = {"step": step, "speed": speed, "scene": scene, "form": form}
+        limits: dict[str, Any] = {"acceleration": acceleration, "steer_rate": steer_rate, "wheelbase": wheelbase}
+        limits |= {"step": step, "turn": turn, "speed": speed, "stops": stops, "per_gear": per_gear}
+        return save_path(value, path, **limits, scene=scene, form=form)
+    options: dict[str, Any] = {"step": step, "speed": speed, "acceleration": acceleration, "steer_rate": steer_rate}
+    options |= {"wheelbase": wheelbase, "stops": None if stops == "all" else stops, "per_gear": per_gear or None}
+    options |= {"scene": scene, "form": form}
     if wrong := next((name for name, option in options.items() if option is not None), None):
         raise ValueError(f"{wrong}: a {type(value).__name__} is no path; leave it out")
     match value:

@@ -53,7 +53,8 @@ def fitted(vehicle: Vehicle, ratio: Fraction = Fraction(1), origin: ExactPoint =
     axle, heading = (x * ratio - origin[0], y * ratio - origin[1]), {"tau": vehicle.heading}
     if vehicle.kind == "differential":
         return DifferentialDrive(axle, heading)
-    return Car((left * ratio, right * ratio), axle, heading, vehicle.gears)
+    wheelbase = None if vehicle.wheelbase is None else vehicle.wheelbase * ratio
+    return Car((left * ratio, right * ratio), axle, heading, vehicle.gears, wheelbase)
 
 
 def scaled_note(note: Note, ratio: float) -> Note:

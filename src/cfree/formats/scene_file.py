@@ -341,6 +341,8 @@ def _vehicle_text(vehicle: Vehicle) -> str:
         members["heading"] = _angle_text(vehicle.frame)
     if vehicle.gears != "both":
         members["gears"] = f'"{vehicle.gears}"'
+    if vehicle.wheelbase is not None:
+        members["wheelbase"] = number_text(vehicle.wheelbase)
     return "{" + ", ".join(f'"{key}": {text}' for key, text in members.items()) + "}"
 
 

@@ -22,6 +22,7 @@ from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.paths.driven import Driven, cusps, first_fault, parts_of
+from cfree.paths.stops import joints, usual_wheelbase
 from cfree.scene.digest import Stamp, Whole
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
@@ -210,6 +211,22 @@ class Path(Shown, Answer):
     def cusps(self) -> int:
         """Number of changes between forward and backward; `driving` lists the parts."""
         return cusps(self.driving)
+
+    @property
+    def stops(self) -> int:
+        """Number of places at which its vehicle stands between start and goal.
+
+        They are cusps, the begin and end of turns in place, and for a car jumps of curvature, where its wheels turn.
+        Wheels that turn by less than a hundredth of a degree need no stop.
+
+        Examples
+        --------
+        >>> from cfree import Car, Rotation
+        >>> motions = [Translation((3, 0)), Rotation((3, 2), "90deg"), Rotation((3, 2), "-10deg")]
+        >>> Path(Pose(0, 0), motions, vehicle=Car(2)).stops
+        2
+        """
+        return len(joints(self.driving, usual_wheelbase(self.vehicle))) if self.vehicle else 0
 
     @checked
     def at(self, position: Number) -> Pose:

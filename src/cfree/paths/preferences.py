@@ -15,6 +15,7 @@ import numpy as np
 
 from cfree.arguments import checked
 from cfree.paths.path import Path
+from cfree.paths.stops import joints, usual_wheelbase
 from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Vehicle
 
@@ -52,11 +53,14 @@ class Preferences:
         radius this factor does not count.
     cusp : float, at least 0, optional
         Cost of a change between forward and backward, as a length; of vehicles only. The robot's length by default.
+    stop : float, at least 0, optional
+        Cost of another stop, as a length: where the wheels of a car turn, and for a turn in place; of vehicles only. A
+        quarter of a cusp's cost by default.
 
     Raises
     ------
     ValueError
-        If a factor is less than 1, the cost of a cusp negative, or one of them not finite.
+        If a factor is less than 1, the cost of a cusp or a stop negative, or one of them not finite.
 
     Notes
     -----
@@ -66,20 +70,22 @@ class Preferences:
     Examples
     --------
     >>> Preferences(sideways=5, turning=2)
-    Preferences(sideways=5, backward=None, turning=2, cusp=None)
+    Preferences(sideways=5, backward=None, turning=2, cusp=None, stop=None)
     """
 
     sideways: float = 1.0
     backward: float | None = None
     turning: float = 1.0
     cusp: float | None = None
+    stop: float | None = None
 
     def __post_init__(self) -> None:
         for name, factor in zip(get_args(Kind), self.factors, strict=True):
             if not 1 <= factor < math.inf:
                 raise ValueError(f"{name}={factor}: give a factor of 1 or more")
-        if self.cusp is not None and not 0 <= self.cusp < math.inf:
-            raise ValueError(f"cusp={self.cusp}: give a length of 0 or more")
+        for name, length in (("cusp", self.cusp), ("stop", self.stop)):
+            if length is not None and not 0 <= length < math.inf:
+                raise ValueError(f"{name}={length}: give a length of 0 or more")
 
     @property
     def matter(self) -> bool:
@@ -95,7 +101,7 @@ class Preferences:
     def cost(self, path: Path, scene: Scene) -> float:
         """Return the cost of a path: its length plus its turning times the robot's radius, with these factors.
 
-        The cost of a vehicle's path is that of its travel, of its turns in place, and of its cusps.
+        The cost of a vehicle's path is that of its travel, of its turns in place, and of its cusps and other stops.
         """
         radius, cost = robot_radius(scene), 0.0
         if path.vehicle is not None:
@@ -103,7 +109,9 @@ class Preferences:
             for part in path.driving:
                 factor = dues.backward if part.gear == "backward" else 1.0
                 cost += factor * part.length + (dues.in_place * abs(part.angle) if part.gear == "turning" else 0.0)
-            return cost + dues.cusp * path.cusps
+            kinds = [joint.why for joint in joints(path.driving, usual_wheelbase(path.vehicle))]
+            in_place = sum(part.gear == "turning" for part in path.driving)
+            return cost + dues.cusp * path.cusps + dues.stop * (kinds.count("steering") + in_place)
         if not self.matter:
             return path.length + radius * path.turning
         for ahead, across, travel, turn in _motions(path):
@@ -138,7 +146,7 @@ def dues_of(preferences: Preferences, scene: Scene, vehicle: Vehicle) -> Dues:
     return Dues(
         backward=BACKWARD if preferences.backward is None else preferences.backward,
         cusp=cusp,
-        stop=cusp / 4,
+        stop=cusp / 4 if preferences.stop is None else preferences.stop,
         in_place=preferences.turning * robot_radius(scene),
         length=length,
     )

@@ -38,6 +38,7 @@ from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
 from cfree.scene.scene import robot_radius
+from cfree.vehicles.vehicle import Vehicle
 
 Answer = Path | Separated | Stuck | AllSeparated
 Ask = Callable[[PosePlanner, Options], Answer]
@@ -76,6 +77,11 @@ class CurvedPlanner:
     @property
     def preferences(self) -> Preferences:
         return self._settings.preferences
+
+    @property
+    def vehicle(self) -> Vehicle | None:
+        """The vehicle that drives; None for a robot that moves in any direction."""
+        return self._settings.vehicle
 
     @property
     def angle_scale(self) -> float:

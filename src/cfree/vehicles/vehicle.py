@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar, Literal, get_args
 
@@ -39,6 +39,8 @@ class Car:
     heading : angle
         Forward in the robot's frame, with a rational tangent of its half, like {"tau": "1/2"}, 0 or "90deg".
     gears : "both" or "forward"
+    wheelbase : number, optional
+        Distance of the axles, more than 0. It limits no motion: only the times of its stops depend on it, see `timed`.
 
     Attributes
     ----------
@@ -47,6 +49,7 @@ class Car:
     axle : pair of Fraction
     heading : Fraction or None
         Tangent of half the angle; None is the half turn.
+    wheelbase : Fraction or None
 
     Raises
     ------
@@ -75,6 +78,7 @@ class Car:
     axle: ExactPoint
     heading: Fraction | None
     gears: Gears
+    wheelbase: Fraction | None = field(compare=False)
 
     def __init__(
         self,
@@ -82,10 +86,12 @@ class Car:
         axle: Sequence[Number] = (0, 0),
         heading: Angle = 0,
         gears: Gears = "both",
+        wheelbase: Number | None = None,
     ) -> None:
         if gears not in get_args(Gears):
             raise InvalidVehicleError(f"gears {gears!r}: give 'both' or 'forward'")
         values = {"radii": _radii(turning_radius), "axle": _axle(axle), "heading": _heading(heading), "gears": gears}
+        values |= {"wheelbase": None if wheelbase is None else _wheelbase(wheelbase)}
         for name, value in values.items():
             object.__setattr__(self, name, value)
 
@@ -123,23 +129,21 @@ class Car:
         >>> Car.with_wheelbase(2, {"tau": "1/2"}).turning_radius
         Fraction(3, 2)
         >>> car = Car.with_wheelbase("2.7", "35deg")
-        >>> float(car.turning_radius)
-        3.8559996...
+        >>> float(car.turning_radius), float(car.wheelbase)
+        (3.8559996..., 2.7)
         """
-        length = _number("wheelbase", wheelbase)
+        length = _wheelbase(wheelbase)
         tau, _, error = _read("steering_angle", steering_angle)
-        if length <= 0:
-            raise InvalidVehicleError(f"wheelbase {wheelbase}: give a length above 0")
         if tau is None or not 0 < tau < 1 or _is_beyond_a_turn(steering_angle):
             raise InvalidVehicleError(
                 f"steering_angle {steering_angle}: give an angle above 0 and below a right angle, such as '35deg'"
             )
         if not error:
-            return cls(length * (1 - tau * tau) / (2 * tau), axle, heading, gears)
+            return cls(length * (1 - tau * tau) / (2 * tau), axle, heading, gears, length)
         # the angle meant errs from that of tau by at most 2^-49 of the tangent
         low = tau * (1 - Fraction(1, 2**48))
         radius = length * (1 - low * low) / (2 * low)
-        return cls(simplest_between(radius, radius * (1 + Fraction(1, 10**12))), axle, heading, gears)
+        return cls(simplest_between(radius, radius * (1 + Fraction(1, 10**12))), axle, heading, gears, length)
 
     @property
     def turning_radius(self) -> Fraction:
@@ -155,7 +159,8 @@ class Car:
         left, right = self.radii
         radius = str(left) if left == right else f"({left}, {right})"
         gears = "" if self.gears == "both" else f", gears={self.gears!r}"
-        return f"Car({radius}, axle={_text(self.axle)}{_heading_text(self.heading)}{gears})"
+        base = "" if self.wheelbase is None else f", wheelbase={str(self.wheelbase)!r}"
+        return f"Car({radius}, axle={_text(self.axle)}{_heading_text(self.heading)}{gears}{base})"
 
 
 @checked
@@ -191,6 +196,7 @@ class DifferentialDrive:
 
     kind: ClassVar[Literal["differential"]] = "differential"
     gears: ClassVar[Gears] = "both"
+    wheelbase: ClassVar[None] = None
     radii: ClassVar[tuple[Fraction, Fraction]] = (Fraction(0), Fraction(0))
     turning_radius: ClassVar[Fraction] = Fraction(0)
     axle: ExactPoint
@@ -246,6 +252,13 @@ def _axle(value: Any) -> ExactPoint:
     if len(parts) != 2:
         raise InvalidVehicleError(f"axle {value!r}: give two numbers, x and y in the robot's frame")
     return _number("axle", parts[0]), _number("axle", parts[1])
+
+
+def _wheelbase(value: Number) -> Fraction:
+    length = _number("wheelbase", value)
+    if length <= 0:
+        raise InvalidVehicleError(f"wheelbase {value}: give a length above 0")
+    return length
 
 
 def _heading(value: Angle) -> Fraction | None:

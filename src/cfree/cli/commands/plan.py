@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         "cfree plan scene.json --goal 5,3 --nearest-free",
         "cfree plan scene.json --prefer sideways=5,turning=2 --picture way.png",
         "cfree plan scene.json --vehicle car --turning-radius 4 --axle -1.3,0.111 --prefer backward=3",
+        "cfree plan scene.json --vehicle car --turning-radius 4 -o way.yaml --per-gear --speed 1 --acceleration 0.5",
         "cfree plan scene.json --what-if --picture blockers.png",
         "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
     ),
@@ -72,6 +73,29 @@ if TYPE_CHECKING:
     metavar="SPEED",
     help="Limit the speed of every point of the robot, in scene units a second; adds times to sampled poses.",
 )
+@click.option(
+    "--acceleration",
+    metavar="A",
+    help="Limit a vehicle's acceleration along its path; with --speed.",
+    show_default="no limit",
+)
+@click.option(
+    "--steer-rate",
+    metavar="ANGLE",
+    help="Limit the angle by which the wheels turn in a second; with --speed.",
+    show_default="no limit",
+)
+@click.option(
+    "--wheelbase", metavar="LENGTH", help="Distance of the axles, for --steer-rate.", show_default="the car's own"
+)
+@click.option(
+    "--stops",
+    type=Word(["all", "cusps"]),
+    metavar="WORD",
+    help='Stand at "all" jumps of curvature while the wheels turn, or at "cusps" only: the answer has the error.',
+    show_default="all",
+)
+@click.option("--per-gear", is_flag=True, help="Write a ROS file for each run in one gear: way-1-forward.yaml, ...")
 @click.option("--clearance", metavar="LENGTH", help="Keep this distance from obstacles and workspace, in scene units.")
 @click.option(
     "--nearest-free", is_flag=True, help="Move a start or goal that is not free to the nearest free pose found."
@@ -94,7 +118,7 @@ if TYPE_CHECKING:
     "--prefer",
     metavar="FACTORS",
     help='Set costs relative to driving ahead, as "sideways=5,backward=2,turning=3"; the answer lists such motions. '
-    'For a vehicle also "cusp=2", the length that a change of direction costs.',
+    'For a vehicle also "cusp=2,stop=0.5": lengths that a change of direction, and another stop, cost.',
 )
 @click.option(
     "--vehicle",
@@ -133,7 +157,8 @@ if TYPE_CHECKING:
 @options.as_json
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: Form | None, step: str | None,
-    turn: str | None, speed: str | None, clearance: str | None, nearest_free: bool, improve: str | None,
+    turn: str | None, speed: str | None, acceleration: str | None, steer_rate: str | None, wheelbase: str | None,
+    stops: str | None, per_gear: bool, clearance: str | None, nearest_free: bool, improve: str | None,
     objective: Objective, prefer: str | None, vehicle: str | None, turning_radius: str | None, axle: str | None,
     heading: str | None, gears: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
     part: Path | None, max_seconds: float | None, as_json: bool,
@@ -162,7 +187,8 @@ def plan(
         written = check_outputs(
             scene, {"answer": None if printed else output, "picture": picture, "film": film, "part": part}
         )
-        poses = Sampling.of(output, form, step, turn, speed)
+        limits = {"speed": speed, "acceleration": acceleration, "steer_rate": steer_rate, "wheelbase": wheelbase}
+        poses = Sampling.of(output, form, step, turn, limits | {"stops": stops}, per_gear)
         seconds = None if improve is None else read_seconds(improve)
         if seconds == 0 and objective != "clear":
             options.refuse("only for a path that is improved, and --improve 0 gives the first", "objective")
@@ -173,6 +199,7 @@ def plan(
         if scene.is_dir():
             options.refuse("not for a folder", "vehicle", remedy="give the scene itself")
         planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), driver)
+        poses.require_fit(getattr(planner, "vehicle", None))
         if (miss or what_if) and planner.scene.curved:
             raise ValueError(
                 "--nearest-miss, --what-if: only for polygons; convert round shapes by cfree convert --inner"
@@ -190,7 +217,7 @@ def plan(
             from cfree.formats.scene_file import save_scene
 
             save_scene(answering.planner.scene, part)
-        rows = answering.rows(for_machines=as_json, nearest_miss=miss, what_if=what_if)
+        rows = answering.rows(poses.limits, for_machines=as_json, nearest_miss=miss, what_if=what_if)
         if scene.is_dir():
             rows["tiles read"] = planner.sharded.tiles_read
         with redirect_stdout(sys.stderr) if printed else nullcontext():

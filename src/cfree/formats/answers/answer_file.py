@@ -12,6 +12,7 @@ from cfree.errors import UnsupportedError
 from cfree.formats.text.atomic import replacing
 from cfree.paths.leeway import keeps_leeway
 from cfree.paths.path import Path
+from cfree.paths.stops import Stops
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
@@ -20,6 +21,7 @@ from cfree.scene.scene import Scene, robot_radius
 
 if TYPE_CHECKING:
     from cfree.formats.answers.answer_format import Read
+    from cfree.paths.timing import Limits, Timed
 
 
 PARTS_OF_RADIUS, PARTS_OF_LENGTH = 20, 100  # default steps: robot radius and path length divided by these
@@ -95,6 +97,11 @@ def save_path(
     step: float | None = None,
     turn: float = math.radians(5),
     speed: float | None = None,
+    acceleration: float | None = None,
+    steer_rate: float | None = None,
+    wheelbase: float | None = None,
+    stops: Stops = "all",
+    per_gear: bool = False,
     scene: Scene | None = None,
     form: Form | None = None,
 ) -> None:
@@ -111,6 +118,11 @@ def save_path(
         the path length if the path has no robot.
     speed : float, optional
         Maximum speed of any point of the robot, in lengths a second. It adds times to the poses, in seconds.
+    acceleration, steer_rate, wheelbase, stops
+        Further limits of a vehicle, see `timed`; with `speed` only.
+    per_gear : bool
+        Write a ROS nav_msgs/Path for each run of a vehicle in one gear: ``way-1-forward.yaml``,
+        ``way-2-backward.yaml``. A file of an earlier path with more runs stays.
     scene : Scene, optional
         The path's scene, if the path has none; needed for ``.json`` and ``.geojson``, and for times.
     form : "json", "csv", "ros" or "geojson", optional
@@ -121,35 +133,109 @@ def save_path(
     UnsupportedError
         If the suffix is another or belongs to another form.
     ValueError
-        If the scene is missing.
+        If the scene is missing, or a limit is not positive or does not fit the vehicle.
     """
-    text = text_of(path, file, step=step, turn=turn, speed=speed, scene=scene, form=form_of(file, form))
-    with replacing(file) as unfinished:
-        unfinished.write_text(text, encoding="utf-8", newline="\n")
+    limits = limits_of(speed, acceleration, steer_rate, wheelbase, stops)
+    form = form_of(file, form)
+    texts = texts_of(path, file, step=step, turn=turn, limits=limits, scene=scene, form=form, per_gear=per_gear)
+    for name, text in texts.items():
+        with replacing(name) as unfinished:
+            unfinished.write_text(text, encoding="utf-8", newline="\n")
+
+
+def limits_of(
+    speed: float | None,
+    acceleration: float | None = None,
+    steer_rate: float | None = None,
+    wheelbase: float | None = None,
+    stops: Stops = "all",
+) -> Limits | None:
+    """Return the limits of a drive; None without a speed.
+
+    Raises
+    ------
+    ValueError
+        If there are others without a speed, or one is not positive.
+    """
+    from cfree.paths.timing import Limits
+
+    if speed is not None:
+        return Limits(speed, acceleration, steer_rate, wheelbase, stops)
+    others = {"acceleration": acceleration, "steer_rate": steer_rate, "wheelbase": wheelbase}
+    names = [name for name, value in others.items() if value is not None] + (["stops"] if stops != "all" else [])
+    if names:
+        raise ValueError(f"{', '.join(names)}: only with a speed; give speed as well")
+    return None
+
+
+def texts_of(
+    path: Path,
+    file: str | PathLike[str],
+    *,
+    step: float | None,
+    turn: float,
+    limits: Limits | None,
+    scene: Scene | None,
+    form: Form,
+    per_gear: bool,
+) -> dict[str, str]:
+    """Return the names and texts of the files that `save_path` writes."""
+    if not per_gear:
+        return {str(file): text_of(path, file, step=step, turn=turn, limits=limits, scene=scene, form=form)}
+    from cfree.formats.answers.poses_text import ros_texts_by_gear
+
+    if form != "ros":
+        raise ValueError(f"{file}: per_gear: only for ROS messages; name the file .yaml or leave it out")
+    if path.vehicle is None:
+        raise ValueError(f"{file}: per_gear: of a vehicle's path only; give a vehicle, or leave it out")
+    step = usual_step(path, scene) if step is None else step
+    runs = ros_texts_by_gear(path, step, turn, in_time(path, file, limits, scene))
+    place, width = FilePath(file), len(str(len(runs)))
+    names = (f"{place.stem}-{k:0{width}}-{gear}{place.suffix}" for k, (gear, _) in enumerate(runs, 1))
+    return {str(place.with_name(name)): text for name, (_, text) in zip(names, runs, strict=True)}
+
+
+def in_time(path: Path, file: object, limits: Limits | None, scene: Scene | None) -> Timed | None:
+    """Return a path in time, to be written to a file; None without limits."""
+    from cfree.paths.timing import timed_by
+
+    if limits is None:
+        return None
+    scene = scene or path.scene
+    if scene is not None and scene.curved:
+        scene = path.scene or scene  # it has polygons around round shapes
+    if scene is None:
+        raise ValueError(f"{file}: no scene; give the one whose robot moves")
+    return timed_by(path, scene, limits)
 
 
 def text_of(
-    path: Path, file: object, *, step: float | None, turn: float, speed: float | None, scene: Scene | None, form: Form
+    path: Path,
+    file: object,
+    *,
+    step: float | None,
+    turn: float,
+    limits: Limits | None,
+    scene: Scene | None,
+    form: Form,
 ) -> str:
     """Return the text that `save_path` writes."""
     from cfree.formats.answers.path_text import path_text
     from cfree.formats.answers.poses_text import csv_text, geojson_text, ros_text
-    from cfree.paths.timing import times
 
     scene = scene or path.scene
     if form == "json":
         stamp = _stamp(file, path, scene)
         return path_text(path, stamp, lambda leeway: scene is not None and keeps_leeway(path, scene, leeway))
     step = usual_step(path, scene) if step is None else step
-    if scene is None and (form == "geojson" or speed is not None):
-        raise ValueError(f"{file}: no scene; give the one whose robot moves")
-    seconds = None if speed is None or scene is None else times(path, scene, speed, step, turn).tolist()
+    timed = in_time(path, file, limits, scene)
     if form == "csv":
-        return csv_text(path, step, turn, seconds)
+        return csv_text(path, step, turn, timed)
     if form == "ros":
-        return ros_text(path, step, turn, seconds)
-    assert scene is not None
-    return geojson_text(path, scene, step, turn, seconds)
+        return ros_text(path, step, turn, timed)
+    if scene is None:
+        raise ValueError(f"{file}: no scene; give the one whose robot moves")
+    return geojson_text(path, scene, step, turn, timed)
 
 
 def usual_step(path: Path, scene: Scene | None) -> float:

@@ -126,6 +126,7 @@ _VEHICLE_SCHEMA: dict[str, Any] = {
         "axle": {"type": "array", "items": NUMBER_SCHEMA, "minItems": 2, "maxItems": 2},
         "heading": ANGLE_SCHEMA,
         "gears": {"enum": ["both", "forward"]},
+        "wheelbase": NUMBER_SCHEMA,
     },
     "required": ["type"],
     "additionalProperties": False,

@@ -89,7 +89,7 @@ def place(value: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
 
 
 VEHICLES: dict[str, tuple[str, ...]] = {
-    "car": ("type", "turning_radius", "axle", "heading", "gears"),
+    "car": ("type", "turning_radius", "axle", "heading", "gears", "wheelbase"),
     "differential": ("type", "axle", "heading"),
 }
 
@@ -114,7 +114,8 @@ def vehicle(value: Any) -> Vehicle:
             raise Fault('key "turning_radius" of the vehicle is missing; add it')
         radius = value["turning_radius"]
         sides = _numbers(radius, "turning_radius") if isinstance(radius, list) else coordinate(radius)
-        return Car(sides, gears=value.get("gears", "both"), **pose)
+        base = coordinate(value["wheelbase"]) if "wheelbase" in value else None
+        return Car(sides, gears=value.get("gears", "both"), wheelbase=base, **pose)
     except Fault:
         raise
     except (TypeError, ValueError) as error:
@@ -155,6 +156,7 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
         "axle": [*map(str, vehicle.axle)],
         **({} if vehicle.heading == 0 else {"heading": heading}),
         **({} if vehicle.gears == "both" else {"gears": vehicle.gears}),
+        **({} if vehicle.wheelbase is None else {"wheelbase": str(vehicle.wheelbase)}),
     }
 
 
