@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import csv
 import json
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from click.testing import CliRunner, Result
 
 from cfree import Car, DifferentialDrive, load
@@ -75,6 +78,77 @@ def test_too_many_manoeuvres_end_with_3(tmp_path: Path) -> None:
     assert result.stderr.startswith("error: a path of a car with a turning radius of 1e+12 exists, as start and goal")
 
 
+CAR = ["--vehicle", "car", "--turning-radius", "2", "--axle", "0,1/2", "--improve", "0"]
+LIMITS = ["--speed", "0.5", "--acceleration", "0.2", "--steer-rate", "20deg", "--wheelbase", "1.5"]
+
+
+def test_times_and_stops_are_reported_and_written(tmp_path: Path) -> None:
+    result = run(tmp_path, *CAR, *LIMITS, "-o", str(tmp_path / "way.csv"), "--step", "0.1", "--json")
+    facts, table = json.loads(result.stdout), list(csv.DictReader((tmp_path / "way.csv").read_text().splitlines()))
+    drive, stops = facts["drive"], facts["drive"]["stops"]
+    assert facts["driving"]["stops"] == len(stops) > facts["driving"]["cusps"]
+    assert float(table[-1]["t"]) == drive["duration"]
+    assert drive["standing"] == pytest.approx(sum(stop["pause"] for stop in stops))
+    assert sum(a["t"] != b["t"] and a["x"] == b["x"] and a["y"] == b["y"] for a, b in pairwise(table)) == sum(
+        stop["pause"] > 0 for stop in stops
+    )
+    said = " ".join(run(tmp_path, *CAR, *LIMITS, "-o", str(tmp_path / "way.csv")).stdout.split())
+    assert f" stops {len(stops)} " in said and f"drive time {drive['duration']:.6g} s, " in said
+    assert "s of it standing" in said
+
+
+def test_the_error_of_driving_through_jumps_of_curvature_is_reported(tmp_path: Path) -> None:
+    command = [*CAR, *LIMITS, "--stops", "cusps", "-o", str(tmp_path / "way.csv")]
+    drive = json.loads(run(tmp_path, *command, "--json", "--speed", "0.01").stdout)["drive"]
+    assert len(drive["through"]) > 0 and drive["room"] < drive["proved clearance"]
+    said = " ".join(run(tmp_path, *command, "--speed", "0.01").stdout.split())
+    assert "jumps of curvature; until the wheels have turned it is off by at most" in said
+    assert "at up to 0.01 a second each jump stays clear of obstacles" in said
+    tight = json.loads(run(tmp_path, *command, "--json", "--steer-rate", "1.2", "--speed", "1").stdout)["drive"]
+    assert tight["room"] > tight["proved clearance"]
+    said = " ".join(run(tmp_path, *command, "--steer-rate", "1.2", "--speed", "1").stdout.split())
+    assert "lower --speed, leave out --stops, or give --clearance" in said
+    said = " ".join(run(tmp_path, *CAR, "--speed", "1", *command[-4:]).stdout.split())
+    assert "jumps of curvature; give --steer-rate and --wheelbase for the error of this" in said
+
+
+def test_ros_files_by_gear_are_listed(tmp_path: Path) -> None:
+    output = tmp_path / "way.yaml"
+    result = run(tmp_path, *CAR, *LIMITS, "-o", str(output), "--per-gear")
+    files = sorted(tmp_path.glob("way-*.yaml"))
+    assert files and not output.exists() and all(str(file) in result.stdout for file in files)
+    assert all(len(yaml.safe_load(file.read_text())["poses"]) > 1 for file in files)
+    assert files[0].name == "way-1-forward.yaml"
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ("--acceleration 1", "--acceleration: only with a speed; give --speed as well"),
+        ("--stops cusps --wheelbase 1", "--wheelbase, --stops: only with a speed; give --speed as well"),
+        ("--speed 1 --acceleration 0", "--acceleration: '0'; give an acceleration above 0"),
+        ("--speed 1 --acceleration nan", "--acceleration: 'nan'; give an acceleration above 0"),
+        ("--speed 1 --steer-rate -5deg --wheelbase 1", "--steer-rate: '-5deg'; give an angle a second above 0"),
+        ("--speed 1 --steer-rate 1e999 --wheelbase 1", "--steer-rate: '1e999'; give an angle a second above 0"),
+        ("--speed 1 --steer-rate 1", "--steer-rate: the wheelbase is missing; give it as well"),
+        ("--speed 1 --wheelbase 0", "--wheelbase: '0'; give a length above 0"),
+        ("--speed 1 --stops few", '--stops: \'few\'; give "all" or "cusps"'),
+        ("--per-gear", "--per-gear: only for ROS messages; give -o with .yaml"),
+        ("--format ros -o - --per-gear", "--per-gear: it writes several files; give -o with the name of a .yaml"),
+        ("--vehicle any --speed 1 --steer-rate 1", "--steer-rate: of a vehicle's path only; give a vehicle"),
+        ("--vehicle any --speed 1 --wheelbase 1", "--wheelbase: of a vehicle's path only; give a vehicle"),
+        ("--vehicle any -o {folder}/w.yaml --per-gear", "--per-gear: of a vehicle's path only; give --vehicle"),
+        ("--vehicle differential --speed 1 --wheelbase 1", "--wheelbase: a differential drive has one if its wheel"),
+    ],
+)
+def test_limits_that_do_not_fit_end_with_2_and_one_line(options: str, said: str, tmp_path: Path) -> None:
+    words = options.format(folder=tmp_path).split()
+    sampled = [] if "-o" in words or words == ["--per-gear"] else ["-o", str(tmp_path / "way.csv")]
+    result = run(tmp_path, *([] if "--vehicle" in words else CAR), *words, *sampled)
+    assert (result.exit_code, result.stdout) == (2, ""), result.output
+    assert result.stderr.startswith(f"error: {said}") and result.stderr.count("\n") == 1
+
+
 @pytest.mark.parametrize(
     ("options", "said"),
     [
@@ -91,6 +165,10 @@ def test_too_many_manoeuvres_end_with_3(tmp_path: Path) -> None:
         (
             "--vehicle car --turning-radius 4 --prefer cusp=-1",
             "--prefer: 'cusp=-1': cusp=-1.0: give a length of 0 or more",
+        ),
+        (
+            "--vehicle car --turning-radius 4 --prefer stop=nan",
+            "--prefer: 'stop=nan': stop=nan: give a length of 0 or more",
         ),
     ],
 )

@@ -14,6 +14,7 @@ from cfree.cli.options import Word
 from cfree.film import Storyboard
 from cfree.formats.answers.answer_file import Form
 from cfree.paths.path import Objective
+from cfree.paths.stops import Stops
 from cfree.plot.rendered import Renderer
 from cfree.vehicles.vehicle import Gears
 
@@ -22,7 +23,7 @@ NEEDED = {"film": [SCENE, "-o", "film.gif"], "figures": ["-o", "figures"], "conv
 OF_READING = {f"--{name.replace('_', '-')}": hint for name, hint in get_type_hints(cfree.load_shapes).items()}
 SAME = {name: OF_READING[name] for name in ("--unknown", "--map-rules", "--holes", "--fills")} | {
     "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer,
-    "--gears": Gears, "--vehicle": Literal["car", "differential", "forklift", "any"],
+    "--gears": Gears, "--stops": Stops, "--vehicle": Literal["car", "differential", "forklift", "any"],
 }  # fmt: skip
 
 

@@ -9,7 +9,20 @@ import numpy as np
 import pytest
 
 import cfree
-from cfree import MotionChecker, Path, Pose, Preferences, Scene, motion_between, plan, unwanted
+from cfree import (
+    Car,
+    DifferentialDrive,
+    MotionChecker,
+    Path,
+    Pose,
+    Preferences,
+    Rotation,
+    Scene,
+    Translation,
+    motion_between,
+    plan,
+    unwanted,
+)
 from cfree._core import Searcher
 from cfree.planning.core_ways import end_of
 from cfree.planning.separation import known_scene
@@ -78,6 +91,31 @@ def test_the_core_and_the_report_count_the_same() -> None:
         robot = [end_of(pose @ inverse) for pose in poses]
         at_axle = Searcher(known, [place for _, place in robot], costs, (x, y, angle))
         assert at_axle.shortener(robot, 0).length() == pytest.approx(core, rel=1e-9)
+
+
+def test_a_stop_costs_a_quarter_of_a_cusp_unless_another_cost_is_given() -> None:
+    scene = Scene(box(-1, -0.5, 3, 1), [])
+    motions = [Translation((1, 0)), Rotation((1, 2), {"tau": "1/3"}), Rotation((1, 2), {"tau": "-1/9"})]
+    path = Path(Pose(0, 0), motions, scene=scene, vehicle=Car(2))
+    assert (path.stops, path.cusps) == (2, 1)
+    free = Preferences(cusp=0, stop=0).cost(path, scene)
+    assert Preferences(cusp=8).cost(path, scene) == pytest.approx(free + 8 + 2)
+    assert Preferences().cost(path, scene) == pytest.approx(free + 3 + 3 / 4)
+    assert Preferences(cusp=8, stop=1).cost(path, scene) == pytest.approx(free + 9)
+    turn = Path(Pose(0, 0), [Translation((1, 0)), Rotation((1, 0), "90deg")], vehicle=DifferentialDrive())
+    free = Preferences(stop=0).cost(turn, scene)
+    assert Preferences(stop=1).cost(turn, scene) == pytest.approx(free + 1) and turn.stops == 1
+    for value in (-1, math.nan, math.inf):
+        with pytest.raises(ValueError, match=f"stop={value}: give a length of 0 or more"):
+            Preferences(stop=value)
+
+
+@pytest.mark.slow
+def test_dear_stops_are_avoided() -> None:
+    scene = Scene(box(-1, -0.5, 3, 1), [box(4, -9, 1, 9.5), box(9, 1, 1, 9)], start=(0, 0, 0), goal=(14, 2, 0))
+    few, many = (plan(scene, vehicle=Car(3), preferences=Preferences(stop=stop)) for stop in (9, 0))
+    assert isinstance(few, Path) and isinstance(many, Path)
+    assert few.stops <= many.stops and Preferences(stop=9).cost(few, scene) < Preferences(stop=9).cost(many, scene)
 
 
 def test_all_ones_are_no_preferences(hall: Scene) -> None:

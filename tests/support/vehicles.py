@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import shapely
 
-from cfree import Car, DifferentialDrive, InvalidPolygonError, Path, PoseChecker, Scene
+from cfree import Car, DifferentialDrive, InvalidPolygonError, Path, PoseChecker, Rotation, Scene, Translation
 from cfree.exact.pose import Pose
 
 SIDE = 16  # of a room
@@ -141,3 +142,18 @@ def faults(scene: Scene, path: Path, near: float = 1e-6) -> list[str]:
         if not ((y0 - near <= table[:, 1]) & (table[:, 1] <= y1 + near)).all():
             wrong.append("it leaves the bounds")
     return wrong
+
+
+def drive(vehicle: Car | DifferentialDrive, start: Pose, parts: Iterable[tuple[str, Any, Any]], scene: Scene) -> Path:
+    """Return a path of parts: ("line", length, 0), ("arc", radius, tau) or ("turn", 0, tau), tau of half the angle."""
+    motions, robot = list[Translation | Rotation](), start
+    for kind, size, tau in parts:
+        axle = robot @ vehicle.frame
+        c, s = axle.cos, axle.sin
+        if kind == "line":
+            motion: Translation | Rotation = Translation((c * Fraction(size), s * Fraction(size)))
+        else:
+            motion = Rotation((axle.x - s * Fraction(size), axle.y + c * Fraction(size)), {"tau": str(tau)})
+        motions.append(motion)
+        robot = motion.apply(robot)
+    return Path(start, motions, scene=scene, vehicle=vehicle)

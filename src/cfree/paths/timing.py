@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import accumulate
 
 import numpy as np
@@ -17,6 +17,7 @@ from cfree.paths.ramps import Ramp, ramp_length
 from cfree.paths.stops import Joint, Stop, Stops, joints, usual_wheelbase
 from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Vehicle
+from cfree.words import counted
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -153,7 +154,7 @@ class Rows:
 
 
 @checked
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Timed:
     """A path in time; `timed` makes it.
 
@@ -187,8 +188,11 @@ class Timed:
     through: tuple[Ramp, ...]
     reach: float
     limits: Limits
-    stretches: tuple[Stretch, ...] = field(repr=False)
-    begins: tuple[float, ...] = field(repr=False)  # of the motions, and the end of the last one
+    stretches: tuple[Stretch, ...]
+    begins: tuple[float, ...]  # of the motions, and the end of the last one
+
+    def __repr__(self) -> str:
+        return f"Timed({self.duration:.6g} s, {counted(len(self.stops), 'stop')})"
 
     @property
     def duration(self) -> float:

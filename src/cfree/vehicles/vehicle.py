@@ -159,7 +159,7 @@ class Car:
         left, right = self.radii
         radius = str(left) if left == right else f"({left}, {right})"
         gears = "" if self.gears == "both" else f", gears={self.gears!r}"
-        base = "" if self.wheelbase is None else f", wheelbase={str(self.wheelbase)!r}"
+        base = "" if self.wheelbase is None else f", wheelbase={self.wheelbase}"
         return f"Car({radius}, axle={_text(self.axle)}{_heading_text(self.heading)}{gears}{base})"
 
 

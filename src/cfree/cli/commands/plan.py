@@ -199,7 +199,7 @@ def plan(
         if scene.is_dir():
             options.refuse("not for a folder", "vehicle", remedy="give the scene itself")
         planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), driver)
-        poses.require_fit(getattr(planner, "vehicle", None))
+        poses.require_fit(getattr(planner, "vehicle", planner.scene.vehicle))
         if (miss or what_if) and planner.scene.curved:
             raise ValueError(
                 "--nearest-miss, --what-if: only for polygons; convert round shapes by cfree convert --inner"
