@@ -1,6 +1,7 @@
 """Times along paths: within limits, at rest where wheels turn, equal to a numeric integration."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -10,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.support.vehicles import drive
 
-from cfree import Car, DifferentialDrive, Path, Pose, Rotation, Scene, Translation, timed
+from cfree import Car, Curved, DifferentialDrive, Path, Pose, Rotation, Scene, Translation, timed
 from cfree.paths import Stop, Timed
 
 ROBOT = Scene(robot=[(-1, -1), (3, -1), (3, 1), (-1, 1)])
@@ -226,6 +227,12 @@ def test_limits_that_do_not_fit_are_refused(vehicle: Any, limits: dict[str, Any]
         timed(path, **limits)
 
 
-def test_a_missing_scene_is_named() -> None:
+def test_a_missing_scene_and_a_round_robot_are_named() -> None:
     with pytest.raises(ValueError, match="no scene; give the one whose robot moves"):
         timed(Path((0, 0, 0), []), speed=1)
+    disc = Scene(robot=Curved.circle((0, 0), 1))
+    path = Path((0, 0, 0), [Translation((3, 0))])
+    with pytest.raises(ValueError, match="a round robot; give its scene of polygons"):
+        timed(path, disc, speed=1)
+    assert timed(path, disc.outer(0.1), speed=1).duration == 3
+    assert timed(replace(path, scene=disc.outer(0.1)), disc, speed=1).duration == 3

@@ -15,6 +15,7 @@ from cfree.exact.pose import Poses
 from cfree.paths.path import Path
 from cfree.paths.ramps import Ramp, ramp_length
 from cfree.paths.stops import Joint, Stop, Stops, joints, usual_wheelbase
+from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Vehicle
 from cfree.words import counted
@@ -306,14 +307,17 @@ def timed(
     >>> round(timed(path, speed=2).duration, 2)
     5.0
     """
-    robot = scene or path.scene
-    if robot is None:
-        raise ValueError("no scene; give the one whose robot moves")
-    return timed_by(path, robot, Limits(speed, acceleration, steer_rate, wheelbase, stops))
+    return timed_by(path, scene, Limits(speed, acceleration, steer_rate, wheelbase, stops))
 
 
-def timed_by(path: Path, scene: Scene, limits: Limits) -> Timed:
+def timed_by(path: Path, scene: Scene | None, limits: Limits) -> Timed:
     """Return a path in time, by limits as one value."""
+    if scene is None or (scene.curved and path.scene is not None):
+        scene = path.scene  # it has polygons around round shapes
+    if scene is None:
+        raise ValueError("no scene; give the one whose robot moves")
+    if not all(isinstance(part, Polygon) for part in scene.robot):
+        raise ValueError("the scene has a round robot; give its scene of polygons, from Scene.outer")
     if fault := limits.fault(path.vehicle):
         names, why = fault
         raise ValueError(f"{', '.join(names)}: {why}")

@@ -201,10 +201,7 @@ def in_time(path: Path, file: object, limits: Limits | None, scene: Scene | None
 
     if limits is None:
         return None
-    scene = scene or path.scene
-    if scene is not None and scene.curved:
-        scene = path.scene or scene  # it has polygons around round shapes
-    if scene is None:
+    if scene is None and path.scene is None:
         raise ValueError(f"{file}: no scene; give the one whose robot moves")
     return timed_by(path, scene, limits)
 
