@@ -33,7 +33,7 @@ RESULTS = """
     AlgebraicAngle AngleInterval AngleRange Arrangement ArrangementStatistics BezierPatch Bottleneck Boundary Cell
     CellComplex Clearance DepthCell EdgeEdgeSegment FirstContact Fit FreeSpace GaussBonnet Geodesic Helix
     Intersection IntersectionCurve Interval LocalGeometry Mesh NearestMiss Pieces RationalHelix RationalRange
-    RationalSegment RationalSurface Separated Shapes SharedLine Slice Stuck Surface Triple TripleContact
+    RationalSegment RationalSurface Separated Shapes SharedLine Slice Stuck Surface Timed Triple TripleContact
 """.split()  # noqa: SIM905
 
 

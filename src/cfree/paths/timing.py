@@ -241,6 +241,7 @@ class Timed:
                 result[chosen] = np.where(moves, stretch.after(share[chosen])[1], stretch.last * stretch.unit)
         return result
 
+    @checked
     def rows(self, step: float, turn: float) -> Rows:
         """Return the poses of `Path.sample` in time, with two rows at each pause."""
         paused = {stop.motion for stop in self.stops if stop.pause > 0}
