@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "arrays.hpp"
+#include "cfree/arcs/motion_checker.hpp"
 #include "cfree/collision/edge_distances.hpp"
 #include "cfree/collision/motion_checker.hpp"
 #include "cfree/support/elementary.hpp"
@@ -163,7 +164,8 @@ void bind_checkers(nb::module_& m) {
         }, "robot"_a, "others"_a)
         .def("least", &least, "poses"_a, "motions"_a, "robot"_a, "tolerance"_a);
     nb::class_<MotionChecker>(m, "MotionChecker")
-        .def(nb::init<std::shared_ptr<const cfree::Scene>>(), "scene"_a)
+        .def(nb::init<std::shared_ptr<const cfree::Scene>, std::shared_ptr<const cfree::ArcMotionChecker>>(), "scene"_a,
+             "round"_a = nb::none())
         .def("is_free", &is_motion_free, "pose"_a, "motion"_a, "turns"_a)
         .def("is_slide_free", [](const MotionChecker& checker, const SlideIntegers& numbers) {
             return checker.is_free(slide(numbers));

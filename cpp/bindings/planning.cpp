@@ -129,8 +129,8 @@ static void bind_known_scene(nb::module_& m) {
             return way_of(watched(find), *slides);
         }, "angle_scale"_a);
     nb::class_<KnownScene>(m, "KnownScene")
-        .def(nb::init<std::shared_ptr<const cfree::SceneFeatures>, std::shared_ptr<const cfree::MotionChecker>>(), "features"_a,
-             "checker"_a)
+        .def(nb::init<std::shared_ptr<const cfree::SceneFeatures>, std::shared_ptr<const cfree::MotionChecker>, double>(), "features"_a,
+             "checker"_a, "slack"_a = 0.0)
         .def("keep", &keep, "boundary"_a, "surfaces"_a, "space"_a)
         .def("build", &build, "caller"_a)
         .def("connecting", [](KnownScene& scene, const PoseNumbers& start, const PoseNumbers& goal) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "cfree/arcs/motion_checker.hpp"
 #include "collision/rounding.hpp"
 #include "collision/shape_boxes.hpp"
 
@@ -379,8 +380,8 @@ private:
     double horizon = 1;          // nothing after it matters
 };
 
-MotionChecker::MotionChecker(std::shared_ptr<const Scene> s)
-    : scene(std::move(s)), boxes(piece_boxes(scene->obstacles)), tree(std::make_unique<BoxTree>(boxes)) {
+MotionChecker::MotionChecker(std::shared_ptr<const Scene> s, std::shared_ptr<const ArcMotionChecker> true_shapes)
+    : scene(std::move(s)), boxes(piece_boxes(scene->obstacles)), tree(std::make_unique<BoxTree>(boxes)), round(std::move(true_shapes)) {
     const Shape& o = scene->obstacles;
     std::array<bool, 2> has_frame{false, true};
     for (Index v = 0; v < o.ring_vertices; ++v)
@@ -426,6 +427,11 @@ bool MotionChecker::begins_outside(const Motion& m) const {
 }
 
 bool MotionChecker::is_free(const Motion& motion) const {
+    if (round) {
+        Motion moved = motion;
+        moved.unit *= scene->scale;
+        return round->is_free(moved);
+    }
     Run<2> run(*this, frames_of(motion), true);
     run.run();
     return !run.collides;

@@ -56,8 +56,8 @@ Index Built::common_cell(const RationalPose& start, const RationalPose& goal) co
     return found;
 }
 
-KnownScene::KnownScene(std::shared_ptr<const SceneFeatures> made, std::shared_ptr<const MotionChecker> by)
-    : features(std::move(made)), checker(std::move(by)) {
+KnownScene::KnownScene(std::shared_ptr<const SceneFeatures> made, std::shared_ptr<const MotionChecker> by, double most_off)
+    : features(std::move(made)), checker(std::move(by)), slack(most_off) {
     if (!shapes().workspace) return;
     const Shape& O = scene().obstacles;
     for (Index k = 0; k < O.ring_vertices; ++k) {
@@ -108,7 +108,7 @@ std::int64_t KnownScene::patches() const {
 
 const Nearness& KnownScene::nearness() const {
     const std::lock_guard guard(lock);
-    if (!near) near = std::make_unique<const Nearness>(scene());
+    if (!near) near = std::make_unique<const Nearness>(scene(), slack * nearest(scene().scale, power_of_two(scene().shift).n));
     return *near;
 }
 

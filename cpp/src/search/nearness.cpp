@@ -43,7 +43,7 @@ Nearness::Pieces Nearness::pieces_of(const Shape& s) {
     return p;
 }
 
-Nearness::Nearness(const Scene& scene) : robot(pieces_of(scene.robot)), obstacles(pieces_of(scene.obstacles)) {
+Nearness::Nearness(const Scene& scene, double slack) : robot(pieces_of(scene.robot)), obstacles(pieces_of(scene.obstacles)) {
     std::vector<Box> boxes(static_cast<std::size_t>(obstacles.count()));
     double size = 0;
     for (Index j = 0; j < obstacles.count(); ++j)
@@ -51,7 +51,7 @@ Nearness::Nearness(const Scene& scene) : robot(pieces_of(scene.robot)), obstacle
             boxes[j].add(obstacles.x[k], obstacles.y[k]);
             size = std::max({size, std::abs(obstacles.x[k]), std::abs(obstacles.y[k])});
         }
-    least_distance = rounding * size;
+    least_distance = rounding * size + slack;
     for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, norm(robot.x[k], robot.y[k]));
     tree = std::make_unique<BoxTree>(std::move(boxes));
 }

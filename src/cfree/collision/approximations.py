@@ -41,6 +41,11 @@ class Approximations:
         self.errors = [_first(shape, size) if isinstance(shape, Curved) else 0.0 for shape in self.shapes]
         self.reached = max(self.errors)
 
+    def least(self, shape: int) -> float:
+        """Return the least error that a shape's polygons may have; 0 for a polygon."""
+        its = self.shapes[shape]
+        return max(self.tolerance, its.least_error) if isinstance(its, Curved) else 0.0
+
     def scene(self, *, outward: bool) -> Scene:
         """Return the scene with polygons around everything that is forbidden, or inside it."""
         return with_polygons(self.exact, self.errors, outward=outward)

@@ -1,7 +1,7 @@
 """Exact poses and motions among shapes of segments and circular arcs: docs/theory/exact-arcs.md.
 
-Centers and ends of arcs are rational, and so are squares of radii; radii need not be. Shapes with ellipses, Bézier curves
-or splines have no exact form here: `arcs_of` returns None for their scenes.
+Centers and ends of arcs are rational, and so are squares of radii; radii need not be. Shapes with ellipses, Bézier
+curves or splines have no exact form here: `arcs_of` returns None for their scenes.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 import os
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ from cfree.scene.scene import AnyShape, Scene
 from cfree.value import kept
 
 FREE, UNCERTAIN = 1, 2  # the core's verdicts
-CurvePart = tuple[ExactPoint, ExactPoint, ExactPoint, int]  # start, end, center, turn
+Curve = tuple[ExactPoint, ExactPoint, ExactPoint, int]  # start, end, center, turn
 NOWHERE = Fraction(0), Fraction(0)
 
 
@@ -115,31 +115,33 @@ def _prepared(scene: Scene) -> ArcScene | None:
 
 def _arc_shape(shape: AnyShape, *, is_outside: bool = False) -> _core.ArcShape | None:
     """Return a shape, or its complement, in the core's form; None if it has other curves."""
-    radius = Fraction(0)
-    if isinstance(shape, Polygon):
-        rings: list[list[CurvePart]] | None = [_polyline(ring) for ring in shape.exact_rings]
-    elif shape.grown:
-        base, radius = shape._base(), shape.grown
-        rings = [_polyline(ring) for ring in base.exact_rings]
-    else:
-        rings = _exact_rings(shape)
-    if rings is None:
+    curves = curves_of(shape)
+    if curves is None:
         return None
+    radius, rings = curves
     scale = common_denominator([radius, *(x for ring in rings for *points, _ in ring for p in points for x in p)])
-    numbers = [
-        [(*(int(x * scale) for p in points for x in p), turn) for *points, turn in ring] for ring in rings
-    ]
+    numbers = [[(*(int(x * scale) for p in points for x in p), turn) for *points, turn in ring] for ring in rings]
     return _core.ArcShape(numbers, int(radius * scale), scale, is_outside)
 
 
-def _polyline(points: Sequence[ExactPoint]) -> list[CurvePart]:
+def curves_of(shape: AnyShape) -> tuple[Fraction, list[list[Curve]]] | None:
+    """Return the radius by which a shape is grown, and its rings of segments and arcs; None if it has other curves."""
+    if isinstance(shape, Polygon):
+        return Fraction(0), [_polyline(ring) for ring in shape.exact_rings]
+    if shape.grown and shape.is_polygon:
+        return shape.grown, [_polyline(ring) for ring in shape._base().exact_rings]
+    rings = _exact_rings(shape)
+    return None if rings is None else (shape.grown, rings)
+
+
+def _polyline(points: Sequence[ExactPoint]) -> list[Curve]:
     return [(p, q, NOWHERE, 0) for p, q in zip(points, [*points[1:], points[0]], strict=True)]
 
 
-def _exact_rings(shape: Curved) -> list[list[CurvePart]] | None:
-    rings = list[list[CurvePart]]()
+def _exact_rings(shape: Curved) -> list[list[Curve]] | None:
+    rings = list[list[Curve]]()
     for curve in shape.curves:
-        ring = list[CurvePart]()
+        ring = list[Curve]()
         for piece in curve:
             parts = _parts(piece)
             if parts is None:
@@ -149,7 +151,7 @@ def _exact_rings(shape: Curved) -> list[list[CurvePart]] | None:
     return rings
 
 
-def _parts(piece: Piece) -> list[CurvePart] | None:
+def _parts(piece: Piece) -> list[Curve] | None:
     """Return a line, or an arc in quarter turns; None for other curves."""
     if isinstance(piece, Line):
         return [(piece.start, piece.end, NOWHERE, 0)]
@@ -162,10 +164,9 @@ def _parts(piece: Piece) -> list[CurvePart] | None:
     places = [piece.at(k, Fraction(0)) for k in range(piece.quarters + 1)]
     if piece.rest:
         places.append(piece.end)
-    return [(p, q, piece.center, turn) for p, q in zip(places, places[1:], strict=False)]
+    return [(p, q, piece.center, turn) for p, q in pairwise(places)]
 
 
 def _refuse_slide(motion: Motion) -> None:
     if isinstance(motion, Slide):
         raise UnsupportedError("a slide is decided between polygons only; give scene.outer(error), or another motion")
-

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cfree.arguments import checked
+from cfree.collision.arcs import ArcScene
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.pose_checker import PoseChecker, are_free, is_free_at
@@ -78,6 +79,17 @@ def refuse_forbidden(checker: PoseChecker, pose: Pose, name: str) -> None:
     free = _on_circles(checker, pose, FARTHEST)
     advice = "no free pose was found near by; give another" if free is None else f"{_shown(free)} is free and near by"
     fault = _overlap(checker.scene, pose)
+    raise ForbiddenPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
+
+
+def refuse_overlap(scene: Scene, arcs: ArcScene, near: Scene | None, pose: Pose, name: str) -> None:
+    """Raise `ForbiddenPoseError` if a pose is forbidden among lines and arcs; near by, `near` forbids a little more."""
+    if arcs.is_free(pose):
+        return
+    free = None if near is None else _on_circles(PoseChecker(near), pose, FARTHEST)
+    advice = "no free pose was found near by; give another" if free is None else f"{_shown(free)} is free and near by"
+    contact = arcs.first_contact(pose, STILL)
+    fault = _fault(scene, contact[2], contact[3]) if contact else "the reference point is outside the bounds"
     raise ForbiddenPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
 
 
@@ -275,11 +287,15 @@ def _circle(radius: float, length: float) -> Floats:
 def _overlap(scene: Scene, pose: Pose) -> str:
     contact = MotionChecker(scene)._first_contact(pose, STILL)
     assert contact is not None  # both are exact
-    if contact.obstacle == BOUNDS:
+    return _fault(scene, contact.robot, contact.obstacle)
+
+
+def _fault(scene: Scene, part: int, obstacle: int) -> str:
+    if obstacle == BOUNDS:
         return "the reference point is outside the bounds"
-    if contact.obstacle == WORKSPACE:
-        return f"robot part {contact.robot} is not inside the workspace"
-    return f"robot part {contact.robot} overlaps {placed(scene, contact.obstacle)}"
+    if obstacle == WORKSPACE:
+        return f"robot part {part} is not inside the workspace"
+    return f"robot part {part} overlaps {placed(scene, obstacle)}"
 
 
 def _shown(pose: Pose) -> str:

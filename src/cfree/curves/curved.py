@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -138,7 +139,8 @@ class Curved(Shown):
     @property
     def least_error(self) -> float:
         """Least error of polygons for the shape; doubles are too coarse for less."""
-        return float(self.grown) * 2**-18 if self.grown else 4 * FINEST * self.size
+        disc, curves = float(self.grown) * 2**-18, 4 * FINEST * self.size
+        return curves if not self.grown else disc if self.is_polygon else 2 * max(disc, curves)
 
     @checked
     def outer(self, error: float) -> tuple[Polygon, ...]:
@@ -182,8 +184,11 @@ class Curved(Shown):
     def _polygons(self, error: float, *, inside: bool) -> tuple[Polygon, ...]:
         if not self.least_error <= error < math.inf:
             raise ValueError(f"error {error}: give a length, {self.least_error:.3g} or more")
-        if self.grown:
+        if self.grown and self.is_polygon:
             return _grown(self._base(), self.grown, error, inside)
+        if self.grown:
+            bases = self.grown_by(-self.grown)._polygons(error / 2, inside=inside)
+            return tuple(part for base in bases for part in _grown(base, self.grown, error / 2, inside))
         frame = self._frame
         curves = tuple(tuple(frame.local(curve)) for curve in self.curves)
         result = _near(curves, error / frame.length, inside)
@@ -204,9 +209,21 @@ class Curved(Shown):
         scale, zero = Fraction(2) ** math.frexp(self.size)[1], Fraction(0)
         return Frame((x, y), (scale, zero), (zero, scale))
 
+    @property
+    def is_polygon(self) -> bool:
+        """True if its rings, without growth, are polygons."""
+        rings = (self.path, *self.holes)
+        return all(isinstance(ring, tuple) and all(isinstance(p, tuple) for p in ring) for ring in rings)
+
+    def grown_by(self, by: Fraction) -> Curved:
+        """Return the shape grown further, whatever its curves; files and `Curved` itself take grown polygons only."""
+        other = copy(self)
+        object.__setattr__(other, "grown", self.grown + by)
+        return other
+
     def _base(self) -> Polygon:
         rings = (self.path, *self.holes)
-        if any(not isinstance(ring, tuple) or not all(isinstance(p, tuple) for p in ring) for ring in rings):
+        if not self.is_polygon:
             raise UnsupportedError("grown: of polygons only; give the larger circle, or a path of points")
         outer, *holes = rings
         return Polygon(outer, holes)  # type: ignore[arg-type]

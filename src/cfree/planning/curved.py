@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.collision.approximations import Approximations
-from cfree.collision.nearest_free import ForbiddenPoseError
+from cfree.collision.arcs import arcs_of
+from cfree.collision.nearest_free import ForbiddenPoseError, refuse_overlap
 from cfree.errors import IncompleteError, InvalidPoseError, UndecidedError
 from cfree.exact.number import Number
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -29,12 +30,13 @@ from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.caller import OutOfWork, Work
-from cfree.planning.goals import AllSeparated, refuse_far, several
+from cfree.planning.goals import AllSeparated, cheapest, name_of, refuse_far, several
 from cfree.planning.options import Options
 from cfree.planning.planner import Planner, answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
+from cfree.planning.true_shapes import TruePlanner, TrueShapes
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
 from cfree.scene.scene import robot_radius
@@ -46,6 +48,7 @@ Decided = tuple[PosePlanner, Options]  # a planner for polygons that gave an ans
 POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
+SEARCHES = 2  # errors of polygons at which a path among the shapes themselves is searched
 NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
 AMONG = ", among polygons around the round shapes"
 TOUCHING = "these touch, or all but do; give a smaller tolerance, or other shapes"
@@ -171,6 +174,8 @@ class CurvedQuery:
         self._is_limited = options.tolerance is None and options.max_seconds is None
         self._work = Work(PATCHES) if self._is_limited else None
         self._decided: dict[bool, Decided] = {}
+        has_arcs = arcs_of(near.exact) is not None
+        self._true = TrueShapes(near.exact, near, options.clearance) if has_arcs else None
 
     def answer(self, ask: Ask, ends: Sequence[Goal]) -> Answer:
         """Answer the query; `ask` answers it in a scene of polygons.
@@ -181,8 +186,9 @@ class CurvedQuery:
             If polygons within the tolerance decide neither way.
         """
         poses = [end for end in ends if isinstance(end, Pose)]
+        self._refuse(ends)
         try:
-            return self._refined(ask, poses)
+            return self._refined(ask, poses, is_among_poses=len(poses) == len(ends))
         except UndecidedError as error:
             if not self.options.clearance or error.path is not None:
                 raise
@@ -204,9 +210,61 @@ class CurvedQuery:
                     hi = min(hi, math.nextafter(float(other), math.inf))  # rounded up
         return lo, hi
 
-    def _refined(self, ask: Ask, ends: Sequence[Pose]) -> Answer:
+    def _refuse(self, ends: Sequence[Goal]) -> None:
+        """Refuse ends that are forbidden among lines and circular arcs, or nearer to something than the clearance."""
+        arcs = arcs_of(self.near.exact)
+        if arcs is None or self._true is None:
+            return
+        for k, end in enumerate(ends):
+            name = "start" if k == 0 else name_of(ends[1:], k - 1)
+            if not isinstance(end, Pose):
+                continue
+            if not arcs.is_free(end):
+                outer = None
+                with suppress(UndecidedError):
+                    outer = self.near.scene(outward=True)
+                refuse_overlap(self.near.exact, arcs, outer, end, name)
+            if not self._true.arcs.is_free(end):
+                clearance, (least, most) = float(self.options.clearance), arcs.distance(end)
+                away = f"{least:.6g}" if f"{least:.6g}" == f"{most:.6g}" else f"between {least:.6g} and {most:.6g}"
+                remedy = "move it, or give a smaller clearance"
+                text = f"{name}: {away} away from obstacles and workspace, and the clearance is {clearance:g}; {remedy}"
+                raise InvalidPoseError(text)
+
+    def _first_path(self, planner: TruePlanner, ends: Sequence[Pose]) -> Path | None:
+        """Return the cheapest path among the shapes themselves, if a search finds one."""
+        options = self._within_time()
+        paths = list[Path]()
+        for goal in ends[1:]:
+            with suppress(UndecidedError):
+                path = planner.first_path(ends[0], goal, options.shared(len(ends) - 1))
+                paths += [path] if isinstance(path, Path) else []
+        if not paths:
+            return None
+        self.last = planner, options
+        return cheapest(paths, planner.scene, options.preferences)
+
+    def _within_time(self) -> Options:
+        seconds = self.options.max_seconds
+        if seconds is None:
+            return self.options
+        return replace(self.options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
+
+    def _refined(self, ask: Ask, ends: Sequence[Pose], *, is_among_poses: bool) -> Answer:
+        searches = SEARCHES
         while True:
-            apart, within, refused = None, None, None
+            apart, inner, refused = None, None, None
+            true = self._true.planner() if self._true and is_among_poses else None
+            if true:
+                if searches > 0 and (path := self._first_path(true, ends)):
+                    return path
+                searches -= 1
+                inner = self._asked(ask, outward=False)
+                if isinstance(inner, Path):
+                    if path := self._mended(true, inner):
+                        return path
+                elif inner is not None:
+                    return self._for_curves(inner)
             try:
                 answer = self._asked(ask, outward=True)
                 if isinstance(answer, Path):
@@ -215,17 +273,27 @@ class CurvedQuery:
             except InvalidPoseError as error:  # the inner scene decides if the round shapes also refuse the pose
                 refused = error
             try:
-                answer = self._asked(ask, outward=False)
-                if answer is not None and refused is None and not isinstance(answer, Path):
-                    return self._for_curves(answer)
-                within = answer if refused is None and isinstance(answer, Path) else None
+                inner = inner if true else self._asked(ask, outward=False)
+                if inner is not None and refused is None and not isinstance(inner, Path):
+                    return self._for_curves(inner)
             except ForbiddenPoseError as error:
                 raise _for_both(error, refused) from None
+            within = inner if isinstance(inner, Path) and (true or refused is None) else None
             lo, hi = self._interval
             if self._is_limited and 0 < hi - lo <= NARROW * lo:
                 raise self._undecided("the clearance is too near to the largest; give another, or a tolerance")
             if not self.near.refine(_poses(within, ends), () if apart is None else apart.obstacles):
                 raise self._undecided(self._reason or TOUCHING)
+
+    def _mended(self, true: TruePlanner, path: Path) -> Path | None:
+        """Return a path among the shapes near one among the polygons inside of them."""
+        options = self._within_time()
+        with suppress(UndecidedError):
+            mended = true.mended(path, options)
+            if isinstance(mended, Path):
+                self.last = true, options
+                return mended
+        return None
 
     def _asked(self, ask: Ask, *, outward: bool) -> Answer | None:
         """Return the answer in one of the two scenes of polygons; None if there is no such scene, or no answer."""

@@ -95,6 +95,11 @@ class Improver:
         better.merge()
         return self._checked(poses, [*map(from_numbers, better.path())])
 
+    def pushed(self, poses: Sequence[Pose]) -> Sequence[Pose]:
+        """Return `balanced_once` without its check."""
+        better = self._balanced(poses, 0)
+        return [*map(from_numbers, better.path())]
+
     def _checked(self, poses: Sequence[Pose], best: Sequence[Pose]) -> Sequence[Pose]:
         """Return the better path if it is free, exactly."""
         same_ends = best[0] == poses[0] and best[-1] == poses[-1]

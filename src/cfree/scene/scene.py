@@ -295,6 +295,15 @@ class Scene(Shown, Keeping):
         return other
 
 
+def grown_scene(scene: Scene, by: Fraction) -> Scene:
+    """Return the scene with its robot grown by a disc, whatever its curves; for planners."""
+    other = copy(scene)
+    robot = [part.grown_by(by) if isinstance(part, Curved) else _grown(part, by) for part in scene.robot]
+    object.__setattr__(other, "robot", tuple(robot))
+    object.__setattr__(other, "curved", True)
+    return other
+
+
 def shapes_of(scene: Scene) -> tuple[AnyShape, ...]:
     """Return the shapes of the robot, the obstacles, and the workspace, if there is one; round or not."""
     return *scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])
@@ -388,8 +397,14 @@ def box_of(shape: AnyShape) -> tuple[float, float, float, float]:
 
 
 def robot_radius(scene: Scene) -> float:
-    """Return the distance of the robot's farthest vertex from its reference point."""
-    return max(math.hypot(x, y) for part in scene.robot for x, y in part.vertices.tolist())
+    """Return the distance of the robot's farthest vertex from its reference point; for a round robot, of a box's."""
+    corners = (part.vertices.tolist() if isinstance(part, Polygon) else _corners(part) for part in scene.robot)
+    return max(math.hypot(x, y) for points in corners for x, y in points)
+
+
+def _corners(shape: Curved) -> list[tuple[float, float]]:
+    x0, y0, x1, y1 = map(float, shape.box)
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
 
 
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:

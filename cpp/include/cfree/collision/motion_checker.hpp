@@ -18,6 +18,7 @@ namespace cfree {
 
 struct Box;
 class BoxTree;
+class ArcMotionChecker;
 
 // Motion from a pose along a vector, or about a pole by at most half a turn. Lengths are in the scene's integer units, over
 // `unit`.
@@ -45,7 +46,8 @@ struct Collision {
 
 class MotionChecker {
 public:
-    explicit MotionChecker(std::shared_ptr<const Scene> scene);
+    // With round shapes, in units, instead of which the scene has polygons, they decide if translations and rotations are free.
+    explicit MotionChecker(std::shared_ptr<const Scene> scene, std::shared_ptr<const ArcMotionChecker> round = {});
     ~MotionChecker();
     MotionChecker(const MotionChecker&) = delete;
     MotionChecker& operator=(const MotionChecker&) = delete;
@@ -69,6 +71,7 @@ private:
     std::array<std::optional<Rim>, 2> rims;  // one per layer, of the frames
     const std::vector<Box> boxes;
     const std::unique_ptr<BoxTree> tree;  // tree of the obstacles' pieces
+    const std::shared_ptr<const ArcMotionChecker> round;
 };
 
 }  // namespace cfree

@@ -32,10 +32,12 @@ Barrier barrier_of(const CellComplex& surface);
 class KnownScene {
 public:
     static std::shared_ptr<KnownScene> of(const SceneShapes& shapes);
-    KnownScene(std::shared_ptr<const SceneFeatures> features, std::shared_ptr<const MotionChecker> checker);
+    // The distance of the polygons may be too large by `slack`, if the checker has round shapes around them.
+    KnownScene(std::shared_ptr<const SceneFeatures> features, std::shared_ptr<const MotionChecker> checker, double slack = 0);
 
     const std::shared_ptr<const SceneFeatures> features;
     const std::shared_ptr<const MotionChecker> checker;
+    const double slack;
     const Scene& scene() const { return *features->scene; }
     const SceneShapes& shapes() const { return features->shapes; }
 

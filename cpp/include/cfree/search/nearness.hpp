@@ -20,7 +20,8 @@ struct Witness {
 
 class Nearness {
 public:
-    explicit Nearness(const Scene& scene);
+    // slack: distances may be too large by as much.
+    explicit Nearness(const Scene& scene, double slack = 0);
     ~Nearness();
     Nearness(const Nearness&) = delete;
     Nearness& operator=(const Nearness&) = delete;

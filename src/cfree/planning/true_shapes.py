@@ -1,0 +1,140 @@
+"""Paths among segments and circular arcs: polygons inside the shapes guide a search, the shapes themselves decide.
+
+These polygons forbid less than the shapes, and their distances are too large by at most a known slack. Every motion of
+a path is proved free among the shapes: docs/theory/exact-arcs.md. So a fit along a line or about a point is found.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+
+import cfree._core as _core
+from cfree.collision.approximations import Approximations
+from cfree.collision.arcs import ArcScene, arcs_of
+from cfree.collision.motion import joining
+from cfree.collision.motion_checker import MotionChecker
+from cfree.errors import UndecidedError
+from cfree.exact.pose import Pose
+from cfree.paths.path import Path
+from cfree.planning.narrow_fits import way_through_fits
+from cfree.planning.options import Options
+from cfree.planning.pose_planner import PosePlanner
+from cfree.planning.stuck import Stuck
+from cfree.scene.frame import frame_of
+from cfree.scene.scene import Scene, grown_scene
+
+ROUNDED = 1 + 2.0**-40  # more than the rounding of a sum
+
+
+class TrueMotions(MotionChecker):
+    """Exact checks of motions among round shapes, with the interface of a checker of the polygons inside of them."""
+
+    def __init__(self, inner: Scene, arcs: ArcScene) -> None:
+        super().__init__(inner)
+        self._handle = _core.MotionChecker(self.features.core, arcs.motions)
+
+
+class TruePlanner(PosePlanner):
+    """Planner among round shapes, at one error of the polygons inside of them.
+
+    Parameters
+    ----------
+    exact : Scene
+        The scene of the query.
+    clearance : Fraction
+        A distance that a path keeps.
+    arcs : ArcScene
+        The exact shapes, the robot grown by a disc of that radius.
+    near : Approximations
+        Their polygons.
+
+    Raises
+    ------
+    UndecidedError
+        If a robot or workspace has no polygon inside.
+    """
+
+    def __init__(self, exact: Scene, clearance: Fraction, arcs: ArcScene, near: Approximations) -> None:
+        super().__init__(near.scene(outward=False))
+        self.arcs, self.true, self._exact, self._clearance = arcs, near.exact, exact, clearance
+        self._error = max(near.errors)
+        count = len(near.exact.robot)
+        errors = near.errors[:count], near.errors[count:]
+        few = len(self.scene.obstacles) < len(near.exact.obstacles)  # one has no polygon inside
+        self._slack = math.inf if few else sum(max(part, default=0.0) for part in errors) * ROUNDED
+
+    @cached_property
+    def checker(self) -> MotionChecker:
+        """Checker of motions among the shapes themselves."""
+        return TrueMotions(self.scene, self.arcs)
+
+    @cached_property
+    def _known(self) -> _core.KnownScene:
+        return _core.KnownScene(self.checker.features.made, self.checker._handle, self._slack)
+
+    def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
+        """Return a path between free poses, if simple ways or a search give one."""
+        way = [start] if start == goal else self.quick(start, goal, options)
+        return self.finished(way, options) if way else None
+
+    def mended(self, path: Path, options: Options) -> Path | Stuck | None:
+        """Return a path near one among the polygons, if all motions of it, or of one farther from them, are free."""
+        poses: Sequence[Pose] = path.poses
+        if not any(motion.contacts for motion in path.motions):
+            if not self.checker.joins(poses):
+                poses = self.improver(poses, options).pushed(poses)
+            if self.checker.joins(poses):
+                return self.finished(poses, options)
+            path = replace(path, motions=tuple(joining(a, b) for a, b in pairwise(poses) if a != b))
+        through = way_through_fits(self, path, options, self._error)
+        if through is None or not self.checker.joins(through):
+            return None
+        return self.finished(through, options)
+
+    def finished(self, way: Sequence[Pose], options: Options) -> Path | Stuck | None:
+        """Improve a path, given by its poses, and return it as one among the shapes."""
+        answer = self.answered(way, options)
+        if not isinstance(answer, Path):
+            return None
+        exact = self._exact
+        scene = None if exact.curved else exact
+        answer = replace(answer, scene=scene, curved=exact if exact.curved else None, clearance=self._clearance)
+        return replace(answer, frame=frame_of(exact), units=exact.units)
+
+
+class TrueShapes:
+    """Planners on the true shapes of a scene, with the robot grown by a disc, at finer and finer polygons.
+
+    Parameters
+    ----------
+    scene : Scene
+        All shapes are of lines and circular arcs.
+    near : Approximations
+        Its polygons, which are refined elsewhere.
+    clearance : Fraction
+        Radius of the disc.
+    """
+
+    def __init__(self, scene: Scene, near: Approximations, clearance: Fraction) -> None:
+        self._scene, self._near, self._clearance = scene, near, clearance
+        self._grown = grown_scene(scene, clearance) if clearance else scene
+        arcs = arcs_of(self._grown)
+        assert arcs is not None, "all shapes are of lines and circular arcs"
+        self.arcs = arcs
+
+    def planner(self) -> TruePlanner | None:
+        """Return a planner with the polygons of now; None if the robot or the workspace has none."""
+        near = self._near
+        if self._clearance:
+            near = Approximations(self._grown, near.tolerance)
+            pairs = enumerate(zip(near.errors, self._near.errors, strict=True))
+            near.errors = [min(own, max(error, near.least(k))) if error else own for k, (own, error) in pairs]
+        with suppress(UndecidedError):
+            return TruePlanner(self._scene, self._clearance, self.arcs, near)
+        return None
