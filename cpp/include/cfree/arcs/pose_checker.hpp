@@ -37,7 +37,8 @@ private:
     struct Placed;
     Verdict verdict(Placed& placed, double x, double y, double c, double s) const;
     bool decide(const Placed& placed, const ExactPlacement& at) const;
-    std::unique_ptr<const NearScene> near;
+    const std::unique_ptr<const NearScene> near;
+    const std::size_t number;
 };
 
 }  // namespace cfree
