@@ -1,4 +1,5 @@
 // Searches and shorter paths.
+#include "cfree/arcs/shape.hpp"
 #include "cfree/planning/searcher.hpp"
 
 #include <nanobind/stl/shared_ptr.h>
@@ -43,10 +44,11 @@ void bind_search(nb::module_& m) {
         .def("path", [](const Shortener& of) { return list_of(of.by->poses(of.path.path())); });
     nb::class_<Searcher>(m, "Searcher")
         .def("__init__", [](Searcher* of, std::shared_ptr<const cfree::KnownScene> scene, const Places& places,
-                            const std::array<double, 4>& costs, const std::array<double, 3>& axle) {
+                            const std::array<double, 4>& costs, const std::array<double, 3>& axle,
+                            std::shared_ptr<const cfree::ArcScene> arcs) {
             const cfree::Costs given{costs[0], costs[1], costs[2], costs[3], {axle[0], axle[1], axle[2]}};
-            new (of) Searcher(std::move(scene), places_of(places), given);
-        }, "scene"_a, "places"_a, "costs"_a, "axle"_a)
+            new (of) Searcher(std::move(scene), std::move(arcs), places_of(places), given);
+        }, "scene"_a, "places"_a, "costs"_a, "axle"_a, "arcs"_a.none() = nb::none())
         .def("search", [](std::shared_ptr<const Searcher> by, const EndNumbers& start, const EndNumbers& goal, std::uint64_t seed) {
             return new Search{by, by->search(end_of(start), end_of(goal), seed)};
         }, "start"_a, "goal"_a, "seed"_a, nb::rv_policy::take_ownership)

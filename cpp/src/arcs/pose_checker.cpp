@@ -32,7 +32,16 @@ struct ArcPoseChecker::Placed {
     std::vector<std::pair<std::size_t, std::size_t>> open;
 };
 
-ArcPoseChecker::ArcPoseChecker(std::shared_ptr<const ArcScene> s) : scene(std::move(s)), near(std::make_unique<NearScene>(scene)), number(++checkers) {}
+ArcPoseChecker::ArcPoseChecker(std::shared_ptr<const ArcScene> s) : scene(std::move(s)), near(std::make_unique<NearScene>(scene)), number(++checkers),
+      limits{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL} {
+    if (!scene->bounds) return;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Ratio& bound = (*scene->bounds)[k];
+        limits[k] = rounded(bound);  // to the nearest double; from there to the next if it is outside
+        if (k < 2 ? ratio_of(limits[k]) < bound : ratio_of(limits[k]) > bound)
+            limits[k] = std::nextafter(limits[k], k < 2 ? HUGE_VAL : -HUGE_VAL);
+    }
+}
 ArcPoseChecker::~ArcPoseChecker() = default;
 
 Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, double s) const {
@@ -95,13 +104,6 @@ bool ArcPoseChecker::decide(const Placed& placed, const ExactPlacement& at) cons
 }
 
 void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
-    std::array<double, 4> limits{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    if (scene->bounds)
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Ratio& bound = (*scene->bounds)[k];
-            limits[k] = rounded(bound);  // the nearest double: moved inwards if it is outside
-            if (k < 2 ? ratio_of(limits[k]) < bound : ratio_of(limits[k]) > bound) limits[k] = std::nextafter(limits[k], k < 2 ? HUGE_VAL : -HUGE_VAL);
-        }
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0;
     const auto chunks = static_cast<int>(std::min<std::size_t>((count + chunk - 1) / chunk, 1 << 20));
@@ -110,13 +112,24 @@ void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, 
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
             heed_stop();
             for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k) {
-                const double *q = poses + 3 * k, x = q[0], y = q[1];
-                const bool is_within = limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3];
+                const double* q = poses + 3 * k;
                 const auto [c, s] = cosine_sine(q[2]);
-                out[k] = is_within ? verdict(placed, x, y, c, s) : Verdict::forbidden;
+                out[k] = is_within(q[0], q[1]) ? verdict(placed, q[0], q[1], c, s) : Verdict::forbidden;
             }
         }
     });
+}
+
+ArcPoseChecker::Placed& ArcPoseChecker::own() const {
+    thread_local Placed placed;
+    if (placed.checker != number) placed = {number, {}, {}};
+    return placed;
+}
+
+bool ArcPoseChecker::is_certainly_forbidden(double x, double y, double theta) const {
+    if (!is_within(x, y)) return true;
+    const auto [c, s] = cosine_sine(theta);
+    return verdict(own(), x, y, c, s) == Verdict::forbidden;
 }
 
 bool ArcPoseChecker::is_free(const GivenPose& pose) const {
@@ -124,8 +137,7 @@ bool ArcPoseChecker::is_free(const GivenPose& pose) const {
         const auto& [x0, y0, x1, y1] = *scene->bounds;
         if (pose.x < x0 || x1 < pose.x || pose.y < y0 || y1 < pose.y) return false;
     }
-    thread_local Placed placed;
-    if (placed.checker != number) placed = {number, {}, {}};
+    Placed& placed = own();
     const auto [c, s] = cosine_sine(pose.theta);
     const Verdict v = verdict(placed, rounded(pose.x), rounded(pose.y), c, s);
     return v == Verdict::uncertain ? decide(placed, pose.exact()) : v == Verdict::free;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "cfree/arcs/motion_checker.hpp"
 #include "cfree/search/balance.hpp"
 #include "cfree/search/motion_guess.hpp"
 #include "cfree/support/lookout.hpp"
@@ -33,6 +34,11 @@ int extent_of(const Area& area) {
 
 }  // namespace
 
+static std::shared_ptr<const MotionTest> test_of(const KnownScene& scene, const std::shared_ptr<const ArcScene>& arcs) {
+    if (!arcs) return scene.checker;
+    return std::make_shared<const ArcMotionChecker>(arcs, scene.scene().scale);
+}
+
 Area search_area(const KnownScene& scene, std::span<const Place> poses, double radius) {
     const SceneShapes& shapes = scene.shapes();
     if (shapes.bounds) return area_of(*shapes.bounds);
@@ -44,7 +50,12 @@ Area search_area(const KnownScene& scene, std::span<const Place> poses, double r
 }
 
 Searcher::Searcher(std::shared_ptr<const KnownScene> of, std::span<const Place> poses, const Costs& given)
-    : unit(nearest(of->scene().scale, power_of_two(of->scene().shift).n)), scene(std::move(of)),
+    : Searcher(std::move(of), nullptr, poses, given) {}
+
+Searcher::Searcher(std::shared_ptr<const KnownScene> of, std::shared_ptr<const ArcScene> among, std::span<const Place> poses,
+                   const Costs& given)
+    : unit(nearest(of->scene().scale, power_of_two(of->scene().shift).n)), scene(std::move(of)), checker(test_of(*scene, among)),
+      arcs(among ? std::make_shared<const ArcPoseChecker>(std::move(among)) : nullptr),
       costs{given.weight * unit, given.sideways, given.backward, given.turning, {given.axle.x * unit, given.axle.y * unit, given.axle.theta}},
       area(scaled(search_area(*scene, poses, given.weight), unit)), extent(extent_of(area)) {}
 
@@ -64,23 +75,23 @@ Route Searcher::route(std::span<const End> way) const {
 }
 
 RrtConnect Searcher::search(const End& start, const End& goal, std::uint64_t seed) const {
-    auto certainly = [checker = scene->checker](const Configuration& a, const Configuration& b) {
+    auto certainly = [checker = checker](const Configuration& a, const Configuration& b) {
         heed_stop();
         return checker->is_free(motion_between(a, b));
     };
-    const MotionGuess seems(scene->poses(), costs.weight, unit);
+    const MotionGuess seems = arcs ? MotionGuess(arcs, costs.weight, unit) : MotionGuess(scene->poses(), costs.weight, unit);
     return {{seems, std::move(certainly)}, grid(place_bits, angle_bits), area, costs.weight, configuration(start), configuration(goal), seed};
 }
 
 Shortcut Searcher::shortener(std::span<const End> way, std::uint64_t seed) const {
-    Way free{*scene->checker, nullptr, grid(fine_place_bits, fine_angle_bits), {}, costs};
+    Way free{*checker, nullptr, grid(fine_place_bits, fine_angle_bits), {}, costs};
     return {std::move(free), {route(way), std::vector<double>(way.size())}, seed};
 }
 
 Shortcut Searcher::balanced(std::span<const End> way, std::uint64_t seed) const {
     constexpr double inf = std::numeric_limits<double>::infinity();
     const Area limits = scene->shapes().bounds ? scaled(area_of(*scene->shapes().bounds), unit) : Area{-inf, -inf, inf, inf};
-    const Way start{*scene->checker, &scene->nearness(), grid(fine_place_bits, fine_angle_bits), limits, costs};
+    const Way start{*checker, &scene->nearness(), grid(fine_place_bits, fine_angle_bits), limits, costs};
     auto [asking, path] = cfree::balanced(start, route(way));
     return {std::move(asking), std::move(path), seed};
 }

@@ -14,6 +14,8 @@ constexpr double looks_in_radius = 16, most_looks = 4096;
 MotionGuess::MotionGuess(std::shared_ptr<const PoseChecker> checker, double r, double u)
     : looks(std::make_shared<PoseChecker::Looks>(std::move(checker))), radius(r), unit(u) {}
 
+MotionGuess::MotionGuess(std::shared_ptr<const ArcPoseChecker> checker, double r, double u) : arcs(std::move(checker)), radius(r), unit(u) {}
+
 bool MotionGuess::operator()(const Place& a, const Place& b) const {
     const double turn = std::abs(wrapped(b.theta - a.theta));
     const double length = norm(b.x - a.x, b.y - a.y) * (1 + turn * turn / 16) + radius * turn;  // approximate length of an arc
@@ -24,7 +26,8 @@ bool MotionGuess::operator()(const Place& a, const Place& b) const {
 
 bool MotionGuess::is_forbidden(const Place& q) const {
     const double theta = wrapped(q.theta);
-    return looks->is_forbidden(q.x / unit, q.y / unit, theta < 0 ? theta + 2 * std::numbers::pi : theta);
+    const double x = q.x / unit, y = q.y / unit, turned = theta < 0 ? theta + 2 * std::numbers::pi : theta;
+    return arcs ? arcs->is_certainly_forbidden(x, y, turned) : looks->is_forbidden(x, y, turned);
 }
 
 }  // namespace cfree

@@ -24,6 +24,8 @@ public:
 
     // Verdicts of poses x, y and theta in [0, 2 pi], radians.
     void check(const double* poses, std::size_t count, int threads, Verdict* out) const;
+    // True if a pose in doubles is certainly forbidden.
+    bool is_certainly_forbidden(double x, double y, double theta) const;
     // One pose, exactly.
     bool is_free(const GivenPose& pose) const;
     // Exactly the pose that Python's `Pose` makes of three finite doubles. Nothing for an angle that `read_radians` leaves out.
@@ -35,10 +37,13 @@ public:
 
 private:
     struct Placed;
+    Placed& own() const;  // this thread's
+    bool is_within(double x, double y) const { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; }
     Verdict verdict(Placed& placed, double x, double y, double c, double s) const;
     bool decide(const Placed& placed, const ExactPlacement& at) const;
     const std::unique_ptr<const NearScene> near;
     const std::size_t number;
+    std::array<double, 4> limits;  // the bounds, rounded inwards
 };
 
 }  // namespace cfree

@@ -43,13 +43,21 @@ struct Collision {
     Index robot = -1, obstacle = -1;
 };
 
-class MotionChecker {
+// A test that translations and rotations are free: all that searches need of a scene. Among polygons it is `MotionChecker`,
+// among segments and arcs `ArcMotionChecker`.
+class MotionTest {
+public:
+    virtual ~MotionTest() = default;
+    virtual bool is_free(const Motion& motion) const = 0;
+};
+
+class MotionChecker final : public MotionTest {
 public:
     explicit MotionChecker(std::shared_ptr<const Scene> scene);
-    ~MotionChecker();
+    ~MotionChecker() override;
     MotionChecker(const MotionChecker&) = delete;
     MotionChecker& operator=(const MotionChecker&) = delete;
-    bool is_free(const Motion& motion) const;
+    bool is_free(const Motion& motion) const override;
     bool is_free(const Slide& slide) const;
     // True if it begins beyond the frames around the bounds and the workspace, where nothing is in the way.
     bool begins_outside(const Motion& motion) const;

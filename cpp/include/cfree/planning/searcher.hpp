@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "cfree/arcs/pose_checker.hpp"
 #include "cfree/planning/boundary_walk.hpp"
 #include "cfree/planning/known_scene.hpp"
 #include "cfree/search/rrt_connect.hpp"
@@ -19,6 +20,8 @@ class Searcher {
 public:
     // Searcher around poses; costs are in the user's units, the weight of a radian is the robot's radius.
     Searcher(std::shared_ptr<const KnownScene> scene, std::span<const Place> poses, const Costs& costs);
+    // The same where arcs decide instead: the known scene, of polygons around their shapes, is a guide.
+    Searcher(std::shared_ptr<const KnownScene> scene, std::shared_ptr<const ArcScene> arcs, std::span<const Place> poses, const Costs& costs);
 
     RrtConnect search(const End& start, const End& goal, std::uint64_t seed = 0) const;
     Shortcut shortener(std::span<const End> way, std::uint64_t seed = 0) const;
@@ -34,6 +37,8 @@ private:
     Route route(std::span<const End> way) const;
 
     const std::shared_ptr<const KnownScene> scene;
+    const std::shared_ptr<const MotionTest> checker;     // of the motions in all results
+    const std::shared_ptr<const ArcPoseChecker> arcs;  // if they decide
     const Costs costs;  // per length in the doubles of shapes
     const Area area;
     const int extent;  // exponent of the area's extent

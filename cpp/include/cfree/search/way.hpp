@@ -37,7 +37,7 @@ Configuration corner(const Configuration& position, const Configuration& orienta
 std::vector<Route> turned_or_straight(const Configuration& a, const Configuration& b);
 
 struct Way {
-    const MotionChecker& checker;
+    const MotionTest& checker;
     const Nearness* nearness;  // null: any free path is admissible
     Grid grid;
     Area limits;                   // limits of the reference point
