@@ -1,21 +1,26 @@
-"""Poses and motions among segments and arcs, against two lemmas by separation, fine polygons and contacts made on purpose."""
+"""Poses and motions among segments and arcs: contacts made on purpose, two lemmas by separation, fine polygons."""
 
 from __future__ import annotations
 
 import math
 import random
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 
 import cfree
+import cfree._core as _core
 import fuzz_arcs
 from cfree import Curved, Pose, Rotation, Scene, Translation
 from cfree.collision.arcs import ArcScene, arcs_of
+from cfree.collision.motion import joining
 from cfree.curves import Arc, Circle
 from cfree.exact.number import ExactPoint
+from cfree.planning.core_ways import end_of, from_numbers
+from cfree.planning.pose_planner import PosePlanner
 
 TINY = Fraction(1, 10**60)
 FLOOR = [(-9, -1), (9, -1), (9, 0), (-9, 0)]
@@ -116,8 +121,12 @@ def test_tangency_off_by_rounding_is_exact() -> None:
 
 def test_cusps_and_touching_arcs() -> None:
     fillet = Curved([(0, 0), (1, 0), Arc((0, 1), center=(1, 1), clockwise=True)])
-    assert cfree.is_free(Scene(DISC, [fillet]), Pose(1, 1)) and not cfree.is_free(Scene(DISC, [fillet]), Pose(1, 1 - TINY))
-    assert cfree.is_free(Scene(fillet, [fillet]), Pose(1, 0)) and not cfree.is_free(Scene(fillet, [fillet]), Pose(1 - TINY, 0))
+    assert cfree.is_free(Scene(DISC, [fillet]), Pose(1, 1)) and not cfree.is_free(
+        Scene(DISC, [fillet]), Pose(1, 1 - TINY)
+    )
+    assert cfree.is_free(Scene(fillet, [fillet]), Pose(1, 0)) and not cfree.is_free(
+        Scene(fillet, [fillet]), Pose(1 - TINY, 0)
+    )
 
 
 def test_other_curves_stay_certified_polygons() -> None:
@@ -136,7 +145,10 @@ def test_wrong_arguments_are_refused() -> None:
         cfree.is_free(scene, Pose(0, 1), tolerance=-1)
     with pytest.raises(ValueError, match="threads"):
         cfree.is_free(scene, Pose(0, 1), threads=0)
-    contacts = cfree.collision.Touch("vertex-edge", (0, 0), (-2, 1)), cfree.collision.Touch("edge-vertex", (0, 2), (-2, 6))
+    contacts = (
+        cfree.collision.Touch("vertex-edge", (0, 0), (-2, 1)),
+        cfree.collision.Touch("edge-vertex", (0, 2), (-2, 6)),
+    )
     slide = cfree.Slide(contacts, [0, 0, -2, 2], [0, 2, -2], [1, 0, 1], 1)
     with pytest.raises(cfree.UnsupportedError, match="slide"):
         cfree.is_free_motion(scene, Pose(0, 1), slide)
@@ -195,7 +207,8 @@ def test_grown_polygons_follow_lemma_b() -> None:
         a, b, r, s = _triangle(rng), _triangle(rng), Fraction(rng.randint(1, 4), 4), Fraction(rng.randint(0, 4), 4)
         scene = Scene(Curved(a, grown=r), [Curved(b, grown=s)])
         for _ in range(8):
-            pose = Pose(Fraction(rng.randint(-20, 20), 4), Fraction(rng.randint(-20, 20), 4), {"tau": rng.choice([0, 1, "1/3"])})
+            x, y = (Fraction(rng.randint(-20, 20), 4) for _ in range(2))
+            pose = Pose(x, y, {"tau": rng.choice([0, 1, "1/3"])})
             expected = by_lemma_b(pose.apply_exact(a), b, r + s)
             assert cfree.is_free(scene, pose) is expected, (a, b, r, s, pose)
             free += expected
@@ -219,7 +232,8 @@ def test_fillets_follow_lemma_c() -> None:
         a = _triangle(rng, 4)
         scene = Scene(a, [fillet])
         for _ in range(4):
-            pose = Pose(Fraction(rng.randint(-6, 6), 8), Fraction(rng.randint(-6, 6), 8), {"tau": rng.choice([0, 1, "1/3"])})
+            x, y = (Fraction(rng.randint(-6, 6), 8) for _ in range(2))
+            pose = Pose(x, y, {"tau": rng.choice([0, 1, "1/3"])})
             expected = by_lemma_c(pose.apply_exact(a))
             assert cfree.is_free(scene, pose) is expected, (a, pose)
             counts[expected] += 1
@@ -287,3 +301,27 @@ def test_poses_and_motions_agree_with_the_oracles(seed: int) -> None:
 def test_many_poses_and_motions_agree_with_the_oracles() -> None:
     for seed in range(1000, 1100):
         fuzz_arcs.run(seed, 20, 4)
+
+
+# --- searches on the true shapes, with polygons around them as a guide ---
+
+
+def test_searches_take_arcs_as_their_test_of_motions() -> None:
+    """A stadium through a corridor of its width: among polygons around the two no path exists."""
+    scene = Scene(STADIUM, CORRIDOR, bounds=(-20, -3, 20, 3))
+    guide = scene.outer(0.01)
+    known = PosePlanner(guide)._known
+    ends = [end_of(pose) for pose in (Pose(-15, 0), Pose(15, 0))]
+    searcher = _core.Searcher(known, [place for _, place in ends], (2.0, 1.0, 1.0, 1.0), arcs(scene).core)
+    shortener = searcher.shortener([*ends], 0)
+    assert shortener.length() == 30
+    shortener.merge()
+    assert len(shortener.path()) == 2
+    start, goal = [end_of(pose) for pose in (Pose(-15, 2), Pose(-15, -2, 2.0))]
+    free = _core.Searcher(known, [start[1], goal[1]], (2.0, 1.0, 1.0, 1.0), arcs(scene).core)
+    search, way = free.search(start, goal, 0), []
+    for _ in range(50):
+        if way := search.run(200):
+            break
+    poses = [from_numbers(numbers) for numbers in way]
+    assert len(poses) > 1 and all(cfree.is_free_motion(scene, a, joining(a, b)) for a, b in pairwise(poses))

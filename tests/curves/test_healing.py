@@ -79,7 +79,13 @@ def test_random_polygons_become_tangent() -> None:
 def test_a_stadium_by_bulges_becomes_one_of_its_width() -> None:
     """Half turns between parallel lines, whose middle points are rounded."""
     ends = ("2", "0.9999999999"), ("0", "1")
-    path = [("0", "-1"), ("2", "-1"), Arc(ends[0], through=("3.0000000001", "0")), ends[1], Arc((0, -1), through=("-1", "1e-11"))]
+    path = [
+        ("0", "-1"),
+        ("2", "-1"),
+        Arc(ends[0], through=("3.0000000001", "0")),
+        ends[1],
+        Arc((0, -1), through=("-1", "1e-11")),
+    ]
     with_corners = Curved(path)
     exact = Curved([(0, -1), (2, -1), Arc((2, 1), center=(2, 0)), (0, 1), Arc((0, -1), center=(0, 0))])
     corridor = [[(-9, 1), (9, 1), (9, 3), (-9, 3)], [(-9, -3), (9, -3), (9, -1), (-9, -1)]]

@@ -1,7 +1,7 @@
 """Exact poses and motions among shapes of segments and circular arcs: docs/theory/exact-arcs.md.
 
-Centers and ends of arcs are rational, and so are squares of radii; radii need not be. Shapes with ellipses, Bézier curves
-or splines have no exact form here: `arcs_of` returns None for their scenes.
+Centers and ends of arcs are rational, and so are squares of radii; radii need not be. Shapes with ellipses, Bézier
+curves or splines have no exact form here: `arcs_of` returns None for their scenes.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 import os
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,15 +39,17 @@ class ArcScene:
 
     Attributes
     ----------
+    core : ArcScene
+        The core's form of it.
     poses, motions
         The core's checkers.
     """
 
     def __init__(self, scene: Scene, shapes: Sequence[_core.ArcShape]) -> None:
         count = len(scene.robot)
-        core = _core.ArcScene(shapes[:count], shapes[count:], scene.bounds)
+        self.core = _core.ArcScene(shapes[:count], shapes[count:], scene.bounds)
         self.obstacles = len(scene.obstacles)
-        self.poses, self.motions = _core.ArcPoseChecker(core), _core.ArcMotionChecker(core)
+        self.poses, self.motions = _core.ArcPoseChecker(self.core), _core.ArcMotionChecker(self.core)
 
     def is_free(self, pose: Pose) -> bool:
         """True if a pose is free, decided exactly. Touching is free."""
@@ -126,9 +128,7 @@ def _arc_shape(shape: AnyShape, *, is_outside: bool = False) -> _core.ArcShape |
     if rings is None:
         return None
     scale = common_denominator([radius, *(x for ring in rings for *points, _ in ring for p in points for x in p)])
-    numbers = [
-        [(*(int(x * scale) for p in points for x in p), turn) for *points, turn in ring] for ring in rings
-    ]
+    numbers = [[(*(int(x * scale) for p in points for x in p), turn) for *points, turn in ring] for ring in rings]
     return _core.ArcShape(numbers, int(radius * scale), scale, is_outside)
 
 
@@ -162,10 +162,9 @@ def _parts(piece: Piece) -> list[CurvePart] | None:
     places = [piece.at(k, Fraction(0)) for k in range(piece.quarters + 1)]
     if piece.rest:
         places.append(piece.end)
-    return [(p, q, piece.center, turn) for p, q in zip(places, places[1:], strict=False)]
+    return [(p, q, piece.center, turn) for p, q in pairwise(places)]
 
 
 def _refuse_slide(motion: Motion) -> None:
     if isinstance(motion, Slide):
         raise UnsupportedError("a slide is decided between polygons only; give scene.outer(error), or another motion")
-

@@ -198,10 +198,9 @@ class Curved(Shown):
         Examples
         --------
         >>> from cfree.curves import Arc
-        >>> path = [(0, 0), (3, 0), Arc(("3.70710678", "0.29289322"), center=None, through=("3.38268343", "0.07612047"))]
-        >>> slanted = Curved([*path, (5, "1.58578644"), (0, 6)])
-        >>> arc = slanted.healed(1e-6).path[2]
-        >>> arc.center[1], arc.to != path[2].to
+        >>> bend = Arc(("3.70710678", "0.29289322"), through=("3.38268343", "0.07612047"))
+        >>> arc = Curved([(0, 0), (3, 0), bend, (5, "1.58578644"), (0, 6)]).healed(1e-6).path[2]
+        >>> arc.center[1], arc.to != bend.to
         (Fraction(1, 1), True)
         """
         if not 0 < tolerance < 0.01:

@@ -1,9 +1,9 @@
 """Arcs that are tangent to their neighbours but for rounding, made exactly tangent.
 
-Files give an arc's bulge, or its radius and ends, in short decimals. A corner remains where it meets a line, often by an
-angle of 1e-15, which is exact here. An arc can be tangent to two lines, with rational ends, only if the directions of
-both are rational unit vectors. So the lines get such directions, nearly their own, about their middles; axis-parallel
-and Pythagorean ones stay.
+Files give an arc's bulge, or its radius and ends, in short decimals. A corner remains where it meets a line, often of
+an angle of 1e-15, which exact decisions keep. If the directions of two lines are rational unit vectors, an arc of
+rational radius is tangent to both at rational points. So lines get such directions, nearly their own, about their
+middles; axis-parallel and Pythagorean ones stay.
 """
 
 from __future__ import annotations
