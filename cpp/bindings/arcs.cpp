@@ -53,7 +53,7 @@ void check(const ArcPoseChecker& checker, const In<double, 2>& poses, int thread
 std::array<double, 2> bounds_of(const cfree::DistanceBounds& interval) { return {interval.low, interval.high}; }
 
 cfree::Motion motion_of(const ArcMotionChecker& checker, nb::handle from, nb::handle motion, bool turns) {
-    const auto m = given_motion(checker.scene->scale, from, motion, turns);
+    const auto m = given_motion(checker.scale, from, motion, turns);
     require(m.has_value(), "the motion must begin at a pose");
     return *m;
 }

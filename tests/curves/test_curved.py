@@ -121,7 +121,6 @@ def test_what_takes_polygons_says_so() -> None:
         lambda: cfree.require_free(scene, pose),
         lambda: cfree.arrangements.arrangement(scene), lambda: cfree.collision.free_nearby(scene, pose),
         lambda: cfree.save(scene, "round.svg"), lambda: cfree.save(scene, "round.geojson"),
-        lambda: cfree.first_contact(scene, pose, cfree.Translation((1, 0))),
     ):  # fmt: skip
         with pytest.raises(cfree.UnsupportedError, match=r"scene\.outer\(error\) or scene\.inner\(error\)"):
             call()

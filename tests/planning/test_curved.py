@@ -70,7 +70,7 @@ def test_a_gap_that_fits_is_left_undecided() -> None:
 def test_a_disc_in_its_own_hole() -> None:
     hole = cfree.Curved([(-3, -3), (3, -3), (3, 3), (-3, 3)], [cfree.curves.Circle((0, 0), 1)])
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), [hole])
-    assert cfree.is_free(scene, Pose(0, 0)) is None
+    assert cfree.is_free(scene, Pose(0, 0)) is True
     for goal in ((9, 0, 0), (0, 0, "90deg")):
         with pytest.raises(cfree.UndecidedError):
             cfree.plan(scene, (0, 0, 0), goal, tolerance=0.01)
@@ -101,8 +101,11 @@ def test_near_contact_at_the_start(distance: Fraction) -> None:
 
 
 @pytest.mark.slow
-def test_poses_are_free_or_not_or_undecided() -> None:
-    scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), [cfree.Curved.circle((4, 0), 1), [(0, 3), (1, 3), (1, 4)]])
+def test_poses_among_ellipses_are_free_or_not_or_undecided() -> None:
+    """Arcs are decided exactly: tests/collision/test_arcs.py."""
+    disc = cfree.Curved([(1, 0), Arc((1, 0), center=(0, 0), conjugate=(0, 1))])
+    far = cfree.Curved.ellipse((9, 9), (1, 2))  # makes the scene one of polygons
+    scene = cfree.Scene(disc, [cfree.Curved.circle((4, 0), 1), [(0, 3), (1, 3), (1, 4)], far])
     rows = np.array([[0, 0, 0], [2, 0, 0], [3, 0, 0], [2.001, 0, 2], [1.999, 0, 0], [1.99, 0, 1]])
     assert cfree.is_free(scene, rows, tolerance=0.1).tolist() == [True, None, False, None, True, True]
     assert cfree.is_free(scene, rows, tolerance=1e-7).tolist() == [True, None, False, False, True, True]

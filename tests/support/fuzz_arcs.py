@@ -1,8 +1,8 @@
 """Poses and motions among shapes of segments and arcs, against oracles that share no code with the core.
 
-Fine polygons with a known error decide most poses; a far obstacle of 2**80 leaves doubles without digits, so that the same
-poses are decided by exact numbers alone; contacts made on purpose have a known answer. Motions are compared with their
-poses, in steps, and with each other: backwards, in two parts, and seen from the obstacle.
+Fine polygons with a known error decide most poses. A far obstacle at 2**80 leaves doubles without digits, so that exact
+numbers alone decide the same poses. Motions are compared with their poses, in steps and around the first contact, and
+with the same motions backwards.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ import shapely
 from shapely import affinity
 
 import cfree
+from cfree import Curved
 from cfree.collision.arcs import arcs_of
 from cfree.collision.motion import Motion, Rotation, Translation
-from cfree import Curved
 from cfree.curves import Arc
 from cfree.exact.pose import Pose
 
@@ -157,7 +157,9 @@ def rational_pose(r: random.Random, size: int = 6) -> Pose:
 def motion_of(r: random.Random) -> Motion:
     if r.random() < 0.5:
         return Translation(point(r, 6))
-    return Rotation(point(r, 6), {"tau": r.choice([1, -1, Fraction(1, 2), "inf", Fraction(r.randint(-40, 40) or 1, 20)])})
+    return Rotation(
+        point(r, 6), {"tau": r.choice([1, -1, Fraction(1, 2), "inf", Fraction(r.randint(-40, 40) or 1, 20)])}
+    )
 
 
 def scene_of(r: random.Random) -> cfree.Scene:
@@ -205,7 +207,7 @@ def _check_motion(seed: int, scene: cfree.Scene, pose: Pose, motion: Motion, cou
     limit = Fraction(1) if contact is None else contact[0]
     for u in shares:
         if u <= limit:
-            assert arcs.is_free(motion.at(pose, u)) or contact is not None and limit == 0, (place, u, contact)
+            assert arcs.is_free(motion.at(pose, u)) or (contact is not None and limit == 0), (place, u, contact)
     if contact is not None and (contact[0] > 0 or arcs.is_free(pose)):
         low, high = contact[:2]
         assert high - low <= Fraction(1, 2**60), place

@@ -135,7 +135,7 @@ double gap_between(const NearCurve& a, const NearCurve& b) {
                           : b.turn == 0 ? line_meets(b, a, gap)
                                         : arcs_meet(a, b, gap);
     if (found == Meeting::certain) return -1;
-    if (found == Meeting::maybe) return 0;
+    if (found == Meeting::maybe && meet(box_of(a), box_of(b), 0)) return 0;  // segments on one line may be far apart
     for (const auto* p : {&a.start, &a.end}) gap = std::min(gap, distance_of_point(*p, b));
     for (const auto* p : {&b.start, &b.end}) gap = std::min(gap, distance_of_point(*p, a));
     return gap > margin ? gap : 0;
@@ -157,6 +157,7 @@ NearShape::NearShape(const ArcShape& shape, int shift) : ring(shape.ring), is_ou
         curves.push_back(c);
     }
     set_boxes();
+    if (!is_outside && !curves.empty()) find_disc(shape);
 }
 
 void NearShape::set_boxes() {
@@ -165,14 +166,17 @@ void NearShape::set_boxes() {
     for (std::size_t k = 0; k < curves.size(); ++k) around.add(boxes[k] = box_of(curves[k]));
 }
 
-// The ray to the right, past chords; a point on the outer side of a chord and in the disc is around it. Each sign is taken
-// once, so that a point near a chord counts alike in both.
+// The ray to the right, past chords; a point on the outer side of a chord and in the disc is around it. Each side is taken once,
+// so that a point near a chord counts alike in both. A point on a level chord is above it, as the ray's rule has it; beside a
+// chord that is not level, rounding keeps the order of the two products, but may make them equal.
 bool NearShape::has(const Vec<double>& p) const {
     int turns = 0;
     for (const NearCurve& c : curves) {
         const bool is_up = c.start.y <= p.y && p.y < c.end.y, is_down = c.end.y <= p.y && p.y < c.start.y;
         if (c.turn == 0 && !is_up && !is_down) continue;
-        const bool is_left = cross(c.end - c.start, p - c.start) > 0;
+        const Vec<double> e = c.end - c.start;
+        const double side = cross(e, p - c.start);
+        const bool is_left = side != 0 || is_up || is_down ? side > 0 : (p.y < c.start.y) == (e.x < 0);
         if (is_up && is_left) ++turns;
         if (is_down && !is_left) --turns;
         if (c.turn != 0 && is_left == (c.turn < 0)) {
@@ -183,7 +187,76 @@ bool NearShape::has(const Vec<double>& p) const {
     return turns + (is_outside ? 1 : 0) != 0;
 }
 
+double NearShape::distance(const Vec<double>& p) const {
+    double least = infinity;
+    for (const NearCurve& c : curves) least = std::min(least, distance_of_point(p, c));
+    return least > margin && has(p) ? 0 : least;
+}
+
+// All of a circle; else the best of some places in the box, and then of places nearer and nearer around it.
+void NearShape::find_disc(const ArcShape& shape) {
+    double turn = 0;
+    const auto& first = shape.curves.front();
+    for (const RoundEdge& c : shape.curves) {
+        if (c.turn != 1 || c.center.x != first.center.x || c.center.y != first.center.y) break;
+        const auto& k = curves[static_cast<std::size_t>(&c - &first)];
+        turn += arc_tangent(cross(k.start - k.center, k.end - k.center), dot(k.start - k.center, k.end - k.center));
+        if (turn > 6.28) {
+            disc = {k.center, k.radius + radius, shape.rings() == 1};
+            if (disc.is_all) return;
+        }
+    }
+    disc = {};
+    const double size = std::max(around.x1 - around.x0, around.y1 - around.y0);
+    constexpr int places = 6, rounds = 4;
+    Vec<double> middle{0.5 * (around.x0 + around.x1), 0.5 * (around.y0 + around.y1)};
+    double step = size / places;
+    for (int round = 0; round < rounds; ++round, step *= 0.5) {
+        const Vec<double> about = middle;
+        for (int i = -places / 2; i <= places / 2; ++i)
+            for (int j = -places / 2; j <= places / 2; ++j) {
+                const Vec<double> p{about.x + i * step, about.y + j * step};
+                double least = infinity;
+                for (const NearCurve& c : curves) {
+                    least = std::min(least, distance_of_point(p, c));
+                    if (least <= disc.radius) break;
+                }
+                if (least > disc.radius && least > 2 * margin && has(p)) disc = {p, least, false}, middle = p;
+            }
+    }
+    disc.radius = disc.radius > 0 ? disc.radius - margin + radius : 0;
+}
+
+// A point that is in the disc and in the other shape, or no such point.
+Verdict by_disc(const InnerDisc& disc, const NearShape& other, double slack) {
+    if (!(disc.radius > 0)) return Verdict::uncertain;
+    const double total = disc.radius + other.radius, most = total + slack + 2 * margin;
+    const Vec<double>& p = disc.center;
+    if (other.disc.radius > 0) {
+        const Vec<double> d = p - other.disc.center;
+        const double enough = disc.radius + other.disc.radius - slack - 2 * margin;
+        if (enough > 0 && dot(d, d) < enough * enough) return Verdict::forbidden;
+    }
+    if (disc.is_all && !other.is_outside) {
+        const Box& box = other.around;
+        const double x = std::max({box.x0 - p.x, p.x - box.x1, 0.0}), y = std::max({box.y0 - p.y, p.y - box.y1, 0.0});
+        if (x * x + y * y > most * most) return Verdict::free;
+    }
+    const double apart = other.distance(p);
+    if (apart < total - slack - 2 * margin) return Verdict::forbidden;
+    return disc.is_all && apart > most ? Verdict::free : Verdict::uncertain;
+}
+
 Verdict verdict_on(const NearShape& a, const NearShape& b, double within, double slack, CurvePairs* near) {
+    for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+        const Verdict v = by_disc(own->disc, *other, slack);
+        if (v == Verdict::free || (v == Verdict::forbidden && !near)) return v;
+        if (own->disc.is_all && !near) return v;
+    }
+    return verdict_by_curves(a, b, within, slack, near);
+}
+
+Verdict verdict_by_curves(const NearShape& a, const NearShape& b, double within, double slack, CurvePairs* near) {
     bool is_open = false, is_forbidden = false;
     const double most = within + slack + margin, least = within - slack - margin;
     for (std::size_t i = 0; i < a.curves.size(); ++i) {
@@ -194,7 +267,7 @@ Verdict verdict_on(const NearShape& a, const NearShape& b, double within, double
             if (gap > most) continue;
             is_open = true;
             if (slack == 0 && gap < 0) is_forbidden = true;
-            if (within > 0 && gap < least && (slack == 0 || gap > 0)) is_forbidden = true;
+            if (gap != 0 && std::max(gap, 0.0) < least) is_forbidden = true;
             if (near) near->emplace_back(static_cast<Index>(i), static_cast<Index>(j));
             else if (is_forbidden) return Verdict::forbidden;
         }
@@ -251,6 +324,7 @@ void NearScene::place(std::size_t part, double x, double y, double c, double s, 
     const NearShape& still = robot[part];
     if (placed.ring.empty()) placed = still;
     const auto move = [&](const Vec<double>& p) { return Vec<double>{x + (c * p.x - s * p.y), y + (s * p.x + c * p.y)}; };
+    placed.disc.center = move(still.disc.center);
     placed.around = {};
     for (std::size_t k = 0; k < still.curves.size(); ++k) {
         const NearCurve& from = still.curves[k];

@@ -21,18 +21,31 @@ struct NearCurve {
     int turn;
 };
 
+// A disc inside of a shape, or all of it.
+struct InnerDisc {
+    Vec<double> center{0, 0};
+    double radius = 0;  // 0: there is none
+    bool is_all = false;
+};
+
 struct NearShape {
     std::vector<NearCurve> curves;
     std::vector<Box> boxes;
     std::vector<Index> ring;
     bool is_outside = false;
     double radius = 0;
+    InnerDisc disc;  // radius included
     Box around;  // of its rings
     NearShape() = default;
     NearShape(const ArcShape& shape, int shift);
     void set_boxes();
     // True if a point inside, farther than the margin from all curves, is in the shape.
     bool has(const Vec<double>& p) const;
+    // Distance of a point from the rings, or 0 inside; within the margin.
+    double distance(const Vec<double>& p) const;
+
+private:
+    void find_disc(const ArcShape& shape);
 };
 
 // Distance of two curves, within the margin; 0 if it may be less than that, -1 if the two certainly cross.
@@ -43,6 +56,9 @@ double gap_between(const NearCurve& a, const NearCurve& b);
 // is never `forbidden` before all are found.
 using CurvePairs = std::vector<std::pair<Index, Index>>;
 Verdict verdict_on(const NearShape& a, const NearShape& b, double within, double slack, CurvePairs* near = nullptr);
+// What is certain of it by a disc in one of the two, or by all curves.
+Verdict by_disc(const InnerDisc& disc, const NearShape& other, double slack);
+Verdict verdict_by_curves(const NearShape& a, const NearShape& b, double within, double slack, CurvePairs* near = nullptr);
 // Least distance of two shapes that are apart, within the margin, or at most `most`; 0 if they may touch or overlap.
 double distance_of(const NearShape& a, const NearShape& b, double most);
 

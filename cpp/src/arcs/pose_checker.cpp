@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t chunk = 256;
 constexpr double far = 1;  // beyond it nothing is near, as all coordinates of shapes are below a sixteenth
 
+std::atomic<std::size_t> checkers = 0;
+
 double rounded(const Ratio& x) {
     const bool is_large = !x.n.is_zero() && msb(abs(x.n)) > msb(x.d) + 1000;
     return is_large ? std::copysign(0x1p1000, x.n.sign()) : nearest(x.n, x.d);
@@ -25,11 +27,21 @@ double rounded(const Ratio& x) {
 
 // Parts of the robot in a pose, and the pairs of parts and obstacles that doubles leave open there.
 struct ArcPoseChecker::Placed {
+    std::size_t checker = 0;  // its number
     std::vector<NearShape> part;
     std::vector<std::pair<std::size_t, std::size_t>> open;
 };
 
-ArcPoseChecker::ArcPoseChecker(std::shared_ptr<const ArcScene> s) : scene(std::move(s)), near(std::make_unique<NearScene>(scene)) {}
+ArcPoseChecker::ArcPoseChecker(std::shared_ptr<const ArcScene> s) : scene(std::move(s)), near(std::make_unique<NearScene>(scene)), number(++checkers),
+      limits{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL} {
+    if (!scene->bounds) return;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Ratio& bound = (*scene->bounds)[k];
+        limits[k] = rounded(bound);  // to the nearest double; from there to the next if it is outside
+        if (k < 2 ? ratio_of(limits[k]) < bound : ratio_of(limits[k]) > bound)
+            limits[k] = std::nextafter(limits[k], k < 2 ? HUGE_VAL : -HUGE_VAL);
+    }
+}
 ArcPoseChecker::~ArcPoseChecker() = default;
 
 Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, double s) const {
@@ -42,13 +54,27 @@ Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, do
     placed.part.resize(near->robot.size());
     Verdict all = Verdict::free;
     for (std::size_t i = 0; i < near->robot.size(); ++i) {
-        NearShape& part = placed.part[i];
-        near->place(i, x, y, c, s, part);
-        near->near(part.around, part.radius + margin, [&](Index number) {
+        const NearShape& still = near->robot[i];
+        const auto move = [&](const Vec<double>& p) { return Vec<double>{x + (c * p.x - s * p.y), y + (s * p.x + c * p.y)}; };
+        const Box& box = still.around;
+        const Vec<double> middle = move({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)});
+        const double half = 0.5 * norm(box.x1 - box.x0, box.y1 - box.y0) + still.radius + margin;
+        bool is_placed = false;
+        near->near({middle.x - half, middle.y - half, middle.x + half, middle.y + half}, margin, [&](Index number) {
             if (all == Verdict::forbidden) return;
             const auto j = static_cast<std::size_t>(number);
             const NearShape& obstacle = near->obstacles[j];
-            const Verdict v = verdict_on(part, obstacle, part.radius + obstacle.radius, 0);
+            const InnerDisc& disc = obstacle.disc;  // seen from the robot: then its curves need not be placed
+            const Vec<double> d{disc.center.x - x, disc.center.y - y};
+            Verdict v = by_disc({{c * d.x + s * d.y, c * d.y - s * d.x}, disc.radius, disc.is_all}, still, 0);
+            if (v == Verdict::uncertain && !disc.is_all) {
+                v = by_disc({move(still.disc.center), still.disc.radius, still.disc.is_all}, obstacle, 0);
+                if (v == Verdict::uncertain && !still.disc.is_all) {
+                    if (!is_placed) near->place(i, x, y, c, s, placed.part[i]);
+                    is_placed = true;
+                    v = verdict_by_curves(placed.part[i], obstacle, still.radius + obstacle.radius, 0);
+                }
+            }
             if (v == Verdict::free) return;
             if (v == Verdict::uncertain) placed.open.emplace_back(i, j);
             all = v;
@@ -78,13 +104,6 @@ bool ArcPoseChecker::decide(const Placed& placed, const ExactPlacement& at) cons
 }
 
 void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
-    std::array<double, 4> limits{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    if (scene->bounds)
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Ratio& bound = (*scene->bounds)[k];
-            limits[k] = rounded(bound);  // the nearest double: moved inwards if it is outside
-            if (k < 2 ? ratio_of(limits[k]) < bound : ratio_of(limits[k]) > bound) limits[k] = std::nextafter(limits[k], k < 2 ? HUGE_VAL : -HUGE_VAL);
-        }
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0;
     const auto chunks = static_cast<int>(std::min<std::size_t>((count + chunk - 1) / chunk, 1 << 20));
@@ -93,13 +112,18 @@ void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, 
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
             heed_stop();
             for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k) {
-                const double *q = poses + 3 * k, x = q[0], y = q[1];
-                const bool is_within = limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3];
+                const double* q = poses + 3 * k;
                 const auto [c, s] = cosine_sine(q[2]);
-                out[k] = is_within ? verdict(placed, x, y, c, s) : Verdict::forbidden;
+                out[k] = is_within(q[0], q[1]) ? verdict(placed, q[0], q[1], c, s) : Verdict::forbidden;
             }
         }
     });
+}
+
+ArcPoseChecker::Placed& ArcPoseChecker::own() const {
+    thread_local Placed placed;
+    if (placed.checker != number) placed = {number, {}, {}};
+    return placed;
 }
 
 bool ArcPoseChecker::is_free(const GivenPose& pose) const {
@@ -107,10 +131,10 @@ bool ArcPoseChecker::is_free(const GivenPose& pose) const {
         const auto& [x0, y0, x1, y1] = *scene->bounds;
         if (pose.x < x0 || x1 < pose.x || pose.y < y0 || y1 < pose.y) return false;
     }
-    Placed placed;
-    const ExactPlacement at = pose.exact();
-    const Verdict v = verdict(placed, rounded(pose.x), rounded(pose.y), ratio(at.c, at.w), ratio(at.s, at.w));
-    return v == Verdict::uncertain ? decide(placed, at) : v == Verdict::free;
+    Placed& placed = own();
+    const auto [c, s] = cosine_sine(pose.theta);
+    const Verdict v = verdict(placed, rounded(pose.x), rounded(pose.y), c, s);
+    return v == Verdict::uncertain ? decide(placed, pose.exact()) : v == Verdict::free;
 }
 
 std::optional<bool> ArcPoseChecker::is_free(double x, double y, double theta) const {

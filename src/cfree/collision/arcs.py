@@ -39,15 +39,17 @@ class ArcScene:
 
     Attributes
     ----------
+    core : ArcScene
+        The core's form of it.
     poses, motions
         The core's checkers.
     """
 
     def __init__(self, scene: Scene, shapes: Sequence[_core.ArcShape]) -> None:
         count = len(scene.robot)
-        core = _core.ArcScene(shapes[:count], shapes[count:], scene.bounds)
+        self.core = _core.ArcScene(shapes[:count], shapes[count:], scene.bounds)
         self.obstacles = len(scene.obstacles)
-        self.poses, self.motions = _core.ArcPoseChecker(core), _core.ArcMotionChecker(core)
+        self.poses, self.motions = _core.ArcPoseChecker(self.core), _core.ArcMotionChecker(self.core)
 
     def is_free(self, pose: Pose) -> bool:
         """True if a pose is free, decided exactly. Touching is free."""

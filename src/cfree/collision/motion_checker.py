@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
 import cfree._core as _core
 from cfree.arguments import checked
+from cfree.collision.arcs import arcs_of
 from cfree.collision.motion import Motion, Rotation, Translation, joining
 from cfree.collision.slide import Slide
 from cfree.contact.contact import EdgeVertex, VertexEdge
@@ -44,13 +45,18 @@ class FirstContact:
         The obstacle; -1 stands for the bounds, -2 for the workspace.
     contact : VertexEdge or EdgeVertex, optional
         The contact that is entered, in the numbering of the two polygons, the workspace's for -2. None if the first
-        pose is forbidden, for bounds, and if a diagonal of the convex pieces is the last to separate them.
+        pose is forbidden, for bounds, for round shapes, and if a diagonal of the convex pieces is the last to separate
+        them.
+    width : Fraction
+        The motion is forbidden right after a parameter that is at most this above `at`: 0 between polygons, at most
+        2**-60 between round shapes.
     """
 
     at: Surd
     robot: int
     obstacle: int
     contact: VertexEdge | EdgeVertex | None
+    width: Fraction = field(default=Fraction(0), repr=False)
 
 
 @checked
@@ -224,6 +230,8 @@ def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
 
 @checked
 def _is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
+    if scene.curved and (arcs := arcs_of(scene)) is not None:
+        return arcs.is_motion_free(to_pose(pose, "pose"), motion)
     return MotionChecker(scene)._decided(to_pose(pose, "pose"), motion)
 
 
@@ -250,6 +258,12 @@ def first_contact(scene: Scene, pose: PoseLike, motion: Motion) -> FirstContact 
     >>> print(found.at, found.contact)
     1/3 VertexEdge(i=2, j=0)
     """
+    if scene.curved and (arcs := arcs_of(scene)) is not None:
+        contact = arcs.first_contact(to_pose(pose, "pose"), motion)
+        if contact is None:
+            return None
+        low, high, part, obstacle = contact
+        return FirstContact(Surd(low), part, obstacle, None, high - low)
     return MotionChecker(scene)._first_contact(to_pose(pose, "pose"), motion)
 
 

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
+from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.pose import PLAIN, Floats, OnePose, Pose, PoseLike, Poses, for_core, one_pose, to_pose
 from cfree.scene.features import SceneFeatures, scene_features
@@ -63,13 +64,13 @@ def is_free(
     threads : int, optional
         All cores by default. The result does not depend on it.
     tolerance : float, optional
-        As in `plan`; for scenes with round shapes only.
+        As in `plan`; for scenes with round shapes only. Segments and circular arcs are decided without it.
 
     Returns
     -------
     bool, or (n,) bool
-        One for each pose. In a scene with round shapes (n,) object: None where polygons within the tolerance do not
-        decide, because the shapes touch or nearly touch.
+        One for each pose. In a scene with ellipses, Bézier curves or splines (n,) object: None where polygons within
+        the tolerance do not decide, because the shapes touch or nearly touch.
 
     Raises
     ------
@@ -79,12 +80,14 @@ def is_free(
     Notes
     -----
     A pose is free if no interior of a convex piece of the robot meets one of the obstacles' pieces (or the
-    complement of the workspace), and the reference point is in the bounds. A scene is prepared once, in time about
+    complement of the workspace), and the reference point is in the bounds. Shapes of segments and circular arcs are
+    not approximated: their boundaries are cut where they meet, exactly. A scene is prepared once, in time about
     linear in the vertices, and caches the result. A pose takes time in the number of pieces near by: a single one, in
     doubles or as a `Pose`, about a microsecond. A pose in contact or nearly so takes a few more.
 
     Examples
     --------
+    >>> from cfree.curves.curved import Curved
     >>> from cfree.scene.scene import Scene
     >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     >>> scene = Scene(robot=square, obstacles=square, bounds=(-2, -2, 2, 2))
@@ -92,6 +95,9 @@ def is_free(
     (True, False, False)
     >>> is_free(scene, [[1, 0, 0], [1, 1, math.pi / 2], [1, 1, math.pi]])
     array([ True,  True, False])
+    >>> disc = Scene(Curved.circle((0, 0), 1), [Curved.circle((3, 0), 2)])
+    >>> is_free(disc, Pose(0, 0)), is_free(disc, Pose("1e-30", 0))
+    (True, False)
     """
     if tolerance is None and type(poses) in PLAIN and _is_count(threads):
         if type(scene) is PoseChecker:
@@ -100,6 +106,8 @@ def is_free(
             free = _of_one(kept(scene, _prepared)[0], poses)
             if free is not None:
                 return free
+        elif isinstance(scene, Scene) and type(poses) is Pose and (arcs := arcs_of(scene)) is not None:
+            return arcs.is_free(poses)
     return _is_free(scene, poses, threads=threads, tolerance=tolerance)
 
 
@@ -112,6 +120,11 @@ def _is_free(
     tolerance: float | None,
 ) -> bool | NDArray[np.bool_]:
     if isinstance(scene, Scene) and scene.curved:
+        if tolerance is not None and not 0 < tolerance < math.inf:
+            raise ValueError(f"tolerance {tolerance}: give a length above 0")
+        arcs = arcs_of(scene)
+        if arcs is not None:
+            return _among_arcs(arcs, poses, threads)
         free: NDArray[np.bool_] = _among_curves(scene, poses, threads, tolerance)
         return free
     if tolerance is not None:
@@ -129,6 +142,17 @@ def _of_one(core: _core.PoseChecker, poses: Any) -> bool | NDArray[np.bool_] | N
     """Return the verdict for one `Pose`, for one in doubles, or for a table of one row; None for anything else."""
     free: Any = core.is_free(for_core(poses))
     return np.array(free) if type(free) is list else free
+
+
+def _among_arcs(arcs: ArcScene, poses: Any, threads: int | None) -> bool | NDArray[np.bool_]:
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: {threads}; give at least 1")
+    if (pose := one_pose(poses, "poses")) is not None:
+        return arcs.is_free(pose)
+    table = rows_of(poses)
+    if isinstance(table, list):
+        return np.array([arcs.is_free(pose) for pose in table], bool)
+    return arcs.are_free(table, threads)
 
 
 def _among_curves(scene: Scene, poses: Any, threads: int | None, tolerance: float | None) -> Any:

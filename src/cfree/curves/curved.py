@@ -14,6 +14,7 @@ from functools import lru_cache
 from typing import Any
 
 from cfree.arguments import checked
+from cfree.curves.healing import healed_ring
 from cfree.curves.hulls import FINEST, Outline, polygon_of
 from cfree.curves.pieces import Box, Frame, box_of, drawn_of, hull_points, is_proved
 from cfree.curves.rings import Circle, Ellipse, GivenRing, Piece, Point, Span, exact_ring, given_ring
@@ -180,6 +181,39 @@ class Curved(Shown):
         (8, True)
         """
         return self._polygons(error, inside=True)
+
+    @checked
+    def healed(self, tolerance: float = 1e-9) -> Curved:
+        """Return the shape with arcs exactly tangent to lines where they are nearly so, as rounded decimals leave them.
+
+        Parameters
+        ----------
+        tolerance : float
+            Angle to the tangents, in radians, and the part of a radius by which it may change. Ends of lines move by
+            little more than this part of the size. A ring where more is needed stays as it is.
+
+        Notes
+        -----
+        Lines at such arcs get directions that are rational unit vectors; axis-parallel ones stay as they are. Radii
+        become the simplest numbers within the tolerance.
+
+        Examples
+        --------
+        >>> from cfree.curves import Arc
+        >>> bend = Arc(("3.70710678", "0.29289322"), through=("3.38268343", "0.07612047"))
+        >>> arc = Curved([(0, 0), (3, 0), bend, (5, "1.58578644"), (0, 6)]).healed(1e-6).path[2]
+        >>> arc.center[1], arc.to != bend.to
+        (Fraction(1, 1), True)
+        """
+        if not 0 < tolerance < 0.01:
+            raise ValueError(f"tolerance {tolerance}: give an angle above 0 and below 0.01")
+        if self.grown:
+            return self
+        rings = [
+            healed_ring(pieces, tolerance, self.size) or ring
+            for pieces, ring in zip(self.curves, (self.path, *self.holes), strict=True)
+        ]
+        return Curved(rings[0], rings[1:])
 
     def _polygons(self, error: float, *, inside: bool) -> tuple[Polygon, ...]:
         if not self.least_error <= error < math.inf:

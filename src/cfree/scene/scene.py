@@ -88,8 +88,8 @@ class Scene(Shown, Keeping):
 
     Notes
     -----
-    `plan`, `is_free`, `verify.answer` and pictures accept round shapes. Everything else accepts polygons only: use
-    the scenes of `outer` or `inner`.
+    `plan`, `is_free`, `verify.answer` and pictures accept round shapes; `is_free_motion` and `first_contact` those of
+    segments and circular arcs. Everything else accepts polygons only: use the scenes of `outer` or `inner`.
 
     Examples
     --------

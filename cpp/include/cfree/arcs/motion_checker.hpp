@@ -20,7 +20,8 @@ struct ArcCollision {
 
 class ArcMotionChecker {
 public:
-    explicit ArcMotionChecker(std::shared_ptr<const ArcScene> scene);
+    // Motions are in integers of which `scale` are a unit.
+    explicit ArcMotionChecker(std::shared_ptr<const ArcScene> scene, Int scale = 1);
     ~ArcMotionChecker();
     ArcMotionChecker(const ArcMotionChecker&) = delete;
     ArcMotionChecker& operator=(const ArcMotionChecker&) = delete;
@@ -30,6 +31,7 @@ public:
     DistanceBounds clearance(const Motion& motion, double width) const;
 
     const std::shared_ptr<const ArcScene> scene;
+    const Int scale;
 
 private:
     class Run;

@@ -35,9 +35,13 @@ public:
 
 private:
     struct Placed;
+    Placed& own() const;  // this thread's
+    bool is_within(double x, double y) const { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; }
     Verdict verdict(Placed& placed, double x, double y, double c, double s) const;
     bool decide(const Placed& placed, const ExactPlacement& at) const;
-    std::unique_ptr<const NearScene> near;
+    const std::unique_ptr<const NearScene> near;
+    const std::size_t number;
+    std::array<double, 4> limits;  // the bounds, rounded inwards
 };
 
 }  // namespace cfree

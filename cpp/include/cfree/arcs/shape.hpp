@@ -32,10 +32,9 @@ struct ArcShape {
 // Make a shape from closed rings in any direction, the outer one first.
 ArcShape arc_shape(std::vector<std::vector<RoundEdge>> rings, Int radius, Int scale, bool is_outside);
 
-// Shapes, each in integers of its own; motions among them are in integers of which `scale` are a unit.
+// Shapes, each in integers of its own.
 struct ArcScene {
     std::vector<ArcShape> robot, obstacles;
-    Int scale = 1;
     std::optional<std::array<Ratio, 4>> bounds;  // of the reference point, in units: x0, y0, x1, y1
 };
 
