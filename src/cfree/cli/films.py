@@ -71,15 +71,16 @@ def film_answer(
     from cfree.paths.path import Path as Motions
     from cfree.planning.goals import AllSeparated
     from cfree.planning.separation import Separated
+    from cfree.plot.looks import smooth
 
     check_frames(fps, size)
     data = read_source(source, straight=False)
     scene = data.scene if isinstance(data, Boundary) else data
     answer = answer_for(scene, file)
-    if scene.curved:  # the answer contains the polygons it was computed with
-        if answer.scene is None:
+    if scene.curved:  # a proof contains the polygons it was computed with
+        if answer.scene is None and not isinstance(answer, Motions):
             raise ValueError(f"{file}: no polygons for the round shapes of the scene; plan anew")
-        data = answer.scene
+        data = answer.scene or smooth(scene)
     if isinstance(answer, Motions):
         moving = None if seconds is None else round(seconds - sum(REST), 9)
         if moving is not None and moving <= 0:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from copy import copy
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from cfree.collision.arcs import arcs_of
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UnsupportedError
 from cfree.paths.path import Path
 from cfree.scene.dilation import grown_by_square
-from cfree.scene.scene import with_robot
+from cfree.scene.scene import grown_scene, with_robot
 
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene
@@ -27,6 +29,8 @@ def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:
     >>> [keeps_leeway(Path(Pose(0, 0), [Translation((9, 0))]), scene, Fraction(k, 4)) for k in (4, 5)]
     [True, False]
     """
+    if scene.curved:
+        return _keeps_among_arcs(path, scene, leeway)
     bounds = scene.bounds
     if bounds is not None:
         x0, y0, x1, y1 = bounds
@@ -38,3 +42,18 @@ def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:
     except UnsupportedError:  # coordinates out of range
         return False
     return path.is_free(MotionChecker(larger))
+
+
+def _keeps_among_arcs(path: Path, scene: Scene, leeway: Fraction) -> bool:
+    """Likewise for a robot larger by a disc."""
+    bounds = scene.bounds
+    if bounds is not None:
+        x0, y0, x1, y1 = bounds
+        bounds = x0 + leeway, y0 + leeway, x1 - leeway, y1 - leeway
+        if bounds[0] >= bounds[2] or bounds[1] >= bounds[3]:
+            return False
+    larger = grown_scene(scene, leeway) if leeway else copy(scene)
+    object.__setattr__(larger, "bounds", bounds)
+    arcs = arcs_of(larger)
+    motions = zip(path.poses, path.motions, strict=False)
+    return arcs is not None and all(arcs.is_motion_free(pose, motion) for pose, motion in motions)

@@ -11,7 +11,7 @@ EDGES = 4000  # one part of so many of the largest shape's size is invisible
 
 
 def of_polygons(answer: Path | Separated, scene: Scene) -> Scene:
-    """Return the scene of polygons that an answer is about.
+    """Return the scene of polygons that an answer is about; of a path among true shapes, polygons that look round.
 
     Raises
     ------
@@ -20,6 +20,8 @@ def of_polygons(answer: Path | Separated, scene: Scene) -> Scene:
     """
     if not scene.curved:
         return scene
+    if answer.scene is None and isinstance(answer, Path):
+        return smooth(scene)
     if answer.scene is None:
         raise UnsupportedError("the scene has round shapes, and the answer no polygons for them; give its own scene")
     return answer.scene

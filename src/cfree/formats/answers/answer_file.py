@@ -220,9 +220,10 @@ def text_of(
     from cfree.formats.answers.path_text import path_text
     from cfree.formats.answers.poses_text import csv_text, geojson_text, ros_text
 
-    scene = scene or path.scene
+    scene = scene or path.scene or path.curved
     if form == "json":
         stamp = _stamp(file, path, scene)
+        scene = path.scene or scene  # that of the polygons, if there are some
         return path_text(path, stamp, lambda leeway: scene is not None and keeps_leeway(path, scene, leeway))
     step = usual_step(path, scene) if step is None else step
     timed = in_time(path, file, limits, scene)
