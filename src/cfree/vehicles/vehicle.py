@@ -28,7 +28,8 @@ Radius = Number | tuple[Number, Number]
 class Car:
     """A car: it drives straight on, or in arcs of at least its turning radius.
 
-    The wheels may turn while it stands. Its radius is that of the track of the axle point.
+    The wheels may turn while it stands. Its radius is that of the track of the axle point. Lengths are in the scene's
+    unit.
 
     Parameters
     ----------
@@ -37,8 +38,10 @@ class Car:
     axle : pair of numbers
         The middle of the axle that does not steer, in the robot's frame, inside the robot or not.
     heading : angle
-        Forward in the robot's frame, with a rational tangent of its half, like {"tau": "1/2"}, 0 or "90deg".
+        Forward in the robot's frame, counter-clockwise from its x axis: a multiple of "90deg", or an angle with a
+        rational tangent of its half, like {"tau": "1/2"}.
     gears : "both" or "forward"
+        "forward" has no reverse gear.
     wheelbase : number, optional
         Distance of the axles, more than 0. It limits no motion: only the times of its stops depend on it, see `timed`.
 
@@ -54,7 +57,9 @@ class Car:
     Raises
     ------
     InvalidVehicleError
-        If a radius is not above 0, a number is not finite, or the heading has no rational form.
+        If a radius is not above 0, a number is not finite or beyond 1e150, or the heading has no rational form.
+    ValueError
+        If `gears` is another word.
 
     Notes
     -----
@@ -113,9 +118,13 @@ class Car:
         wheelbase : number
             Distance of the axles, more than 0.
         steering_angle : angle
-            More than 0 and less than 90 degrees.
+            More than 0 and less than 90 degrees: "35deg", or radians.
         axle, heading, gears
             As for `Car`.
+
+        Returns
+        -------
+        Car
 
         Raises
         ------
@@ -171,9 +180,9 @@ class DifferentialDrive:
     Parameters
     ----------
     axle : pair of numbers
-        The middle of the axle that does not steer, in the robot's frame, inside the robot or not.
+        The middle of the axle that does not steer, in the robot's frame and the scene's unit, inside the robot or not.
     heading : angle
-        Forward in the robot's frame, with a rational tangent of its half, like {"tau": "1/2"}, 0 or "90deg".
+        Forward in the robot's frame, as of a `Car`.
 
     Attributes
     ----------
@@ -184,7 +193,7 @@ class DifferentialDrive:
     Raises
     ------
     InvalidVehicleError
-        If a number is not finite, or the heading has no rational form.
+        If a number is not finite or beyond 1e150, or the heading has no rational form.
 
     Examples
     --------
