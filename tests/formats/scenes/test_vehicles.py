@@ -82,6 +82,7 @@ def test_numbers_and_angles_are_read_like_all_others(tmp_path: Path) -> None:
             "46 vehicle.heading",
             'expected radians, "90deg" or {"tau": "p/q"}',
         ),
+        ('{"type": "car", "turning_radius": 4, "wheelbase": 0}', "60 vehicle.wheelbase", "0; give a length above 0"),
         ('{"type": "car", "turning_radius": 4, "gears": "back"}', "56 vehicle.gears", '\'back\'; give "both" or "forw'),
     ],
 )
