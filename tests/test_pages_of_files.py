@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import doctest
 import re
 import runpy
 import shlex
@@ -9,6 +11,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+import yaml
 from click.testing import CliRunner
 
 import cfree
@@ -55,10 +58,23 @@ def test_commands_print_the_lines_that_are_shown(command: str, lines: list[str])
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("here")
+def test_the_forklift_is_led_from_the_map_to_poses() -> None:
+    page = ROOT / "docs" / "forklift.md"
+    for command, lines in commands(page):  # they follow each other, in one folder
+        test_commands_print_the_lines_that_are_shown(command, lines)
+    rows = list(csv.DictReader(Path("way.csv").read_text().splitlines()))
+    assert {"gear", "curvature", "axle_x", "axle_y", "t"} <= rows[0].keys() and len(rows) > 100
+    (first, *_, last) = yaml.safe_load(Path("way.yaml").read_text())["poses"]
+    assert first["pose"]["position"] == {"x": 8.475, "y": 4.6, "z": 0}
+    assert last["pose"]["position"] == pytest.approx({"x": 11.075, "y": 7.7, "z": 0})
+    result = doctest.testfile(str(page), module_relative=False)
+    assert result.attempted >= 12 and not result.failed
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("here")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_python_of_the_pages_runs(page: Path) -> None:
-    import doctest
-
     import numpy as np
 
     assert not doctest.testfile(str(page), module_relative=False).failed

@@ -1,4 +1,7 @@
-"""Make the pictures of docs/from-your-file.md: `python tools/file_images.py`; one file with several options each."""
+"""Make the pictures of docs/from-your-file.md and docs/forklift.md: `python tools/file_images.py`.
+
+The former show one file with several options each, the latter the truck's path.
+"""
 
 from io import BytesIO
 from pathlib import Path
@@ -90,7 +93,19 @@ def picture(file: str, panels: Panels) -> Image.Image:
     return whole.quantize(64, kmeans=2, dither=Image.Dither.NONE)
 
 
+def forklift() -> Image.Image:
+    """Return the picture of the truck's path among the racks."""
+    maps = ROOT / "examples" / "maps"
+    scene = cfree.load_shapes(maps / "racks.yaml", despeckle=2).scene(robot=cfree.load_shapes(maps / "forklift.yaml"))
+    start, goal = ("8.475", 4, "90deg"), ("11.075", "8.3", "-90deg")
+    path = cfree.plan(scene, start, goal, vehicle=cfree.DifferentialDrive(axle=("0.6", 0)), clearance="0.1")
+    data = BytesIO()
+    path.plot().savefig(data, dpi=90, bbox_inches="tight")
+    return Image.open(data).convert("RGB").quantize(128, kmeans=2, dither=Image.Dither.NONE)
+
+
 if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
     for name, (file, panels) in PICTURES.items():
         picture(file, panels).save(FOLDER / f"{name}.png", optimize=True)
+    forklift().save(FOLDER.parent / "forklift.png", optimize=True)

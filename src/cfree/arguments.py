@@ -10,6 +10,8 @@ import collections.abc
 import os
 import reprlib
 from collections.abc import Callable, Sequence
+from decimal import Decimal
+from fractions import Fraction
 from functools import cache, update_wrapper
 from numbers import Integral, Real
 from types import FunctionType, NoneType, UnionType
@@ -20,6 +22,7 @@ from numpy.typing import ArrayLike
 
 T = TypeVar("T", bound=Callable[..., Any])
 _ARRAY = frozenset(get_args(ArrayLike))
+_NUMBER = frozenset({int, float, Fraction, Decimal, str})  # a text is a number as well
 _NAMES: dict[Any, str] = {
     NoneType: "None", float: "a number", int: "an int", str: "a str", bool: "True or False", np.ndarray: "an array",
     os.PathLike: "a path", collections.abc.Callable: "a function", collections.abc.Mapping: "a dict",
@@ -108,6 +111,8 @@ class _Check:
         parts = (hint, *get_args(hint))
         self.words = [word for part in parts if get_origin(part) is Literal for word in get_args(part)]
         self.kinds = tuple({type(word) for word in self.words if type(word) not in parts})
+        union = get_origin(hint) in (Union, UnionType)
+        self.expected = _either([part for part in parts[1:] if part is not NoneType]) if union else expected(hint)
         self.plain = [_test_of(part) for part in parts if _is_plain(part)]
         self.known: set[type] = set()
 
@@ -115,8 +120,8 @@ class _Check:
         if not self.test(value):
             kind = "None" if value is None else f"{reprlib.repr(value)} is {_article(type(value).__name__)}"
             raise TypeError(f"{name}: {kind}; give {expected(self.hint)}")
-        if isinstance(value, self.kinds):
-            one_of(name, value, self.words)
+        if isinstance(value, self.kinds) and value not in self.words:
+            raise ValueError(f"{name}: {reprlib.repr(value)}; give {self.expected}")
         if any(test(value) for test in self.plain):
             self.known.add(type(value))
 
@@ -200,12 +205,12 @@ def expected(hint: Any) -> str:
     --------
     >>> expected(tuple[float, float] | None), expected(list[str] | ArrayLike)
     ('(a number, a number) or None', 'numbers or a sequence of a str')
+    >>> expected(int | float | Fraction | Decimal | str | dict)
+    'a number or a dict'
     """
     origin, parts = get_origin(hint), get_args(hint)
     if origin is Union or origin is UnionType:
-        numbers = ["numbers"] if set(parts) >= _ARRAY else []
-        others = [expected(part) for part in parts if not (numbers and part in _ARRAY)]
-        return " or ".join(dict.fromkeys([*numbers, *others]))
+        return _either(parts)
     if origin is Literal:
         return _listed(parts)
     if origin is tuple:
@@ -214,6 +219,16 @@ def expected(hint: Any) -> str:
         return f"a sequence of {'these' if parts[0] is Any else expected(parts[0])}"
     kind = origin or hint
     return _NAMES.get(kind) or _article(getattr(kind, "__name__", str(kind)))
+
+
+def _either(parts: Sequence[Any]) -> str:
+    """Describe the members of a union in words."""
+    words = list[str]()
+    for kinds, name in ((_ARRAY, "numbers"), (_NUMBER, "a number")):
+        if kinds <= set(parts):
+            words.append(name)
+            parts = [part for part in parts if part not in kinds]
+    return " or ".join(dict.fromkeys([*words, *map(expected, parts)]))
 
 
 def _article(name: str) -> str:

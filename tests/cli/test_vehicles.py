@@ -149,6 +149,31 @@ def test_limits_that_do_not_fit_end_with_2_and_one_line(options: str, said: str,
     assert result.stderr.startswith(f"error: {said}") and result.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize("vehicle", ["car --turning-radius 1 --axle 1e9,0", "differential --axle 0,1e9"])
+def test_an_axle_far_away_ends_with_3_and_is_named(vehicle: str, tmp_path: Path) -> None:
+    result = run(tmp_path, *f"--vehicle {vehicle} --improve 0".split())
+    assert (result.exit_code, result.stdout) == (3, "")
+    assert result.stderr.endswith("manoeuvres: its axle point is 1e+09 away from the robot, correct it\n")
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"robot": [{"outer": [[0, 0], [1, 0], [1, 1], [0, 1]]}, {"outer": [[-3, 0], [-2, 0], [-2, 1], [-3, 1]]}]},
+        {"bounds": [-2, -1, 4, 4]},
+        {"robot": {"circle": {"center": [0, 0], "radius": "1/2"}}, "start": [-2, 0, 0], "goal": [4, 0, 0]},
+    ],
+    ids=["several parts", "bounds that cut the axle line", "round shapes"],
+)
+@pytest.mark.slow
+def test_unusual_scenes_are_answered_and_the_answer_is_verified(changes: dict[str, Any], tmp_path: Path) -> None:
+    answer = tmp_path / "way.json"
+    result = run(tmp_path, *f"--vehicle car --turning-radius 1 --axle 0,-2 --improve 0 -o {answer}".split(), **changes)
+    assert result.exit_code == 0, result.output
+    verified = CliRunner().invoke(app, ["verify", str(tmp_path / "scene.json"), str(answer)])
+    assert verified.exit_code == 0 and " drivable " in verified.stdout, verified.output
+
+
 @pytest.mark.parametrize(
     ("options", "said"),
     [
@@ -157,11 +182,22 @@ def test_limits_that_do_not_fit_end_with_2_and_one_line(options: str, said: str,
         ("--axle 1,2 --gears forward", "--axle, --gears: of a vehicle; give --vehicle"),
         ("--vehicle forklift --turning-radius 4", "--turning-radius: not of --vehicle forklift; leave it out"),
         ("--vehicle any --axle 1,2", "--axle: not of --vehicle any; leave it out"),
-        ("--vehicle car --turning-radius 0", "turning_radius 0: give a length above 0"),
-        ("--vehicle car --turning-radius nan", "turning_radius: NaN is not finite; give a finite number"),
-        ("--vehicle car --turning-radius 1,2,3", "--turning-radius: '1,2,3'; give two numbers such as 1.5,0"),
+        ("--vehicle car --turning-radius 0", "--turning-radius: 0; give a length above 0"),
+        ("--vehicle car --turning-radius -1", "--turning-radius: -1; give a length above 0"),
+        ("--vehicle car --turning-radius 1,0", "--turning-radius: 0 to the right; give a length above 0"),
+        ("--vehicle car --turning-radius nan", "--turning-radius: NaN is not finite; give a finite number"),
+        ("--vehicle car --turning-radius 4m", "--turning-radius: '4m' is no number; write it like '0.1'"),
+        ("--vehicle car --turning-radius 1e200", "--turning-radius: a length beyond 1e150; scale the scene"),
+        ("--vehicle car --turning-radius 1,2,3", "--turning-radius: '1,2,3'; give a length, or two, to the left"),
         ("--vehicle car --turning-radius 4 --axle 1", "--axle: '1'; give two numbers such as 1.5,0"),
-        ("--vehicle car --turning-radius 4 --heading 30deg", "heading 30deg: the tangent of its half is not rational"),
+        ("--vehicle differential --axle nan,0", "--axle: NaN is not finite; give a finite number"),
+        (
+            "--vehicle car --turning-radius 4 --heading 30deg",
+            "--heading: 30deg; the tangent of its half is not rational: give a multiple of 90deg, or tau:209/780, w",
+        ),
+        ("--vehicle differential --heading 90", "--heading: 90 is more than a whole turn in radians; write 90deg"),
+        ("--vehicle car --turning-radius 4 --gears back", '--gears: \'back\'; give "both" or "forward"'),
+        ("--vehicle bus", "--vehicle: 'bus'; give"),
         (
             "--vehicle car --turning-radius 4 --prefer cusp=-1",
             "--prefer: 'cusp=-1': cusp=-1.0: give a length of 0 or more",

@@ -274,10 +274,16 @@ def test_too_many_manoeuvres_among_round_shapes_are_told_at_once() -> None:
     assert cfree.verify.answer(scene, caught.value.path).verified
 
 
-@pytest.mark.parametrize("vehicle", [Car(1, axle=(10**9, 0)), DifferentialDrive(axle=(0, 10**9))])
-def test_an_axle_far_away_is_no_fault(vehicle: Any) -> None:
-    with pytest.raises(UndecidedError, match="exists"):
-        plan(WALL, vehicle=vehicle, improve=0)
+@pytest.mark.parametrize("exponent", [9, 17, 30, 150])
+def test_an_axle_far_away_is_no_fault_and_named(exponent: int) -> None:
+    for vehicle in (Car(1, axle=(10**exponent, 0)), DifferentialDrive(axle=(0, 10**exponent))):
+        with pytest.raises(UndecidedError, match=rf" exists, .*axle point is 1e\+{exponent:02} away from the robot"):
+            plan(WALL, vehicle=vehicle, improve=0)
+
+
+def test_an_axle_somewhat_away_is_driven_about() -> None:
+    for vehicle in (Car(1, axle=(9, -9)), DifferentialDrive(axle=(-20, 3))):
+        assert path_in(WALL, vehicle, improve=0).goal == WALL.goal
 
 
 def test_bounds_may_cut_the_axle_line() -> None:

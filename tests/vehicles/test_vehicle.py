@@ -1,10 +1,11 @@
 import math
 import pickle
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
-from cfree import Car, DifferentialDrive, InvalidVehicleError
+from cfree import Car, DifferentialDrive, InvalidVehicleError, Scene, plan
 
 
 def test_numbers_are_exact() -> None:
@@ -49,9 +50,47 @@ def test_headings_without_a_rational_form_are_refused(heading: object) -> None:
 
 
 def test_a_refused_heading_names_one_near_by() -> None:
-    with pytest.raises(InvalidVehicleError, match=r'\{"tau": "209/780"\}, which is 29.9999\d*deg') as caught:
+    with pytest.raises(InvalidVehicleError, match=r'^heading: 30deg; .*\{"tau": "209/780"\}, which is 29.9999\d*deg$'):
         Car(1, heading="30deg")
-    assert "heading 30deg" in str(caught.value)
+
+
+def test_a_heading_beyond_a_turn_was_meant_in_degrees() -> None:
+    with pytest.raises(InvalidVehicleError, match=r"^heading: 45rad; .*: give '45deg' if degrees are meant$"):
+        Car(1, heading=45)
+    with pytest.raises(InvalidVehicleError, match=r"^heading: 0.3rad; .*: give a multiple of 90deg, or \{"):
+        Car(1, heading=0.3)
+
+
+@pytest.mark.parametrize(
+    ("radius", "said"),
+    [
+        (0, "0; give a length above 0"),
+        ("-1/2", "-1/2; give a length above 0"),
+        ((3, 0), "0 to the right; give a length above 0"),
+        ((-2, 0), "-2 to the left; give a length above 0"),
+        (math.nan, "nan is not finite; give a finite number"),
+        ("x", "'x' is no number; write it like '0.1', '-2e3' or '1/3'"),
+        ("1e151", "a length beyond 1e150; scale the scene"),
+        ("1e-151", "a length below 1e-150; scale the scene"),
+        (10**4000, "a length beyond 1e150; scale the scene"),
+    ],
+)
+def test_the_error_of_a_radius_has_name_value_and_remedy(radius: Any, said: str) -> None:
+    with pytest.raises(InvalidVehicleError) as caught:
+        Car(radius)
+    assert str(caught.value) == f"turning_radius: {said}"
+
+
+def test_axles_beyond_all_lengths_are_refused() -> None:
+    for make in (lambda axle: Car(1, axle), DifferentialDrive):
+        with pytest.raises(InvalidVehicleError, match=r"^axle: a length beyond 1e150; scale the scene$"):
+            make(("-1e151", 0))
+        assert make((0, "1e150")).axle[1] == 10**150
+
+
+def test_a_word_for_a_vehicle_is_refused_with_all_that_it_may_be() -> None:
+    with pytest.raises(ValueError, match=r"^vehicle: 'car'; give a Car or a DifferentialDrive or \"any\"$"):
+        plan(Scene([(0, 0), (1, 0), (0, 1)]), (0, 0, 0), (1, 0, 0), vehicle="car")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("heading", [0, "0deg", "90deg", "-90deg", "450deg", math.pi, math.pi / 2, {"tau": "inf"}])

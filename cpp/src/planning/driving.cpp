@@ -36,7 +36,7 @@ Vehicle vehicle_of(const GivenVehicle& given, const Scene& scene) {
     v.hx = given.heading.q, v.hy = given.heading.p;
     const Ratio& radius = v.left < v.right ? v.right : v.left;
     const auto length = [&](const Ratio& r) { return std::ldexp(ratio(r.n, r.d), -scene.shift); };
-    v.radius = length(radius);
+    v.radius = length(radius), v.shift = scene.shift;
     v.axle = {length(x), length(y), std::remainder(given.heading.theta(), 2 * std::numbers::pi)};
     return v;
 }

@@ -44,8 +44,10 @@ Configuration Vehicle::robot_of(const Configuration& of) const {
     const Half h = half_of(of) * Half{hx, -hy};
     set_half(q, h);
     shift_by(q, h, ax, ay, unit, -1);
-    const Place place = robot_of(of.place());
-    q.px = place.x, q.py = place.y, q.theta = place.theta;
+    q.theta = wrapped(of.theta - axle.theta);
+    if (ax.is_zero() && ay.is_zero()) return q;
+    // not from the doubles of the axle: it may be far away
+    q.px = std::ldexp(ratio(q.x, q.unit), -shift), q.py = std::ldexp(ratio(q.y, q.unit), -shift);
     return q;
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
@@ -147,6 +148,7 @@ def read_vehicle(
     ValueError
         If an option does not belong to the vehicle, or is missing.
     """
+    from cfree.errors import InvalidVehicleError
     from cfree.vehicles.vehicle import Car, DifferentialDrive
 
     given = {"--turning-radius": radius, "--axle": axle, "--heading": heading, "--gears": gears}
@@ -157,23 +159,30 @@ def read_vehicle(
         raise ValueError(f"{', '.join(wrong)}: {'of a vehicle; give --vehicle' if kind is None else cars}")
     if kind is None or kind == "any":
         return "any" if kind else None
-    frame: dict[str, Any] = {}
-    if axle is not None:
-        frame["axle"] = _two(axle, "--axle")
-    if heading is not None:
-        frame["heading"] = read_angle(heading, "--heading")
-    if kind != "car":
-        return DifferentialDrive(**frame)
-    if radius is None:
+    if kind == "car" and radius is None:
         raise ValueError("--vehicle car: no turning radius; give --turning-radius")
-    both: Any = _two(radius, "--turning-radius") if "," in radius else radius
-    return Car(both, gears="forward" if gears == "forward" else "both", **frame)
+    members: dict[str, Any] = {}
+    if axle is not None:
+        members["axle"] = _two(axle, "--axle", "two numbers such as 1.5,0")
+    if heading is not None:
+        members["heading"] = read_angle(heading, "--heading")
+    if radius is not None:
+        form = "a length, or two, to the left and to the right, such as 4,4.5"
+        members["turning_radius"] = _two(radius, "--turning-radius", form) if "," in radius else radius
+    if gears is not None:
+        members["gears"] = gears
+    try:
+        return Car(**members) if kind == "car" else DifferentialDrive(**members)
+    except InvalidVehicleError as error:
+        name, _, rest = str(error).partition(": ")
+        rest = re.sub(r'\{"tau": "([^"]+)"\}', r"tau:\1", rest)
+        raise ValueError(f"--{name.replace('_', '-')}: {rest}") from None
 
 
-def _two(text: str, name: str) -> tuple[str, str]:
+def _two(text: str, name: str, form: str) -> tuple[str, str]:
     parts = text.split(",")
     if len(parts) != 2:
-        raise ValueError(f"{name}: {text!r}; give two numbers such as 1.5,0")
+        raise ValueError(f"{name}: {text!r}; give {form}")
     return parts[0], parts[1]
 
 

@@ -20,6 +20,7 @@ Number = int | float | Fraction | Decimal | str
 ExactPoint = tuple[Fraction, Fraction]
 IntPoint = tuple[int, int]
 
+LARGEST = 10**150  # of all lengths
 # longer numbers are refused: no coordinate needs them, and Python prints integers of at most 4300 digits
 MAX_DIGITS = 4000
 _QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")

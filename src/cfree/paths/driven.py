@@ -31,13 +31,14 @@ class Driven:
     gear : "forward", "backward" or "turning"
         "turning" is a turn in place.
     radius : Fraction or None
-        Distance of the pole from the axle point, exactly: positive to the left, 0 for a turn in place, None on a line.
+        Distance of the pole from the axle point, exactly, in the scene's unit: positive to the left, 0 for a turn in
+        place, None on a line.
     length : float
-        Travel of the axle point.
+        Travel of the axle point, in the scene's unit; 0 for a turn in place.
     angle : float, radians
         Counter-clockwise if positive.
     first, last : int
-        The motions of the path.
+        The motions of the path, counted from 0.
     """
 
     gear: Gear

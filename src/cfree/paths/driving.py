@@ -18,7 +18,7 @@ class Drivable:
     Parameters
     ----------
     motion : int or None
-        The first motion that it cannot do.
+        The first motion that it cannot do, counted from 0.
     why : str
         The reason; empty if it can drive the path.
     """
@@ -34,9 +34,12 @@ class Drivable:
 def is_drivable(path: Path, vehicle: Vehicle) -> Drivable:
     """Decide exactly if a vehicle can drive a path.
 
+    Collisions do not matter here: `Path.is_free` decides about them. Nor does the path's own vehicle.
+
     Parameters
     ----------
     path : Path
+        Of any origin, such as of a planner without vehicles.
     vehicle : Car or DifferentialDrive
 
     Returns

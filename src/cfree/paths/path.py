@@ -186,7 +186,7 @@ class Path(Shown, Answer):
     def driving(self) -> tuple[Driven, ...]:
         """Gear, radius, length and angle of its parts: motions on one arc or line in one gear are one part.
 
-        It is empty for a robot that moves in any direction.
+        It is empty for a robot that moves in any direction. Lengths are in the scene's unit, angles in radians.
 
         Raises
         ------
@@ -209,7 +209,13 @@ class Path(Shown, Answer):
 
     @property
     def cusps(self) -> int:
-        """Number of changes between forward and backward; `driving` lists the parts."""
+        """Number of changes between forward and backward; `driving` lists the parts.
+
+        Raises
+        ------
+        ValueError
+            If its vehicle cannot drive it.
+        """
         return cusps(self.driving)
 
     @property

@@ -52,7 +52,8 @@ class Preferences:
         Cost of turning on the spot. A radian costs as much as travelling the robot's radius; on an arc of at least that
         radius this factor does not count.
     cusp : float, at least 0, optional
-        Cost of a change between forward and backward, as a length; of vehicles only. The robot's length by default.
+        Cost of a change between forward and backward, as a length in the scene's unit; of vehicles only. By default the
+        robot's length.
     stop : float, at least 0, optional
         Cost of another stop, as a length: where the wheels of a car turn, and for a turn in place; of vehicles only. A
         quarter of a cusp's cost by default.

@@ -17,13 +17,12 @@ from cfree.collision.nearest_free import refuse_forbidden
 from cfree.collision.pose_checker import PoseChecker
 from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.angle_interval import AngleInterval, orientation_of
-from cfree.exact.number import ExactPoint
+from cfree.exact.number import LARGEST, ExactPoint
 from cfree.exact.pose import Pose, pose_at
 from cfree.paths.path import Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.separation import NO_TRUTH_VALUE, Separated
 from cfree.planning.stuck import Stuck
-from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.digest import Stamp
 from cfree.scene.goals import Goal, to_goals
 from cfree.scene.scene import Scene

@@ -22,9 +22,10 @@ from cfree.words import counted, listed
 class Stuck(Shown, Answer):
     """A proof that no motion of a vehicle leads away from its start, or to its goal.
 
-    It has no truth value, as `Separated` has none.
+    It has no truth value: ``if cfree.plan(scene):`` raises a `TypeError` where a vehicle is stuck.
+    ``isinstance(answer, cfree.Path)`` tells paths from proofs.
 
-    Parameters
+    Attributes
     ----------
     start, goal : Pose
     vehicle : Car or DifferentialDrive
@@ -38,6 +39,29 @@ class Stuck(Shown, Answer):
         itself is the first. None of them has a motion that leaves.
     obstacles : tuple of int
         The obstacles that it touches; -1 is the bounds, -2 the workspace.
+    units, frame : str
+        Unit of length, and name of the world's frame, for files.
+    scene : Scene, optional
+        The scene of the proof; None if it was read from a file.
+    stamp : Stamp, optional
+        The scene's stamp in the file.
+    curved : Scene, optional
+        The scene with round shapes, if it is a proof for these.
+    moved : Moved, optional
+        The requested start and goal, if they were moved to free poses.
+    whole : Whole, optional
+        The scene of which `scene` has only some obstacles, if a folder was asked.
+
+    Examples
+    --------
+    >>> from cfree import Car, Scene, plan
+    >>> ahead, behind = [(2, -3), (3, -3), (3, 3), (2, 3)], [(-3, -3), (-2, -3), (-2, 3), (-3, 3)]
+    >>> scene = Scene([(-2, -1), (2, -1), (2, 1), (-2, 1)], [ahead, behind])
+    >>> proof = plan(scene, (0, 0, 0), (0, 9, 0), vehicle=Car(4))
+    >>> proof, proof.pose == proof.start
+    (Stuck(at='start', of='paths', 1 pose touching (0, 1)), True)
+    >>> proof.sentence()
+    'no path of finite length lets a vehicle with this axle leave its start, whatever its turning radius'
     """
 
     start: Pose

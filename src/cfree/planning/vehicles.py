@@ -57,6 +57,7 @@ POSES, SEARCHES = 8000, 3  # of a search for a way without reverse gear
 FEW_CUSPS = 1  # a path with no more needs no other guide
 ROOMS = (4, 6, 8, 12, 16, 20, 24)  # binary exponents of a clearance that keeps a path off contacts, in robot radii
 PLACES = (Fraction(0), Fraction(1, 3), Fraction(1, 2), Fraction(2, 3))  # on a motion, at which contacts are looked for
+FAR = 100  # robot's lengths: an axle point farther away is probably a mistake
 MOST_PAIRS = 16  # pairs of ways out that are tried to be joined
 
 
@@ -462,9 +463,12 @@ def _too_many(question: Question, way: Sequence[Pose], reached: tuple[float, int
     needed = max(1, round(motions / share)) if share > 0 else 0
     about = f"about {needed:,}" if needed else "too many"
     proof = _path_of(question, way[0], [joining(a, b) for a, b in pairwise(way) if a != b])
+    away, remedy = question.onward.reach, "give the robot more room"
+    if away > FAR * question.dues.length:
+        remedy = f"its axle point is {away:.3g} away from the robot, correct it"
     return UndecidedError(
         f"a path of {vehicle} exists, as start and goal are in one cell of the free space; it needs {about} "
-        "manoeuvres: give the robot more room",
+        f"manoeuvres: {remedy}",
         path=proof,
         manoeuvres=needed,
     )

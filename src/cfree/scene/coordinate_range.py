@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
 Path = tuple[str | int, ...]  # as in a scene file
 
-LARGEST = 10**150
-
 
 def range_fault(
     robot: Sequence[Polygon],

@@ -11,12 +11,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, ClassVar, Literal, get_args
+from typing import Any, ClassVar, Literal
 
 from cfree.arguments import checked
 from cfree.errors import InvalidVehicleError
 from cfree.exact.half_angle import Angle, number_and_unit, read_angle
-from cfree.exact.number import ExactPoint, Number, simplest_between, to_fraction
+from cfree.exact.number import LARGEST, ExactPoint, Number, simplest_between, to_fraction
 from cfree.exact.pose import Pose
 
 Gears = Literal["both", "forward"]
@@ -28,7 +28,8 @@ Radius = Number | tuple[Number, Number]
 class Car:
     """A car: it drives straight on, or in arcs of at least its turning radius.
 
-    The wheels may turn while it stands. Its radius is that of the track of the axle point.
+    The wheels may turn while it stands. Its radius is that of the track of the axle point. Lengths are in the scene's
+    unit.
 
     Parameters
     ----------
@@ -37,8 +38,10 @@ class Car:
     axle : pair of numbers
         The middle of the axle that does not steer, in the robot's frame, inside the robot or not.
     heading : angle
-        Forward in the robot's frame, with a rational tangent of its half, like {"tau": "1/2"}, 0 or "90deg".
+        Forward in the robot's frame, counter-clockwise from its x axis: a multiple of "90deg", or an angle with a
+        rational tangent of its half, like {"tau": "1/2"}.
     gears : "both" or "forward"
+        "forward" has no reverse gear.
     wheelbase : number, optional
         Distance of the axles, more than 0. It limits no motion: only the times of its stops depend on it, see `timed`.
 
@@ -54,7 +57,9 @@ class Car:
     Raises
     ------
     InvalidVehicleError
-        If a radius is not above 0, a number is not finite, or the heading has no rational form.
+        If a radius is not above 0, a number is not finite or beyond 1e150, or the heading has no rational form.
+    ValueError
+        If `gears` is another word.
 
     Notes
     -----
@@ -70,7 +75,7 @@ class Car:
     >>> Car(0)
     Traceback (most recent call last):
         ...
-    cfree.errors.InvalidVehicleError: turning_radius 0: give a length above 0
+    cfree.errors.InvalidVehicleError: turning_radius: 0; give a length above 0
     """
 
     kind: ClassVar[Literal["car"]] = "car"
@@ -88,8 +93,6 @@ class Car:
         gears: Gears = "both",
         wheelbase: Number | None = None,
     ) -> None:
-        if gears not in get_args(Gears):
-            raise InvalidVehicleError(f"gears {gears!r}: give 'both' or 'forward'")
         values = {"radii": _radii(turning_radius), "axle": _axle(axle), "heading": _heading(heading), "gears": gears}
         values |= {"wheelbase": None if wheelbase is None else _wheelbase(wheelbase)}
         for name, value in values.items():
@@ -115,9 +118,13 @@ class Car:
         wheelbase : number
             Distance of the axles, more than 0.
         steering_angle : angle
-            More than 0 and less than 90 degrees.
+            More than 0 and less than 90 degrees: "35deg", or radians.
         axle, heading, gears
             As for `Car`.
+
+        Returns
+        -------
+        Car
 
         Raises
         ------
@@ -136,7 +143,7 @@ class Car:
         tau, _, error = _read("steering_angle", steering_angle)
         if tau is None or not 0 < tau < 1 or _is_beyond_a_turn(steering_angle):
             raise InvalidVehicleError(
-                f"steering_angle {steering_angle}: give an angle above 0 and below a right angle, such as '35deg'"
+                f"steering_angle: {steering_angle}; give an angle above 0 and below a right angle, such as '35deg'"
             )
         if not error:
             return cls(length * (1 - tau * tau) / (2 * tau), axle, heading, gears, length)
@@ -173,9 +180,9 @@ class DifferentialDrive:
     Parameters
     ----------
     axle : pair of numbers
-        The middle of the axle that does not steer, in the robot's frame, inside the robot or not.
+        The middle of the axle that does not steer, in the robot's frame and the scene's unit, inside the robot or not.
     heading : angle
-        Forward in the robot's frame, with a rational tangent of its half, like {"tau": "1/2"}, 0 or "90deg".
+        Forward in the robot's frame, as of a `Car`.
 
     Attributes
     ----------
@@ -186,7 +193,7 @@ class DifferentialDrive:
     Raises
     ------
     InvalidVehicleError
-        If a number is not finite, or the heading has no rational form.
+        If a number is not finite or beyond 1e150, or the heading has no rational form.
 
     Examples
     --------
@@ -240,24 +247,27 @@ def _length(value: Fraction) -> str:
 def _radii(value: Any) -> tuple[Fraction, Fraction]:
     sides = value if isinstance(value, tuple | list) else (value, value)
     if len(sides) != 2:
-        raise InvalidVehicleError(f"turning_radius {value}: give one length, or two, to the left and to the right")
+        raise InvalidVehicleError(f"turning_radius: {value}; give one length, or two, to the left and to the right")
     left, right = (_number("turning_radius", side) for side in sides)
     if min(left, right) <= 0:
-        raise InvalidVehicleError(f"turning_radius {value}: give a length above 0")
+        side = "" if left == right else " to the left" if left <= 0 else " to the right"
+        raise InvalidVehicleError(f"turning_radius: {sides[left > 0]}{side}; give a length above 0")
+    if min(left, right) < Fraction(1, LARGEST):
+        raise InvalidVehicleError("turning_radius: a length below 1e-150; scale the scene")
     return left, right
 
 
 def _axle(value: Any) -> ExactPoint:
     parts = () if isinstance(value, str | bytes) else tuple(value)
     if len(parts) != 2:
-        raise InvalidVehicleError(f"axle {value!r}: give two numbers, x and y in the robot's frame")
+        raise InvalidVehicleError(f"axle: {value!r}; give two numbers, x and y in the robot's frame")
     return _number("axle", parts[0]), _number("axle", parts[1])
 
 
 def _wheelbase(value: Number) -> Fraction:
     length = _number("wheelbase", value)
     if length <= 0:
-        raise InvalidVehicleError(f"wheelbase {value}: give a length above 0")
+        raise InvalidVehicleError(f"wheelbase: {value}; give a length above 0")
     return length
 
 
@@ -267,9 +277,12 @@ def _heading(value: Angle) -> Fraction | None:
         assert tau is not None, "the half turn is exact"
         near = tau.limit_denominator(1000)
         degrees = math.degrees(2 * math.atan(float(near)))
+        remedy = f'a multiple of 90deg, or {{"tau": "{near}"}}, which is {degrees:.9g}deg'
+        number, unit = number_and_unit(value)  # type: ignore[arg-type]
+        if not unit and abs(to_fraction(number)) > Fraction(math.tau):
+            remedy = f"'{value}deg' if degrees are meant"
         raise InvalidVehicleError(
-            f"heading {value}: the tangent of its half is not rational; "
-            f'give a multiple of 90deg, or {{"tau": "{near}"}}, which is {degrees:.9g}deg'
+            f"heading: {value}{'' if unit else 'rad'}; the tangent of its half is not rational: give {remedy}"
         )
     return tau
 
@@ -283,9 +296,12 @@ def _read(name: str, value: Angle) -> tuple[Fraction | None, float, float]:
 
 def _number(name: str, value: Number) -> Fraction:
     try:
-        return to_fraction(value)
+        exact = to_fraction(value)
     except ValueError as error:
         raise InvalidVehicleError(f"{name}: {error}") from None
+    if abs(exact) > LARGEST:
+        raise InvalidVehicleError(f"{name}: a length beyond 1e150; scale the scene")
+    return exact
 
 
 def _is_beyond_a_turn(value: Angle) -> bool:

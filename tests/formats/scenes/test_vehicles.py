@@ -51,23 +51,46 @@ def test_numbers_and_angles_are_read_like_all_others(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("vehicle", "said"),
+    ("vehicle", "place", "said"),
     [
-        ({"type": "tank"}, 'expected a vehicle {"type": "car" or "differential", ...}'),
-        ("car", "expected a vehicle"),
-        ({"type": "car"}, '"turning_radius" of the vehicle is missing'),
-        ({"type": "car", "turning_radius": 0}, "give a length above 0"),
-        ({"type": "car", "turning_radius": "x"}, 'expected a number or "p/q"'),
-        ({"type": "car", "turning_radius": [1, 2, 3]}, "turning_radius of the vehicle: expected two numbers"),
-        ({"type": "car", "turning_radius": 4, "axle": [1]}, "axle of the vehicle: expected two numbers"),
-        ({"type": "car", "turning_radius": 4, "axel": [1, 0]}, 'unknown key "axel" of a vehicle; did you mean "axle"?'),
-        ({"type": "differential", "turning_radius": 4}, 'unknown key "turning_radius" of a vehicle'),
-        ({"type": "car", "turning_radius": 4, "heading": "30deg"}, "the tangent of its half is not rational"),
-        ({"type": "car", "turning_radius": 4, "gears": "reverse"}, "gears"),
+        ('"car"', "10 vehicle", 'expected a vehicle {"type": "car" or "differential", ...}, got "car"'),
+        ("{}", "10 vehicle", 'key "type" is missing; add "car" or "differential"'),
+        ('{"type": "car"}', "10 vehicle", 'key "turning_radius" is missing; add it'),
+        ('{"type": "tank"}', "19 vehicle.type", 'expected "car" or "differential", got "tank"'),
+        ('{"type": "forklift"}', "19 vehicle.type", 'a forklift is a "differential" about its fixed axle'),
+        ('{"type": "car", "turning_radius": 0}', "44 vehicle.turning_radius", "0; give a length above 0"),
+        ('{"type": "car", "turning_radius": -0.5}', "44 vehicle.turning_radius", "-1/2; give a length above 0"),
+        ('{"type": "car", "turning_radius": [2, -1]}', "44 vehicle.turning_radius", "-1 to the right; give a length"),
+        ('{"type": "car", "turning_radius": NaN}', "44 vehicle.turning_radius", "NaN is not finite; give a finite"),
+        ('{"type": "car", "turning_radius": "inf"}', "44 vehicle.turning_radius", "Infinity is not finite; give a f"),
+        ('{"type": "car", "turning_radius": null}', "44 vehicle.turning_radius", 'a number or "p/q", got null'),
+        ('{"type": "car", "turning_radius": [1, 2, 3]}', "44 vehicle.turning_radius", "two as [left, right], got [1"),
+        ('{"type": "car", "turning_radius": [1, "x"]}', "48 vehicle.turning_radius[1]", 'a number or "p/q", got "x"'),
+        ('{"type": "car", "turning_radius": 1e200}', "44 vehicle.turning_radius", "a length beyond 1e150; scale"),
+        ('{"type": "differential", "axle": [1]}', "43 vehicle.axle", "expected [x, y], got [1]"),
+        ('{"type": "differential", "axle": [0, "a"]}', "47 vehicle.axle[1]", 'expected a number or "p/q", got "a"'),
+        ('{"type": "differential", "axle": [-1e200, 0]}', "43 vehicle.axle", "a length beyond 1e150; scale"),
+        ('{"type": "differential", "axel": [1, 0]}', "43 vehicle.axel", 'unknown key "axel"; did you mean "axle"?'),
+        (
+            '{"type": "differential", "gears": "both"}',
+            "44 vehicle.gears",
+            'unknown key "gears"; the keys here are type',
+        ),
+        ('{"type": "differential", "heading": "30deg"}', "46 vehicle.heading", "30deg; the tangent of its half is not"),
+        (
+            '{"type": "differential", "heading": "x"}',
+            "46 vehicle.heading",
+            'expected radians, "90deg" or {"tau": "p/q"}',
+        ),
+        ('{"type": "car", "turning_radius": 4, "wheelbase": 0}', "60 vehicle.wheelbase", "0; give a length above 0"),
+        ('{"type": "car", "turning_radius": 4, "gears": "back"}', "56 vehicle.gears", '\'back\'; give "both" or "forw'),
     ],
 )
-def test_faults_of_vehicles_have_their_place_and_remedy(vehicle: Any, said: str, tmp_path: Path) -> None:
+def test_faults_of_vehicles_have_their_place_and_remedy(vehicle: str, place: str, said: str, tmp_path: Path) -> None:
+    file = tmp_path / "scene.json"
+    file.write_text(f'{{"robot": [[0, 0], [1, 0], [0, 1]],\n"vehicle":{vehicle}}}')
     with pytest.raises(FormatError) as caught:
-        load_with(vehicle, tmp_path)
-    assert "vehicle" in str(caught.value) and said in str(caught.value)
-    assert str(caught.value).startswith(f"{tmp_path / 'scene.json'}:1:")
+        load(file)
+    (line,) = str(caught.value).splitlines()
+    column, path = place.split()
+    assert line.startswith(f"{file}:2:{int(column) + 1} {path}: ") and said in line

@@ -15,6 +15,7 @@ struct Vehicle {
     Int hx = 1, hy = 0;              // direction of half the angle of forward there
     double radius = 0;               // the larger radius, and the axle's place in the robot's frame, in the doubles of shapes
     Place axle{0, 0, 0};             // the last in radians
+    int shift = 0;                   // of the doubles of shapes
 
     Configuration axle_of(const Configuration& robot) const;
     Configuration robot_of(const Configuration& axle) const;

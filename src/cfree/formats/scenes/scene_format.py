@@ -155,7 +155,9 @@ class PolygonModel(Strict):
             try:
                 polygon = Polygon(model.outer, model.holes)
             except InvalidPolygonError as error:
-                raise Fault(explained(error), error.ring) from None
+                ring = error.ring
+                within: Path = () if ring is None else ("outer",) if ring == 0 else ("holes", ring - 1)
+                raise Fault(explained(error), within) from None
         model._polygon = polygon
         return model
 
@@ -295,9 +297,7 @@ def report(findings: Findings, path: Path, item: ErrorDetails, keys_at: Callable
         remedy = f'did you mean "{guess[0]}"?' if guess else f"the keys here are {', '.join(known)}"
         findings.under(path, f'unknown key "{shortened(key)}"; {remedy}', key=True)
     elif kind == "value_error":
-        ring = getattr(context["error"], "ring", None)
-        within: Path = () if ring is None else ("outer",) if ring == 0 else ("holes", ring - 1)
-        findings.under((*path, *within), str(context["error"]))
+        findings.under((*path, *getattr(context["error"], "within", ())), str(context["error"]))
     elif kind == "string_too_long":
         findings.under(path, f"{{got}} has more than {context['max_length']} characters; shorten it")
     else:

@@ -16,11 +16,10 @@ from typing import Any
 import cfree._core as _core
 from cfree.errors import CfreeError, InvalidPolygonError, InvalidPoseError
 from cfree.exact.half_angle import require_unit
-from cfree.exact.number import to_fraction
+from cfree.exact.number import LARGEST, to_fraction
 from cfree.exact.pose import Pose
 from cfree.formats.text.json_text import Literal, number_of
 from cfree.polygons.polygon import Polygon, polygon_of
-from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
 from cfree.vehicles.vehicle import Car, DifferentialDrive, Vehicle
@@ -34,11 +33,11 @@ OBSTACLE = POLYGON | {"name"}
 
 
 class Fault(ValueError):
-    """A fault of a value; ``{got}`` in the message becomes the value as written in the file."""
+    """A fault of a value, or of a part within it; ``{got}`` in the message becomes the value as written in the file."""
 
-    def __init__(self, message: str, ring: int | None = None) -> None:
+    def __init__(self, message: str, within: tuple[str | int, ...] = ()) -> None:
         super().__init__(message)
-        self.ring = ring
+        self.within = within
 
 
 def coordinate(value: object) -> Fraction:
@@ -96,44 +95,67 @@ VEHICLES: dict[str, tuple[str, ...]] = {
 
 def vehicle(value: Any) -> Vehicle:
     """Return a car or a differential drive."""
-    value = plain_object(value)
-    kind = value.get("type")
-    if not isinstance(kind, str) or kind not in VEHICLES:
+    if not isinstance(value, dict):
         raise Fault('expected a vehicle {"type": "car" or "differential", ...}, got {got}')
+    if "type" not in value:
+        raise Fault('key "type" is missing; add "car" or "differential"')
+    kind = value["type"]
+    if not isinstance(kind, str) or kind not in VEHICLES:
+        remedy = '; a forklift is a "differential" about its fixed axle' if kind == "forklift" else ""
+        raise Fault(f'expected "car" or "differential", got {{got}}{remedy}', ("type",))
     keys = VEHICLES[kind]
     for key in value:
         if key not in keys:
             guess = get_close_matches(key, keys, 1)
             remedy = f'did you mean "{guess[0]}"?' if guess else f"the keys here are {', '.join(keys)}"
-            raise Fault(f'unknown key "{key[:40]}" of a vehicle; {remedy}')
+            raise Fault(f'unknown key "{key[:40]}"; {remedy}', (key,))
+    if kind == "car" and "turning_radius" not in value:
+        raise Fault('key "turning_radius" is missing; add it')
+    members = {key: _member(key, value[key]) for key in keys[1:] if key in value}
+    return Car(**members) if kind == "car" else DifferentialDrive(**members)
+
+
+def _member(key: str, value: Any) -> Any:
+    """Return a member of a vehicle; a fault has its place."""
     try:
-        pose = {"axle": _numbers(value.get("axle", [0, 0]), "axle"), "heading": angle(value.get("heading", 0))}
-        if kind == "differential":
-            return DifferentialDrive(**pose)
-        if "turning_radius" not in value:
-            raise Fault('key "turning_radius" of the vehicle is missing; add it')
-        radius = value["turning_radius"]
-        sides = _numbers(radius, "turning_radius") if isinstance(radius, list) else coordinate(radius)
-        base = coordinate(value["wheelbase"]) if "wheelbase" in value else None
-        return Car(sides, gears=value.get("gears", "both"), wheelbase=base, **pose)
-    except Fault:
-        raise
+        value = _MEMBERS[key](value)
+        Car(**{"turning_radius": 1, key: value})
+    except Fault as fault:
+        raise Fault(str(fault), (key, *fault.within)) from None
     except (TypeError, ValueError) as error:
-        raise Fault(str(error)) from None
+        raise Fault(str(error).removeprefix(f"{key}: "), (key,)) from None
+    return value
 
 
-def plain_object(value: Any) -> dict[str, Any]:
-    if not isinstance(value, dict):
-        raise Fault('expected a vehicle {"type": "car" or "differential", ...}, got {got}')
-    return {key: number_of(part) if isinstance(part, Literal) else part for key, part in value.items()}
+def _radius(value: Any) -> Any:
+    if isinstance(value, list):
+        return _numbers("a length, or two as [left, right]")(value)
+    return coordinate(value)
 
 
-def _numbers(value: Any, name: str) -> tuple[Fraction, Fraction]:
-    try:
-        x, y = map(coordinate, list_of(2, "two numbers")(value))
-    except Fault:
-        raise Fault(f"{name} of the vehicle: expected two numbers, got {value!r}") from None
-    return x, y
+def _numbers(form: str) -> Callable[[Any], tuple[Fraction, Fraction]]:
+    """Return a reader of two numbers; a fault in one of them has its place."""
+    check = list_of(2, form)
+
+    def read(value: Any) -> tuple[Fraction, Fraction]:
+        numbers = []
+        for k, part in enumerate(check(value)):
+            try:
+                numbers.append(coordinate(part))
+            except Fault as fault:
+                raise Fault(str(fault), (k,)) from None
+        return numbers[0], numbers[1]
+
+    return read
+
+
+_MEMBERS: dict[str, Callable[[Any], Any]] = {
+    "turning_radius": _radius,
+    "axle": _numbers("[x, y]"),
+    "heading": angle,
+    "gears": lambda value: value,
+    "wheelbase": coordinate,
+}
 
 
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
