@@ -34,6 +34,7 @@ RESULTS = """
     CellComplex Clearance DepthCell EdgeEdgeSegment FirstContact Fit FreeSpace GaussBonnet Geodesic Helix
     Intersection IntersectionCurve Interval LocalGeometry Mesh NearestMiss Pieces RationalHelix RationalRange
     RationalSegment RationalSurface Separated Shapes SharedLine Slice Stuck Surface Timed Triple TripleContact
+    BoxGrid Unreachable
 """.split()  # noqa: SIM905
 
 

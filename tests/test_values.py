@@ -3,6 +3,7 @@
 import copy
 import inspect
 import pickle
+import zlib
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
@@ -41,6 +42,8 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
     space = cfree.free_space(boundary)
     separated = cfree.plan(scene)
     path = cfree.Path(Pose(1, 1), [Translation((step, 0))])
+    grid = cfree.planning.BoxGrid((step, step), step, step, x, x, 8)
+    forward = cfree.Car(1, gears="forward")
     rod = cfree.Scene([(-5, -1), (5, -1), (5, 1), (-5, 1)], [[(-20, x), (20, x), (20, 9), (-20, 9)]])
     interval = cfree.turn_in_place(rod, Pose(0, 0))[0]
     surface = rational_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (x, 2), (0, 2)]), VertexEdge(1, 2))
@@ -99,6 +102,8 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "Ramp": cfree.paths.Ramp(x, 0.5, 0.25),
         "Stop": cfree.paths.Stop(x, "cusp", 0.5),
         "Stuck": cfree.Stuck(Pose(x, 0), Pose(1, 0), cfree.Car(1), "start", "pieces", (Pose(x, 0),), (0,)),
+        "BoxGrid": grid,
+        "Unreachable": cfree.Unreachable(Pose(x, 0), Pose(1, 0), forward, "start", (), grid, zlib.compress(b"1")),
         "Arc": Arc((x, 0), (0, 1)),
         "Bezier": Bezier([(x, 0), (0, 1)]),
         "Circle": Circle((x, 0), 1),

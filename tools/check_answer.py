@@ -26,24 +26,29 @@ clearance is kept by a robot larger by a polygon around a disc; it is not if a r
 
 Vehicles. A car drives along forward, or turns about a pole on the line of its axle: signs of rationals decide. Contacts
 hold it if the first motion of every curvature overlaps something. Between neighbouring zeros of the rates one stands
-for all.
+for all. A car without reverse gear does not reach a goal that is in no listed box if every step of travel from a listed
+box ends in listed boxes, or in boxes that are forbidden as a whole. Sines are rounded to 2^-64, and lengths changed by
+more than that is off, to the safe side.
 """
 
 from __future__ import annotations
 
+import base64
+import binascii
 import contextlib
 import hashlib
 import json
 import math
 import re
 import sys
+import zlib
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
-from functools import cmp_to_key, lru_cache
+from functools import cache, cmp_to_key, lru_cache
 from itertools import chain, pairwise, zip_longest
 from operator import mul
 from pathlib import Path
@@ -1689,16 +1694,282 @@ def check_held(answer: Held, scene: Scene) -> str:
         said = f"no path of finite length lets a vehicle with this axle {way}, whatever its turning radius"
     return f"From {answer.end('start')} to {answer.end('goal')}: {said}."
 
+# === Cars without reverse gear: boxes of axle poses ===
+SAFE = Fraction(1, 1 << 40)  # of lengths, in the size of the scene, and of angles
+
+@cache
+def turned(part: int, count: int) -> tuple[Fraction, Fraction]:
+    """Cosine and sine of part / count of half a turn, with an error below 2^-60."""
+    angle, parts, term = Fraction(round(angle_to(None) * part / count * (1 << 90)), 1 << 90), [ZERO, ZERO], ONE
+    for k in range(60):
+        parts[k % 2] += term * (1, 1, -1, -1)[k % 4]
+        term = Fraction(round(term * angle / (k + 1) * (1 << 90)), 1 << 90)
+    return Fraction(round(parts[0] * (1 << 64)), 1 << 64), Fraction(round(parts[1] * (1 << 64)), 1 << 64)
+
+class Unreached(Answer):
+    """Boxes that a car without reverse gear reaches from one end; back from its goal it is turned by half a turn."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        super().__init__(data, **dict.fromkeys(("vehicle", "at", "pieces", "grid", "boxes"), REQUIRED))
+        self.check_decimals("start", self.start)
+        self.vehicle = Vehicle(self.got["vehicle"])
+        refuse_if(not self.vehicle.forward_only, "vehicle: expected a car without reverse gear")
+        self.at = one_of(self.got["at"], "at", "start", "goal")
+        rings = [items(ring, "pieces", 3) for ring in items(self.got["pieces"], "pieces", 1)]
+        self.pieces = [[numbers(point, "pieces", 2) for point in ring] for ring in rings]
+        names = ("corner", "side", "step", "columns", "rows", "slices")
+        grid = members(self.got["grid"], "grid", **dict.fromkeys(names, REQUIRED))
+        self.corner = numbers(grid["corner"], "corner", 2)
+        self.side, self.step = number(grid["side"], "side"), number(grid["step"], "step")
+        self.columns, self.rows, self.slices = (whole(grid[k], k, 1, 1 << 20) for k in names[3:])
+        count = self.columns * self.rows * self.slices
+        refuse_if(min(self.side, self.step) <= 0, "grid: expected lengths above 0")
+        refuse_if(self.slices < 8 or count >= 1 << 28, "grid: too few or too many boxes")
+        try:
+            stream = zlib.decompressobj()
+            packed = base64.b64decode(self.got["boxes"], validate=True)
+            self.bits = stream.decompress(packed, (count + 7) // 8 + 1)
+        except (binascii.Error, zlib.error, TypeError, ValueError):
+            raise BadFileError("boxes: expected base64 of zlib") from None
+        is_whole = len(self.bits) == (count + 7) // 8 and stream.eof
+        refuse_if(not is_whole, "boxes: expected a bit for each box of the grid")
+
+class Spread:
+    """What follows the boxes of an answer. Each slice has an integer: bits of rows of `width`, the last ones empty."""
+
+    def __init__(self, answer: Unreached, world: World) -> None:
+        self.answer, car, scale = answer, answer.vehicle, world.scale
+        back = answer.at == "goal"
+        self.radii = car.radii[::-1] if back else car.radii
+        half_turn = (lambda tau: tau_sum(tau, None)) if back else (lambda tau: tau)
+        ends = [car.axle_at(pose) for pose in (answer.start, answer.goal)]
+        self.begin, self.end = (Pose(q.x, q.y, half_turn(q.tau)) for q in (ends[::-1] if back else ends))
+        c, s = Pose(ZERO, ZERO, half_turn(car.heading)).rotation
+
+        def of_axle(x: Any, y: Any) -> Point:
+            x, y = x - car.axle[0], y - car.axle[1]
+            return c * x + s * y, c * y - s * x
+
+        self.robot = [[of_axle(x, y) for x, y in ring] for ring in answer.pieces]
+        self.reference, self.bounds = of_axle(ZERO, ZERO), [Fraction(b, scale) for b in world.bounds]
+        self.far = max(abs(x) + abs(y) for ring in self.robot for x, y in ring)
+        walls = [[(Fraction(x, scale), Fraction(y, scale)) for x, y in p.points] for p in world.walls]
+        length = answer.side * max(answer.columns, answer.rows) + answer.step + sum(map(abs, answer.corner))
+        self.size = length + self.far + max((abs(x) + abs(y) for ring in walls for x, y in ring), default=ZERO)
+        if world.box:
+            x0, y0, x1, y1 = (Fraction(b, scale) for b in world.box)
+            a, b = -4 * self.size, 4 * self.size
+            beyond = ((a, a, x0, b), (x1, a, b, b), (a, a, b, y0), (a, y1, b, b))
+            walls += [[(u, v), (w, v), (w, z), (u, z)] for u, v, w, z in beyond]
+        self.safe = 16 * self.size * SAFE
+        self.unit = math.lcm(2 * answer.side.denominator, *(x.denominator for x in answer.corner))
+        self.unit <<= max(0, (math.ceil(4 / self.safe) // self.unit).bit_length())
+        self.walls = [self.in_units(ring) for ring in walls]
+        self.half = angle_to(None) / answer.slices
+        self.turns = math.floor(answer.step / min(self.radii) / (2 * self.half)) + 2
+        further = range(-self.turns, self.turns + 1)
+        self.steps = {(k, q): self.after(k, q) for k in range(answer.slices) for q in further}
+        self.rim = max(abs(x) for boxes in self.steps.values() for box in boxes for x in box)
+        self.width = (answer.columns + self.rim + 7) // 8 * 8
+        self.full = (1 << answer.columns) - 1
+        self.listed = [self.joined([self.listed_row(k, j) for j in range(answer.rows)]) for k in range(answer.slices)]
+
+    def in_units(self, ring: Ring) -> Ring:
+        return [(round(x * self.unit), round(y * self.unit)) for x, y in ring]
+
+    def listed_row(self, k: int, j: int) -> int:
+        first = (k * self.answer.rows + j) * self.answer.columns
+        part = self.answer.bits[first // 8 : (first + self.answer.columns + 7) // 8]
+        return int.from_bytes(part, "little") >> first % 8 & self.full
+
+    def joined(self, rows: Sequence[int]) -> int:
+        return int.from_bytes(b"".join(row.to_bytes(self.width // 8, "little") for row in rows), "little")
+
+    def landing(self, low: Fraction, high: Fraction, off: Fraction) -> Fractions | None:
+        """Rectangle ahead in which a step ends that turns by low to high: its least, most, and half its width."""
+        step, (left, right) = self.answer.step, (1 / r for r in self.radii)
+        low, high = max(low - SAFE, -step * right), min(high + SAFE, step * left)
+        if low > high:
+            return None
+        most = min(max(step * (left - right) / 2, low), high)
+        bend = step * max(left, right) / 2
+        wide = max(ZERO, (most + step * right) * (step * left - most) / (2 * (left + right))) + step * bend**3 / 6
+        return step * (1 - (bend * bend + off * off) / 2) - wide * off, step + wide * off, wide + step * off
+
+    def meets(self, ahead: Point, box: Fractions, x: Any, y: Any, half: Any) -> bool:
+        """Whether a square about (x, y) meets a rectangle ahead of the origin."""
+        (c, s), (least, most, wide), reach = ahead, box, half * (abs(ahead[0]) + abs(ahead[1])) + self.safe
+        return least - reach <= c * x + s * y <= most + reach and abs(c * y - s * x) <= wide + reach
+
+    def around(self, ahead: Point, box: Fractions, half: Any) -> list[Fraction]:
+        """Bounds x0, x1, y0, y1 of the middles of squares that meet a rectangle."""
+        (c, s), (least, most, wide) = ahead, box
+        corners = [(c * u - s * v, s * u + c * v) for u in (least, most) for v in (-wide, wide)]
+        return [f(p[k] for p in corners) + g * (half + self.safe) for k in (0, 1) for f, g in ((min, -1), (max, 1))]
+
+    def after(self, k: int, q: int) -> list[tuple[int, int]]:
+        """Boxes (i, j) of slice k + q that follow box (0, 0) of slice k."""
+        side, box = self.answer.side, self.landing(2 * (q - 1) * self.half, 2 * (q + 1) * self.half, self.half + SAFE)
+        if box is None:
+            return []
+        ahead = turned((2 * k + 1 + q) % (2 * self.answer.slices), self.answer.slices)
+        x0, x1, y0, y1 = (b / side for b in self.around(ahead, box, side))
+        columns, rows = range(math.ceil(x0), math.floor(x1) + 1), range(math.ceil(y0), math.floor(y1) + 1)
+        near = ((i, j) for j in rows for i in columns)
+        return [(i, j) for i, j in near if self.meets(ahead, box, i * side, j * side, side)]
+
+    def first(self) -> Iterator[tuple[int, int, int]]:
+        """Boxes of all poses within a step of travel from the first."""
+        side, slices, theta = self.answer.side, self.answer.slices, angle_to(self.begin.tau)
+        x, y = self.begin.x - self.answer.corner[0], self.begin.y - self.answer.corner[1]
+        most = self.answer.step / min(self.radii) + SAFE
+        for q in range(math.floor((theta - most) / (2 * self.half)), math.floor((theta + most) / (2 * self.half)) + 1):
+            box = self.landing(2 * q * self.half - theta, 2 * (q + 1) * self.half - theta, self.half / 2 + SAFE)
+            if box is None:
+                continue
+            box = (-box[2], *box[1:])
+            middle = (theta + (2 * q + 1) * self.half) / 2
+            ahead = turned(round(middle / angle_to(None) * (1 << 62)) % (1 << 63), 1 << 62)
+            x0, x1, y0, y1 = self.around(ahead, box, side / 2)
+            for j in range(math.floor((y + y0) / side - 1), math.floor((y + y1) / side) + 1):
+                for i in range(math.floor((x + x0) / side - 1), math.floor((x + x1) / side) + 1):
+                    u, v = (i + Fraction(1, 2)) * side - x, (j + Fraction(1, 2)) * side - y
+                    if self.meets(ahead, box, u, v, side / 2):
+                        yield q % slices, i, j
+
+    def forbidden(self, k: int) -> int:
+        """Boxes of a slice in which every pose is forbidden."""
+        answer, slices = self.answer, self.answer.slices
+        ends, shrink = (turned(2 * k, slices), turned(2 * k + 2, slices)), turned(1, slices)[0]
+        rows = [0] * answer.rows
+        for ring in self.robot:
+            core = [(-self.far, -self.far), (self.far, -self.far), (self.far, self.far), (-self.far, self.far)]
+            for (ax, ay), (bx, by) in edges_of(ring):
+                u, v = by - ay, ax - bx
+                for c, s in ends:
+                    n, reach = (c * u - s * v, s * u + c * v), u * ax + v * ay
+                    reach = min(reach, reach * shrink) - (answer.side / 2 + self.safe) * (abs(n[0]) + abs(n[1]))
+                    core = cut(core, n, reach)
+            shape = [(-x, -y) for x, y in self.in_units(core)]
+            for wall in self.walls if shape else ():
+                self.fill(rows, convex_hull((x + a, y + b) for x, y in wall for a, b in shape))
+        if self.bounds:
+            self.fill_beyond(rows, [(c, s) for c, s in ends], shrink)
+        return self.joined(rows)
+
+    def fill(self, rows: list[int], hull: Ring) -> None:
+        """Add the boxes with their middles inside a convex polygon."""
+        side, middle = self.answer.side * self.unit, self.answer.side / 2
+        d, x0, y0 = int(side), *(int((x + middle) * self.unit) for x in self.answer.corner)
+        low, high = min(y for _, y in hull), max(y for _, y in hull)
+        sides = [(p, q) for p, q in edges_of(hull) if p[1] != q[1]]
+        for j in range(max(0, (low - y0) // d + 1), min(len(rows), -((y0 - high) // d))):
+            y, begin, end = y0 + j * d, 0, self.answer.columns
+            for (ax, ay), (bx, by) in sides:
+                if ay <= y <= by:  # on the right
+                    end = min(end, -(-((ax - x0) * (by - ay) + (y - ay) * (bx - ax)) // (d * (by - ay))))
+                if by <= y <= ay:
+                    begin = max(begin, ((ax - x0) * (by - ay) + (y - ay) * (bx - ax)) // (d * (by - ay)) + 1)
+            if begin < end:
+                rows[j] |= (1 << end) - (1 << begin)
+
+    def fill_beyond(self, rows: list[int], ends: list[Point], shrink: Fraction) -> None:
+        """Add the boxes with the reference point out of the bounds."""
+        (x, y), answer, more = self.reference, self.answer, self.answer.side / 2 + self.safe
+        arms = [(c * x - s * y, s * x + c * y) for c, s in ends]
+        limits = []
+        for axis in (0, 1):
+            least, most = (f(arm[axis] for arm in arms) for f in (min, max))
+            least, most = min(least, least / shrink) - more, max(most, most / shrink) + more
+            limits.append((self.bounds[axis] - most, self.bounds[axis + 2] - least))
+        for j in range(answer.rows):
+            height = answer.corner[1] + (j + Fraction(1, 2)) * answer.side
+            if not limits[1][0] <= height <= limits[1][1]:
+                rows[j] = self.full
+                continue
+            begin, end = ((limit - answer.corner[0]) / answer.side - Fraction(1, 2) for limit in limits[0])
+            begin, end = (min(max(k, 0), answer.columns) for k in (math.ceil(begin), math.floor(end) + 1))
+            rows[j] |= self.full ^ ((1 << end) - (1 << begin) if begin < end else 0)
+
+    def check(self) -> None:
+        answer, width = self.answer, self.width
+        near = []
+        for x, low in zip((self.end.x, self.end.y), answer.corner, strict=True):
+            near.append({math.floor((x - low + by) / answer.side) for by in (-self.safe, self.safe)})
+        counts = zip(near, (answer.columns, answer.rows), strict=True)
+        beyond = any(not 0 <= i < count for axis, count in counts for i in axis)
+        angle = angle_to(self.end.tau)
+        for k in {math.floor((angle + by) / (2 * self.half)) % answer.slices for by in (-SAFE, SAFE)}:
+            for i in near[0]:
+                for j in near[1]:
+                    within = 0 <= i < answer.columns and 0 <= j < answer.rows
+                    refute_if(within and self.listed[k] >> (j * width + i) & 1, "a listed box holds the other end")
+        follow = [0] * answer.slices
+        for k, i, j in self.first():
+            refute_if(not (0 <= i < answer.columns and 0 <= j < answer.rows), "the first step leaves the grid")
+            follow[k] |= 1 << (j * width + i)
+        for (k, q), boxes in self.steps.items():
+            for i, j in boxes if self.listed[k] else ():
+                by, there = j * width + i, (k + q) % answer.slices
+                follow[there] |= self.listed[k] << by if by >= 0 else self.listed[k] >> -by
+        inner = (1 << max(0, answer.columns - 2 * self.rim)) - 1 << self.rim
+        kept = [inner if self.rim <= j < answer.rows - self.rim else 0 for j in range(answer.rows)]
+        rim = self.joined([self.full ^ row for row in kept])
+        grid = self.joined([self.full] * answer.rows)
+        leaves = any(boxes & rim for boxes in self.listed)
+        refute_if(leaves and beyond, "a step may leave the grid, and the other end is beyond")
+        for k, listed in enumerate(self.listed):
+            left = (follow[k] | rim * leaves) & grid & ~listed
+            wrong = left and left & ~self.forbidden(k)
+            refute_if(wrong, f"a box of slice {k} follows, and is neither listed nor forbidden")
+
+def cut(ring: Ring, normal: Point, reach: Fraction) -> Ring:
+    """The part of a convex polygon with normal . p <= reach."""
+    over = [dot(normal, p) - reach for p in ring]
+    part: Ring = []
+    for k, (p, u) in enumerate(zip(ring, over, strict=True)):
+        q, v = ring[k - len(ring) + 1], over[k - len(ring) + 1]
+        part += [p] * (u <= 0)
+        if u * v < 0:
+            part.append((p[0] + u / (u - v) * (q[0] - p[0]), p[1] + u / (u - v) * (q[1] - p[1])))
+    return part
+
+def area(ring: Ring) -> Any:
+    """Twice the area."""
+    return sum((cross(p, q) for p, q in edges_of(ring)), ZERO)
+
+def check_unreached(answer: Unreached, scene: Scene) -> str:
+    """Sentence that states the result."""
+    world = World(scene)
+    for ring in answer.pieces:
+        left, hull = area(ring), convex_hull(ring)
+        refute_if(area(hull) != left or len(hull) != len(ring), "a piece is not convex")
+        for part in world.robot:
+            rest = [(x * world.scale, y * world.scale) for x, y in ring]
+            for (ax, ay), (bx, by) in edges_of(part.points):
+                rest = cut(rest, (by - ay, ax - bx), (by - ay) * ax + (ax - bx) * ay)
+            left -= area(rest) / world.scale**2
+        refute_if(left != 0, "a piece is not inside the robot")
+    answer.check_moved(world)
+    check_pose(world, answer.start, "start")
+    check_pose(world, answer.goal, "goal")
+    Spread(answer, world).check()
+    return f"No path of {answer.vehicle.text} leads from {answer.end('start')} to {answer.end('goal')}."
+
 # === The command ===
 def verdict(scene: str, answer: str) -> tuple[int, str]:
     """Check the texts of two files; return an exit code, and a line that states the result or the fault."""
     try:
         world, data = read_scene(decoded(scene)), decoded(answer)
-        kinds: dict[str, type[PathAnswer | Proof | Held]] = {"path": PathAnswer, "separated": Proof, "stuck": Held}
+        kinds: dict[str, type[PathAnswer | Proof | Held | Unreached]] = {
+            "path": PathAnswer, "separated": Proof, "stuck": Held, "unreachable": Unreached
+        }  # fmt: skip
         parsed = kinds[one_of(data.get("answer") if isinstance(data, dict) else None, "answer", *kinds)](data)
         part = parsed.check_asked(world)
         if isinstance(parsed, Held):
             proved = check_held(parsed, part)
+        elif isinstance(parsed, Unreached):
+            proved = check_unreached(parsed, part)
         else:
             proved = check_path(parsed, world, part) if isinstance(parsed, PathAnswer) else check_proof(parsed, part)
         return VERIFIED, f"{proved} verified"

@@ -120,10 +120,37 @@ void bind_words(nb::module_& m) {
     }, "vehicle"_a, "start"_a, "goal"_a, "count"_a);
 }
 
+// Boxes that a car without reverse gear may reach: shapes in the axle's frame and in the world, bounds of the reference
+// point, its place, radii; x, y, side and step of the grid, its columns, rows and slices; start and goal of the axle.
+void bind_boxes(nb::module_& m) {
+    using Shapes = std::vector<cfree::Convex>;
+    using Three = std::array<double, 3>;
+    nb::class_<cfree::Boxes>(m, "Boxes")
+        .def("__init__", [](cfree::Boxes* of, Shapes robot, Shapes obstacles, const std::optional<std::array<double, 4>>& bounds,
+                            std::array<double, 2> reference, std::array<double, 2> radii, const std::array<double, 4>& grid,
+                            const std::array<int, 3>& counts, const Three& start, const Three& goal) {
+            cfree::ForwardCar car{std::move(robot), std::move(obstacles), {}, reference[0], reference[1], radii[0], radii[1]};
+            if (bounds) car.bounds = cfree::Area{(*bounds)[0], (*bounds)[1], (*bounds)[2], (*bounds)[3]};
+            const cfree::BoxGrid sizes{grid[0], grid[1], grid[2], grid[3], counts[0], counts[1], counts[2]};
+            const cfree::Place from{start[0], start[1], start[2]}, to{goal[0], goal[1], goal[2]};
+            watched([&] { new (of) cfree::Boxes(car, sizes, from, to); });
+        }, "robot"_a, "obstacles"_a, "bounds"_a.none(), "reference"_a, "radii"_a, "grid"_a, "counts"_a, "start"_a, "goal"_a)
+        .def("run", [](cfree::Boxes& of, long long most) { return watched([&] { return of.run(most); }); }, "most"_a)
+        .def_prop_ro("meets_goal", &cfree::Boxes::meets_goal)
+        .def_prop_ro("count", &cfree::Boxes::count)
+        .def_prop_ro("worked", &cfree::Boxes::worked)
+        .def("steps_to", [](const cfree::Boxes& of, const Three& axle) { return of.steps_to({axle[0], axle[1], axle[2]}); }, "axle"_a)
+        .def_prop_ro("bits", [](const cfree::Boxes& of) {
+            const std::vector<std::uint8_t> bits = of.bits();
+            return nb::bytes(bits.data(), bits.size());
+        });
+}
+
 }  // namespace
 
 void bind_vehicles(nb::module_& m) {
     bind_words(m);
+    bind_boxes(m);
     nb::class_<Shortened>(m, "Drive")
         .def("join_far", [](Shortened& of) { watched([&] { of.path.join_far(); return true; }); })
         .def("run", [](Shortened& of, int rounds) { watched([&] { of.path.run(rounds); return true; }); }, "rounds"_a)
@@ -143,6 +170,10 @@ void bind_vehicles(nb::module_& m) {
             auto found = watched([&] { return of->search_forward(seed, poses); });
             return found ? std::make_unique<Shortened>(of, of->shortening(std::move(*found), seed)) : nullptr;
         }, "seed"_a, "poses"_a, nb::sig("def search_forward(self, seed: int, poses: int) -> Drive | None"))
+        .def("search_in_boxes", [](const std::shared_ptr<Driving>& of, const cfree::Boxes& boxes, int poses) -> std::unique_ptr<Shortened> {
+            auto found = watched([&] { return of->search_in_boxes(boxes, poses); });
+            return found ? std::make_unique<Shortened>(of, of->shortening(std::move(*found), 0)) : nullptr;
+        }, "boxes"_a, "poses"_a, nb::sig("def search_in_boxes(self, boxes: Boxes, poses: int) -> Drive | None"))
         // the words along the path, and the share of the path that they reach
         .def("follow", [](const std::shared_ptr<Driving>& of, long long most, std::uint64_t seed) {
             auto found = watched([&] { return of->follow(most); });

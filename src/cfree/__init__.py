@@ -61,6 +61,7 @@ if TYPE_CHECKING:
     from cfree.planning.separation import Separated as Separated
     from cfree.planning.separation import separation as separation
     from cfree.planning.stuck import Stuck as Stuck
+    from cfree.planning.unreachable import Unreachable as Unreachable
     from cfree.polygons.polygon import Polygon as Polygon
     from cfree.polygons.repair import repaired as repaired
     from cfree.scene.scene import Scene as Scene
@@ -100,6 +101,7 @@ _HOMES = {
     "planning.many": "plan_many",
     "planning.separation": "Separated separation",
     "planning.stuck": "Stuck",
+    "planning.unreachable": "Unreachable",
     "analysis.blockers": "blockers",
     "analysis.fits": "fits",
     "analysis.margins": "max_margin max_scale nearest_miss",

@@ -93,6 +93,9 @@ class UndecidedError(IncompleteError):
         The proof that a path of a vehicle that reverses exists: a path of the robot that touches nothing.
     manoeuvres : int
         Estimate of the motions that such a path needs, or 0.
+    margin : float
+        Length by which the robot is smaller, at most, in the boxes that may lead a car without reverse gear to its
+        goal; or 0.
     """
 
     def __init__(
@@ -104,8 +107,10 @@ class UndecidedError(IncompleteError):
         error: float = 0.0,
         path: object = None,
         manoeuvres: int = 0,
+        margin: float = 0.0,
     ) -> None:
         super().__init__(message)
+        self.margin = margin
         self.path = path
         self.manoeuvres = manoeuvres
         self.lo = lo

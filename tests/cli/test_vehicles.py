@@ -12,7 +12,7 @@ import pytest
 import yaml
 from click.testing import CliRunner, Result
 
-from cfree import Car, DifferentialDrive, load
+from cfree import Car, DifferentialDrive, Unreachable, load
 from cfree import Path as Motions
 from cfree.cli.app import app
 
@@ -212,3 +212,23 @@ def test_bad_options_end_with_2_and_one_line(options: str, said: str, tmp_path: 
     result = run(tmp_path, *options.split())
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(f"error: {said}") and result.stderr.count("\n") == 1
+
+
+@pytest.mark.slow
+def test_a_goal_that_a_car_without_reverse_gear_does_not_reach_ends_with_1(tmp_path: Path) -> None:
+    answer, room = tmp_path / "boxes.json", [[-3, -2], [9, -2], [9, 2], [-3, 2]]
+    alley: dict[str, Any] = {"obstacles": [], "bounds": None, "workspace": room}
+    alley |= {"start": [0, 0, 0], "goal": [0, 0, "180deg"]}
+    options = "--vehicle car --turning-radius 3 --gears forward --improve 0"
+    result = run(tmp_path, *options.split(), "-o", str(answer), **alley)
+    assert result.exit_code == 1, result.output
+    text = " ".join(result.stdout.split())
+    assert "unreachable, proved: no path of a car with a turning radius of 3 and no reverse gear leads from" in text
+    assert "hold what it reaches" in text and "size of a box" in text
+    assert isinstance(load(answer), Unreachable)
+    facts = json.loads(run(tmp_path, *options.split(), "--json", **alley).stdout)
+    assert facts["answer"] == "unreachable" and facts["boxes"] > 0 and facts["side"] > 0
+    checked = CliRunner().invoke(app, ["verify", str(tmp_path / "scene.json"), str(answer)])
+    assert checked.exit_code == 0 and "closed boxes PROVED" in " ".join(checked.stdout.split())
+    picture = tmp_path / "boxes.png"
+    assert run(tmp_path, *options.split(), "--picture", str(picture), **alley).exit_code == 1 and picture.exists()

@@ -214,7 +214,7 @@ def test_proofs_hold_however_polygons_are_cut_into_pieces(tmp_path: Path, monkey
         (
             '"answer": "separated"',
             '"answer": "no"',
-            'answer: expected "path", "separated", "stuck" or "all separated", got "no"',
+            'answer: expected "path", "separated", "stuck", "unreachable" or "all separated", got "no"',
         ),
         ('"of": "closed"', '"of": "open"', 'of: expected "closed" or "interior", got "open"'),
         ('"of": "closed"', '"of": "interior"', '"smaller_robot" belongs to "of": "closed" only'),

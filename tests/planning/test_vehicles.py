@@ -411,7 +411,7 @@ def test_stuck_has_no_truth_value_and_is_saved_and_loaded(tmp_path: Any) -> None
         (
             '"answer": "stuck"',
             '"answer": "held"',
-            r'proofs\[0\]: expected a proof with "answer": "separated" or "stuck"',
+            r'proofs\[0\]: expected a proof with "answer": "separated", "stuck" or "unreachable"',
         ),
         ('"rail": ', '"rails": ', r'proofs\[0\]: key "rail" is missing'),
         ('"of": "pieces"', '"of": "closed"', 'all of them of "closed"'),

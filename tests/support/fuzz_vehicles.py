@@ -2,7 +2,7 @@
 
 Between poses that touch nothing, a vehicle that reverses has a path if and only if the robot has one. Each path is
 integrated from its controls alone, compared with shapely, and verified by both checkers. It prints faults, and exits
-with 1.
+with 1. With ``--forward`` the cars have no reverse gear: of a path and a proof by boxes, no room has both.
 """
 
 from __future__ import annotations
@@ -13,10 +13,12 @@ import sys
 import time
 from collections import Counter
 
-from cfree import Path, Separated, UndecidedError, plan
+import cfree._core as _core
+from cfree import Car, Path, Pose, Scene, Separated, UndecidedError, Unreachable, plan
+from cfree.planning import reach
 from cfree.scene.scene import with_ends
 from second_opinion import verified_in_a_file
-from vehicles import VEHICLES, faults, room
+from vehicles import FORWARD, VEHICLES, faults, room
 
 MOST_VERIFIED = 30  # motions
 
@@ -49,15 +51,52 @@ def mistakes(number: int, tally: Counter[str], slowest: list[float]) -> list[str
     return [f"{vehicle}: {fault}" for fault in wrong]
 
 
+def reached(scene: Scene, car: Car, start: Pose, goal: Pose) -> list[_core.Boxes]:
+    """Boxes of both directions, coarse ones and finer ones."""
+    search = reach.Reach(scene, car, start, goal)
+    found = []
+    for count in reach.BOXES[:2]:
+        for side in reach.SIDES:
+            boxes = search.boxes(search.grid(count), side)
+            boxes.run(10**12)
+            found.append(boxes)
+    return found
+
+
+def forward_mistakes(number: int, tally: Counter[str], slowest: list[float]) -> list[str]:
+    """Faults of the answers for a car without reverse gear in one room."""
+    rng = random.Random(f"forward room {number}")
+    scene, car = room(rng), rng.choice(FORWARD)
+    assert scene.start is not None and isinstance(scene.goal, Pose)
+    begin = time.perf_counter()
+    try:
+        answer = plan(scene, vehicle=car, improve=0)
+    except UndecidedError as error:
+        tally["undecided"] += 1
+        return [] if error.margin > 0 or "contacts" in str(error) else [f"{car}: {error}"]
+    slowest.append(time.perf_counter() - begin)
+    tally[type(answer).__name__] += 1
+    wrong = list[str]()
+    if isinstance(answer, Path):
+        wrong += faults(scene, answer)
+        excluding = [boxes for boxes in reached(scene, car, scene.start, scene.goal) if not boxes.meets_goal]
+        wrong += ["its goal is in none of the boxes"] * bool(excluding)
+    if isinstance(answer, Unreachable) or len(answer if isinstance(answer, Path) else ()) <= MOST_VERIFIED:
+        tally["verified"] += 1
+        wrong += map(str, verified_in_a_file(scene, answer).findings)
+    return [f"{car}: {fault}" for fault in wrong]
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("count", type=int, help="rooms")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--forward", action="store_true", help="cars without reverse gear")
     chosen = parser.parse_args()
     tally, seconds = Counter[str](), list[float]()
     for number in range(chosen.seed * 1_000_000, chosen.seed * 1_000_000 + chosen.count):
         try:
-            wrong = mistakes(number, tally, seconds)
+            wrong = (forward_mistakes if chosen.forward else mistakes)(number, tally, seconds)
         except Exception as error:
             wrong = [repr(error)[:400]]
         tally["rooms"] += 1

@@ -10,8 +10,9 @@ from pathlib import Path as FilePath
 from typing import Any
 
 import cfree.verify
-from cfree import FormatError, Path, Scene, Separated, UnsupportedError, save
+from cfree import FormatError, Path, Scene, UnsupportedError, save
 from cfree.formats.scene_file import scene_text
+from cfree.planning.proof import Proof
 from cfree.verify.result import Verification
 
 TOOL = FilePath(__file__).parents[2] / "tools/check_answer.py"
@@ -50,7 +51,7 @@ def verified(scene: Scene, file: FilePath) -> Verification:
     return result
 
 
-def verified_in_a_file(scene: Scene, answer: Path | Separated) -> Verification:
+def verified_in_a_file(scene: Scene, answer: Path | Proof) -> Verification:
     """Verification of an answer in memory, which is saved first."""
     known = replace(answer, scene=scene) if isinstance(answer, Path) else answer
     with tempfile.TemporaryDirectory() as folder:

@@ -30,6 +30,9 @@ VEHICLES: list[Car | DifferentialDrive] = [
 ]
 
 
+FORWARD = [Car(car.radii, car.axle, {"tau": car.heading}, "forward") for car in VEHICLES if isinstance(car, Car)]
+
+
 def room(rng: random.Random) -> Scene:
     """Random triangles to pentagons in a square room, with a start and a goal that are free."""
     while True:

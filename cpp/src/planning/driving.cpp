@@ -99,6 +99,10 @@ std::optional<Legs> Driving::search_forward(std::uint64_t seed, int count) {
     return cfree::search_forward(driver, path, {area.x0 * unit, area.y0 * unit, area.x1 * unit, area.y1 * unit}, seed, count);
 }
 
+std::optional<Legs> Driving::search_in_boxes(const Boxes& boxes, int poses) {
+    return cfree::search_in_boxes(driver, path, boxes, unit, poses);
+}
+
 Followed Driving::follow(long long most) { return cfree::follow(driver, path, most); }
 
 Poses Driving::poses(const Legs& legs) const {

@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from cfree.paths.timing import Limits
     from cfree.planning.goals import AllSeparated
     from cfree.planning.planner import Planner
-    from cfree.planning.separation import Separated
-    from cfree.planning.stuck import Stuck
+    from cfree.planning.proof import Proof
     from cfree.vehicles.vehicle import Vehicle
 
 
@@ -125,8 +124,8 @@ class Answering:
     start: Pose
     goal: Pose | None
     files: dict[str, str]
-    answer: Motions | Separated | Stuck | AllSeparated
-    first: Motions | Separated | Stuck | AllSeparated | None = None  # the first path, before its improvement
+    answer: Motions | Proof | AllSeparated
+    first: Motions | Proof | AllSeparated | None = None  # the first path, before its improvement
 
     @classmethod
     def of(
@@ -233,6 +232,7 @@ class Answering:
     def draw(self, picture: Path, *, what_if: bool) -> None:
         """Draw the answer with the configuration space (the first of several proofs), or the blockers for `what_if`."""
         from cfree.planning.stuck import Stuck
+        from cfree.planning.unreachable import Unreachable
         from cfree.plot.answer import picture as drawn
         from cfree.plot.boundary import save_figure
 
@@ -243,7 +243,7 @@ class Answering:
             with bar("picture"):
                 save_figure(plot_blockers(self.blockers, self.planner.scene, preferences=preferences), picture)
             return
-        if isinstance(self.answer, Stuck):
+        if isinstance(self.answer, Stuck | Unreachable):
             with bar("picture"):
                 save_figure(drawn(self.answer, self.planner.scene), picture)
             return
@@ -259,6 +259,7 @@ class Answering:
         from cfree.paths.path import Path as Motions
         from cfree.planning.goals import AllSeparated
         from cfree.planning.stuck import Stuck
+        from cfree.planning.unreachable import Unreachable
 
         if isinstance(self.answer, Motions):
             with bar("film") as progress:
@@ -267,6 +268,9 @@ class Answering:
         shown = self.answer.proofs[0] if isinstance(self.answer, AllSeparated) else self.answer
         if isinstance(shown, Stuck):
             self._leave_out("film", film, "contacts hold the vehicle, and no surface separates start and goal")
+            return
+        if isinstance(shown, Unreachable):
+            self._leave_out("film", film, "boxes hold the car, and no surface separates start and goal")
             return
         if not len(shown.pieces):
             self._leave_out("film", film, "no surface separates start and goal, but exact fits do")

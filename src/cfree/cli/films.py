@@ -93,7 +93,7 @@ def film_answer(
         return {"answer": "a path", "size": "x".join(map(str, size))}
     shown = answer.proofs[0] if isinstance(answer, AllSeparated) else answer
     if not isinstance(shown, Separated):
-        raise ValueError(f"{file}: the vehicle is stuck, and there is no surface to film; leave the answer out")
+        raise ValueError(f"{file}: a proof about a vehicle has no surface to film; leave the answer out")
     seconds = length_of("separation", output) if seconds is None else seconds
     check_options(1, seconds, fps, size)
     boundary = computed(data, None)

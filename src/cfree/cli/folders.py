@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from cfree.free.space import FreeSpace
     from cfree.paths.path import Path as Motions
     from cfree.paths.preferences import Preferences
-    from cfree.planning.separation import Separated
-    from cfree.planning.stuck import Stuck
+    from cfree.planning.proof import Proof
     from cfree.scene.scene import Scene
     from cfree.verify.result import Verification
 
@@ -49,8 +48,7 @@ def verified(folder: Path, answer: Path | None, sample: int | None, seed: int, c
     from cfree.distributed.sharded import Sharded
     from cfree.formats.files import load
     from cfree.paths.path import Path as Motions
-    from cfree.planning.separation import Separated
-    from cfree.planning.stuck import Stuck
+    from cfree.planning.proof import Proof
     from cfree.verify.answers import answer as verified_answer
     from cfree.verify.result import REFUTED, Check, Finding, Verification
 
@@ -60,7 +58,7 @@ def verified(folder: Path, answer: Path | None, sample: int | None, seed: int, c
         with stages() as progress:
             return sharded.verify(sample=sample, seed=seed, client=client, progress=progress)
     given = load(answer)
-    if not isinstance(given, Motions | Separated | Stuck):
+    if not isinstance(given, Motions | Proof):
         raise ValueError(f"{answer}: no path and no proof; give an answer of the folder")
     if given.whole is not None and given.whole.sha256 != sharded.scene_sha256:
         text = f"the answer is for the one of sha256 {given.whole.sha256[:12]}..., and this folder is of another"
@@ -149,7 +147,7 @@ class FolderPlanner:
 
     def plan(
         self, start: Pose, goal: Pose, *, clearance: Any, improve: float | None, objective: Any
-    ) -> Motions | Separated | Stuck:
+    ) -> Motions | Proof:
         if clearance is not None:
             raise ValueError("--clearance: not in a folder; give the scene itself")
         answer = self.sharded.plan(start, goal, improve=improve, objective=objective, preferences=self.preferences)

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from cfree.paths.path import Path
     from cfree.paths.timing import Timed
     from cfree.planning.goals import AllSeparated
-    from cfree.planning.separation import Separated
-    from cfree.planning.stuck import Stuck
+    from cfree.planning.proof import Proof
     from cfree.scene.scene import Scene
     from cfree.verify import Verification
 
+ENDS_OF_BOXES = {"start": "from the start", "goal": "back in time from the goal"}
 COUNTS = ("polygons", "vertices", "convex", "reflex", "holes", "pieces")
 
 
@@ -104,12 +104,13 @@ def boundary_facts(boundary: Boundary) -> dict[str, Any]:
     return asdict(boundary.stats) | {"isolated": len(boundary.isolated)}
 
 
-def answer_rows(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
+def answer_rows(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
     """Describe an answer in words and numbers."""
     from cfree.paths.clearance import clearance, rounded_down
     from cfree.paths.path import Path
     from cfree.planning.separation import Separated
     from cfree.planning.stuck import Stuck
+    from cfree.planning.unreachable import Unreachable
 
     unit = f" {scene.units}" if scene.units else ""
     if not isinstance(answer, Path):
@@ -118,6 +119,13 @@ def answer_rows(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -
                 "answer": answer_text(answer, scene),
                 "poses along contacts": f"{len(answer.rail):,}",
                 "touched obstacles": all_placed(scene, answer.obstacles),
+            }
+        if isinstance(answer, Unreachable):
+            grid = answer.grid
+            return {
+                "answer": answer_text(answer, scene),
+                "boxes": f"{answer.count:,} of {grid.count:,} hold what it reaches {ENDS_OF_BOXES[answer.at]}",
+                "size of a box": f"{float(grid.side):.3g}{unit}, {math.degrees(grid.turn):.3g} degrees",
             }
         if not isinstance(answer, Separated):
             return {
@@ -156,15 +164,18 @@ def answer_rows(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -
     return rows
 
 
-def answer_text(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -> str:
+def answer_text(answer: Path | Proof | AllSeparated, scene: Scene) -> str:
     """Return the statement of an answer."""
     from cfree.paths.path import Path
     from cfree.planning.separation import Separated
     from cfree.planning.stuck import Stuck
+    from cfree.planning.unreachable import Unreachable
     from cfree.vehicles.vehicle import described
 
     if isinstance(answer, Stuck):
         return f"stuck, proved: {answer.sentence()}"
+    if isinstance(answer, Unreachable):
+        return f"unreachable, proved: {answer.sentence()}"
     keeping = f"{float(answer.clearance):g}{f' {scene.units}' if scene.units else ''}" if answer.clearance else ""
     if isinstance(answer, Path):
         drives = f", which {described(answer.vehicle)} can drive" if answer.vehicle else ""
@@ -179,12 +190,13 @@ def answer_text(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -
     return verdict if isinstance(answer, Separated) else f"to none of the goals: {verdict}"
 
 
-def answer_facts(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) -> dict[str, Any]:
+def answer_facts(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, Any]:
     """Describe an answer by numbers, for machines: lengths in the scene's unit, angles in radians."""
     from cfree.paths.clearance import clearance
     from cfree.paths.path import Path
     from cfree.planning.goals import AllSeparated
     from cfree.planning.stuck import Stuck
+    from cfree.planning.unreachable import Unreachable
 
     numbers: dict[str, Any]
     if isinstance(answer, AllSeparated):
@@ -193,6 +205,15 @@ def answer_facts(answer: Path | Separated | Stuck | AllSeparated, scene: Scene) 
     if isinstance(answer, Stuck):
         numbers = {"answer": "stuck", "at": answer.at, "of": answer.of, "poses": len(answer.rail)}
         return numbers | {"obstacles": list(answer.obstacles)}
+    if isinstance(answer, Unreachable):
+        grid = answer.grid
+        return {
+            "answer": "unreachable",
+            "at": answer.at,
+            "boxes": answer.count,
+            "side": float(grid.side),
+            "turn": grid.turn,
+        }
     if not isinstance(answer, Path):
         facts: dict[str, Any] = {"of": answer.of, "pieces": len(answer.pieces)}
         facts |= {"asked clearance": float(answer.clearance)} if answer.clearance else {}
@@ -276,18 +297,18 @@ def drive_facts(drive: Timed, scene: Scene) -> dict[str, Any]:
     return {"drive": facts}
 
 
-def moved_rows(answer: Path | Separated | Stuck | AllSeparated) -> dict[str, str]:
+def moved_rows(answer: Path | Proof | AllSeparated) -> dict[str, str]:
     """Describe moves of start and goals, in words."""
     return {f"{name} moved": f"from {text_of(asked)} to {text_of(end)}" for name, asked, end in _moves(answer)}
 
 
-def moved_facts(answer: Path | Separated | Stuck | AllSeparated) -> dict[str, Any]:
+def moved_facts(answer: Path | Proof | AllSeparated) -> dict[str, Any]:
     """Describe moves of start and goals by numbers: x, y and radians; a place has x and y alone."""
     moves = {name: {"from": _row(asked), "to": _row(end)} for name, asked, end in _moves(answer)}
     return {"moved": moves} if moves else {}
 
 
-def _moves(answer: Path | Separated | Stuck | AllSeparated) -> list[tuple[str, Goal, Goal]]:
+def _moves(answer: Path | Proof | AllSeparated) -> list[tuple[str, Goal, Goal]]:
     from cfree.planning.goals import AllSeparated
 
     if isinstance(answer, AllSeparated):

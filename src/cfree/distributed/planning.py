@@ -18,8 +18,7 @@ from cfree.distributed.tiles import BoxIndex
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 from cfree.scene.digest import Whole
 from cfree.scene.scene import Scene
 
@@ -77,7 +76,7 @@ class Surroundings:
         return True
 
 
-def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Separated | Stuck:
+def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Proof:
     """Path or proof, whose scene has the obstacles that it is about; `wishes` are options of `cfree.plan`."""
     for end in (start, goal):
         known.add_around(Path(end, []), MARGIN * known.work.store.radius)
@@ -85,7 +84,7 @@ def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> P
         margin = MARGIN * known.work.store.radius
         while True:
             answer = plan(known.scene, start, goal, **wishes | wish)
-            if isinstance(answer, Separated | Stuck):  # further obstacles do not change that
+            if isinstance(answer, Proof):  # further obstacles do not change that
                 return replace(answer, whole=known.whole)
             assert isinstance(answer, Path)
             if not known.add_around(answer, margin):

@@ -12,14 +12,13 @@ from cfree.distributed.planning import Surroundings, plan_among
 from cfree.distributed.tasks import Work, opened
 from cfree.exact.pose import Floats, Pose
 from cfree.paths.path import Path
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 
 Rows = Floats | list[Pose]
 """Poses x, y and theta in double precision, or exact ones."""
 
 
-def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str, Any]) -> Path | Separated | Stuck:
+def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str, Any]) -> Path | Proof:
     """Answer one query, as `Sharded.plan` does."""
     return plan_among(Surroundings(opened(folder, stamp)), start, goal, **wishes)
 

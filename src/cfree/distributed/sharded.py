@@ -27,8 +27,7 @@ from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
 from cfree.free.space import FORBIDDEN, NO_CELL
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 from cfree.scene.scene import Scene, required
 from cfree.value import Value
 from cfree.verify.result import Verification
@@ -164,7 +163,7 @@ class Sharded(Value):
         improve: float | None = None,
         objective: Objective = "balanced",
         preferences: Preferences | None = None,
-    ) -> Path | Separated | Stuck:
+    ) -> Path | Proof:
         """A path among all obstacles, each motion proved free, or a proof that there is none.
 
         Only tiles near the paths tried are read: `tiles_read` is their number.
@@ -178,7 +177,7 @@ class Sharded(Value):
 
         Returns
         -------
-        Path, Separated or Stuck
+        Path, Separated, Stuck or Unreachable
             Its `scene` has the obstacles that it is about, named by their numbers; `cfree.verify` can check it.
 
         Raises
@@ -201,7 +200,7 @@ class Sharded(Value):
         objective: Objective = "balanced",
         preferences: Preferences | None = None,
         client: Any = None,
-    ) -> list[Path | Separated | Stuck]:
+    ) -> list[Path | Proof]:
         """Answers to many queries, each as from `plan`, in their order.
 
         Parameters
@@ -314,7 +313,7 @@ class Sharded(Value):
         return known.scene
 
     @checked
-    def scene_for(self, answer: Path | Separated | Stuck) -> tuple[Scene, Path | Separated | Stuck]:
+    def scene_for(self, answer: Path | Proof) -> tuple[Scene, Path | Proof]:
         """Scene in which `cfree.verify.answer` checks an answer of this folder, and the answer in its numbers.
 
         A path is checked among all obstacles near it, a proof among those that it is about.

@@ -26,14 +26,16 @@ from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
 from cfree.paths.stops import Stops
 from cfree.planning.goals import AllSeparated
+from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
+from cfree.planning.unreachable import Unreachable
 from cfree.scene.scene import Scene
 
 
 @checked
 def save(
-    value: Scene | Boundary | FreeSpace | Path | Separated | Stuck | AllSeparated | Mesh | Slice,
+    value: Scene | Boundary | FreeSpace | Path | Proof | AllSeparated | Mesh | Slice,
     path: str | PathLike[str],
     *,
     step: float | None = None,
@@ -51,7 +53,7 @@ def save(
 
     Parameters
     ----------
-    value : Scene, Boundary, FreeSpace, Path, Separated, Stuck, AllSeparated, Mesh or Slice
+    value : Scene, Boundary, FreeSpace, Path, Separated, Stuck, Unreachable, AllSeparated, Mesh or Slice
     path : path
         The suffix gives the format. Scenes: ``.json``, ``.geojson``, ``.svg`` or ``.dxf``. Boundaries: ``.npz``, or
         ``.parquet`` for a table of trapezoids. Free spaces: ``.npz``. Meshes: ``.glb``, ``.ply``, ``.obj`` or
@@ -106,7 +108,7 @@ def save(
             save_boundary(value, path)
         case FreeSpace():
             save_space(value, path)
-        case Separated() | Stuck() | AllSeparated():
+        case Separated() | Stuck() | Unreachable() | AllSeparated():
             save_separation(value, path)
         case Mesh():
             save_mesh(value, path)
@@ -115,7 +117,7 @@ def save(
 
 
 @checked
-def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Separated | Stuck | AllSeparated:
+def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Proof | AllSeparated:
     """Read a scene, a boundary, a free space, a path or a separation; the file's content gives its kind.
 
     Raises

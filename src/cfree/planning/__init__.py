@@ -11,6 +11,7 @@ from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
     from cfree.planning.separation import Pieces as Pieces
+    from cfree.planning.unreachable import BoxGrid as BoxGrid
     from cfree.scene.goals import Moved as Moved
 
 __getattr__, __dir__, __all__ = lazy_names(
@@ -18,5 +19,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     {
         "moved_ends": "Moved",
         "separation": "Pieces",
+        "unreachable": "BoxGrid",
     },
 )

@@ -25,8 +25,10 @@ from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated, all_separated, cheapest, name_of, pose_in
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
+from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
+from cfree.planning.unreachable import Unreachable
 from cfree.polygons.disc import around_disc, inside_disc
 from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
@@ -107,7 +109,7 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
     scene, start, options, clearance = query.scene, query.start, query.options, query.options.clearance
     hi, disc, inside = math.inf, list[ExactPoint](), list[ExactPoint]()
 
-    def for_scene(path: Path | Separated | Stuck) -> Path | None:
+    def for_scene(path: Path | Proof) -> Path | None:
         """Convert to a path of the scene's robot; None if it has slides, which keep contacts of the larger robot."""
         if not isinstance(path, Path) or any(motion.contacts for motion in path.motions):
             return None
@@ -120,7 +122,7 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
             outer = PosePlanner(larger)
             ends = _ends(larger, start, goal) if is_free_at(PoseChecker(larger), start) else []
             ways = ([start] if start == end else outer.quick(start, end, options) for end in ends)
-            answers: list[Path | Separated | Stuck] = [outer.answered(way, options) for way in ways if way]
+            answers: list[Path | Proof] = [outer.answered(way, options) for way in ways if way]
             if paths := [path for path in map(for_scene, answers) if path]:
                 return cheapest(paths, larger, options.preferences)
             if proofs := _proofs(query, goal, inside, name):
@@ -135,9 +137,9 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
             error.path = for_scene(error.path)
         raise
     for held in answers:
-        if isinstance(held, Stuck):
+        if isinstance(held, Stuck | Unreachable):
             more = f"if it keeps a little more than {float(clearance):g}"
-            raise UndecidedError(f"{held.at}: {held.sentence()}, {more}; give another clearance")
+            raise UndecidedError(f"{held.said()}, {more}; give another clearance")
     smaller = _grown(scene, inside, scene.bounds)
     inner = PosePlanner(smaller)
     # the scene's bounds, not the wider ones of a proof

@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -34,21 +35,24 @@ from cfree.planning.goals import AllSeparated, cheapest, name_of, refuse_far, se
 from cfree.planning.options import Options
 from cfree.planning.planner import Planner, answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
-from cfree.planning.separation import Separated
+from cfree.planning.proof import Proof
+from cfree.planning.reach import Reach
 from cfree.planning.stuck import Stuck
 from cfree.planning.true_shapes import TruePlanner, TrueShapes
+from cfree.planning.unreachable import Unreachable
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
 from cfree.scene.scene import robot_radius
-from cfree.vehicles.vehicle import Vehicle
+from cfree.vehicles.vehicle import Car, Vehicle
 
-Answer = Path | Separated | Stuck | AllSeparated
+Answer = Path | Proof | AllSeparated
 Ask = Callable[[PosePlanner, Options], Answer]
 Decided = tuple[PosePlanner, Options]  # a planner for polygons that gave an answer, and its options
 POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
 SEARCHES = 2  # errors of polygons at which a path among the shapes themselves is searched
+COARSE = 2  # finenesses of boxes
 NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
 AMONG = ", among polygons around the round shapes"
 TOUCHING = "these touch, or all but do; give a smaller tolerance, or other shapes"
@@ -108,7 +112,7 @@ class CurvedPlanner:
         clearance: Number | None = None,
         improve: float | None = None,
         objective: Objective = "balanced",
-    ) -> Path | Separated | Stuck:
+    ) -> Path | Proof:
         """See `cfree.plan`."""
         begin, end = to_pose(start, "start"), to_pose(goal, "goal")
         options = self._settings._options(clearance, improve, objective)
@@ -140,7 +144,7 @@ class CurvedPlanner:
             return answer_for_any(planner, begin, ends, options)
 
         answer = self._answer(ask, (begin, *ends), options)
-        assert not isinstance(answer, Separated | Stuck)
+        assert not isinstance(answer, Proof)
         return answer
 
     def _answer(self, ask: Ask, ends: Sequence[Goal], options: Options) -> Answer:
@@ -279,6 +283,8 @@ class CurvedQuery:
             except ForbiddenPoseError as error:
                 raise _for_both(error, refused) from None
             within = inner if isinstance(inner, Path) and (true or refused is None) else None
+            if within is not None and len(ends) == 2 and (proof := self._excluded(within)) is not None:
+                return self._for_curves(proof)
             lo, hi = self._interval
             if self._is_limited and 0 < hi - lo <= NARROW * lo:
                 raise self._undecided("the clearance is too near to the largest; give another, or a tolerance")
@@ -323,12 +329,23 @@ class CurvedQuery:
         except IncompleteError:
             raise self._undecided(f"{seconds:g} seconds were not enough; give more") from None
         self.last = self._decided[outward] = planner, options
-        if isinstance(answer, Stuck):
-            self._reason = f"{answer.at}: {answer.sentence()}{AMONG}"
+        if isinstance(answer, Stuck | Unreachable):
+            self._reason = f"{answer.said()}{AMONG}"
             return None
         if isinstance(answer, AllSeparated) and answer.of == "pieces":
-            self._reason = f"contacts hold the vehicle{AMONG}"
+            what = "contacts" if any(isinstance(proof, Stuck) for proof in answer.proofs) else "boxes"
+            self._reason = f"{what} hold the vehicle{AMONG}"
         return answer
+
+    def _excluded(self, path: Path) -> Unreachable | None:
+        """Return a proof by boxes among inner polygons, for a car without reverse gear; a path of the robot is given."""
+        car = self.options.vehicle
+        if not isinstance(car, Car) or car.gears != "forward" or self.options.clearance:
+            return None
+        assert path.scene is not None
+        levels = islice(Reach(path.scene, car, path.start, path.goal).levels(), COARSE)
+        proofs = (level.proof for level in levels)
+        return next((proof for proof in proofs if proof is not None), None)
 
     def _undecided(self, reason: str) -> UndecidedError:
         error = self.near.reached

@@ -91,12 +91,12 @@ class Touching:
     def __init__(self, scene: Scene, vehicle: Vehicle, gears: tuple[Gear, ...] = (1, -1)) -> None:
         self.scene, self.vehicle, self.gears = scene, vehicle, gears
         self.back = vehicle.frame.inverse()
-        self.robot = [ring for part in scene.robot for ring in _pieces(part, self.back)]
+        self.robot = [ring for part in scene.robot for ring in convex_pieces(part, self.back)]
         (self.reference,) = self.back.apply_exact([(ZERO, ZERO)])
         self.reach = max(math.hypot(float(x), float(y)) for ring in self.robot for x, y in ring) * ROUNDING
 
     @cached_property
-    def _frame(self) -> Polygon | None:
+    def frame(self) -> Polygon | None:
         """A frame around the workspace: its complement, as far as the robot can be."""
         room = self.scene.workspace
         if room is None:
@@ -110,15 +110,15 @@ class Touching:
         """Yield the convex pieces of obstacles near the robot, with their obstacle's number, in the axle's frame."""
         x, y, reach = float(axle.x), float(axle.y), (self.reach + within) * ROUNDING
         shapes = list(enumerate(self.scene.obstacles))
-        if self._frame is not None:
-            shapes.append((WORKSPACE, self._frame))
+        if self.frame is not None:
+            shapes.append((WORKSPACE, self.frame))
             if self.scene.workspace is not None:
                 shapes += [(WORKSPACE, Polygon(hole)) for hole in self.scene.workspace.exact_rings[1:]]
         back = axle.inverse()
         for k, shape in shapes:
             x0, y0, x1, y1 = map(float, shape.bounds)
             if x0 <= x + reach and x - reach <= x1 and y0 <= y + reach and y - reach <= y1:
-                for ring in _pieces(shape, back):
+                for ring in convex_pieces(shape, back):
                     yield k, ring
 
     def pairs(self, pose: Pose) -> list[Pair] | None:
@@ -217,7 +217,8 @@ def _breaks(touch: Touch) -> Iterator[Fraction]:
             yield 1 / y
 
 
-def _pieces(shape: Polygon, pose: Pose) -> Iterator[Ring]:
+def convex_pieces(shape: Polygon, pose: Pose) -> Iterator[Ring]:
+    """Yield the convex pieces of a shape at a pose."""
     points = pose.apply_exact(shape.exact_vertices)
     for piece in shape.pieces:
         yield tuple(points[k] for k in piece)

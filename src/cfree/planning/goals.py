@@ -21,8 +21,8 @@ from cfree.exact.number import LARGEST, ExactPoint
 from cfree.exact.pose import Pose, pose_at
 from cfree.paths.path import Path
 from cfree.paths.preferences import Preferences
+from cfree.planning.proof import Proof
 from cfree.planning.separation import NO_TRUTH_VALUE, Separated
-from cfree.planning.stuck import Stuck
 from cfree.scene.digest import Stamp
 from cfree.scene.goals import Goal, to_goals
 from cfree.scene.scene import Scene
@@ -46,17 +46,17 @@ class AllSeparated(Shown, Answer):
 
     Parameters
     ----------
-    proofs : tuple of Separated or Stuck
+    proofs : tuple of Separated, Stuck or Unreachable
         All from one start: one for each goal that is a pose, and for each interval of free orientations at a place.
     places : tuple of (x, y)
         Goals at which any orientation will do.
     of : "closed", "interior" or "pieces"
         "closed": no path at all leads to any of them. "interior": no path that keeps a distance does. Then a proof is
         "interior", or an exact fit at a place is left out because its half-angle tangent is irrational. "pieces": no
-        path of finitely many lines and arcs of the vehicle leads to any of them, as contacts hold it.
+        path of finitely many lines and arcs of the vehicle leads to any of them, as contacts or boxes show.
     """
 
-    proofs: tuple[Separated | Stuck, ...]
+    proofs: tuple[Proof, ...]
     places: tuple[ExactPoint, ...]
     of: Literal["closed", "interior", "pieces"]
 
@@ -149,7 +149,7 @@ def plan_any(planner: PosePlanner, start: Pose, goals: Sequence[Goal], options: 
             poses |= dict.fromkeys(pose for pose in at_place if pose is not None)
             is_whole = is_whole and None not in at_place
 
-    paths, proofs, undecided = list[Path](), list[Separated | Stuck](), None
+    paths, proofs, undecided = list[Path](), list[Proof](), None
     left = list(poses)
     for few in (True, False):
         ways = {pose: planner.way(start, pose, options, few=few) for pose in left}
@@ -184,11 +184,11 @@ def cheapest(paths: Sequence[Path], scene: Scene, preferences: Preferences) -> P
     return min(paths, key=lambda path: preferences.cost(path, scene))
 
 
-def all_separated(proofs: Sequence[Separated | Stuck], goals: Sequence[Goal], *, is_whole: bool) -> AllSeparated:
+def all_separated(proofs: Sequence[Proof], goals: Sequence[Goal], *, is_whole: bool) -> AllSeparated:
     """Combine the proofs for all goals; `is_whole` is True if no orientation at a place is left out."""
     is_closed = is_whole and all(proof.of == "closed" for proof in proofs)
     places = tuple(dict.fromkeys(goal for goal in goals if not isinstance(goal, Pose)))
-    is_held = is_whole and all(isinstance(proof, Stuck) or proof.of == "closed" for proof in proofs)
+    is_held = is_whole and all(not isinstance(proof, Separated) or proof.of == "closed" for proof in proofs)
     return AllSeparated(tuple(proofs), places, "closed" if is_closed else "pieces" if is_held else "interior")
 
 

@@ -14,8 +14,7 @@ from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.planner import Planner
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 from cfree.scene.scene import Scene, vehicle_for
 from cfree.vehicles.vehicle import Vehicle
 
@@ -31,7 +30,7 @@ def plan_many(
     vehicle: Vehicle | Literal["any"] | None = None,
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
-) -> list[Path | Separated | Stuck]:
+) -> list[Path | Proof]:
     """Answer many planning queries in one scene.
 
     Parameters
@@ -52,7 +51,7 @@ def plan_many(
 
     Returns
     -------
-    list of Path, Separated or Stuck
+    list of Path, Separated, Stuck or Unreachable
         In the order of the queries, as from `plan` with the free space known.
 
     Raises
@@ -82,7 +81,7 @@ def plan_many(
     driver = vehicle_for(space.boundary.scene, vehicle)
     planner, answers = Planner(space.boundary.scene, space, preferences=preferences or NONE, vehicle=driver), []
 
-    def answer_to(number: int) -> Path | Separated | Stuck:
+    def answer_to(number: int) -> Path | Proof:
         try:
             return planner.plan(*todo[number], improve=improve, objective=objective)
         except InvalidPoseError as error:

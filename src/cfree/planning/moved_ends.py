@@ -14,8 +14,7 @@ from cfree.exact.pose import Pose, pose_at
 from cfree.free.turn_in_place import free_orientations
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated, name_of
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 from cfree.polygons.disc import around_disc
 from cfree.scene.dilation import grown_by
 from cfree.scene.goals import Goal, Moved, text_of
@@ -44,7 +43,7 @@ class Ends:
     requested_start: Pose | None
     requested_goals: tuple[Goal | None, ...]
 
-    def marked(self, answer: Path | Separated | Stuck | AllSeparated) -> Path | Separated | Stuck | AllSeparated:
+    def marked(self, answer: Path | Proof | AllSeparated) -> Path | Proof | AllSeparated:
         """Return the answer with the requested ends that were moved."""
         if isinstance(answer, AllSeparated):
             return replace(answer, proofs=tuple(replace(proof, moved=self._of(proof.goal)) for proof in answer.proofs))

@@ -18,8 +18,7 @@ from cfree.planning.moved_ends import free_ends
 from cfree.planning.options import Options, to_distance, to_seconds
 from cfree.planning.planner import answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 from cfree.scene.goals import Goal, to_goals
 from cfree.scene.scene import Scene, required, vehicle_for
 from cfree.vehicles.vehicle import Vehicle
@@ -40,7 +39,7 @@ def plan(
     tolerance: float | None = None,
     nearest_free: bool = False,
     vehicle: Vehicle | Literal["any"] | None = None,
-) -> Path | Separated | Stuck: ...
+) -> Path | Proof: ...
 @overload
 def plan(
     scene: Scene | FreeSpace,
@@ -56,7 +55,7 @@ def plan(
     tolerance: float | None = None,
     nearest_free: bool = False,
     vehicle: Vehicle | Literal["any"] | None = None,
-) -> Path | Separated | Stuck | AllSeparated: ...
+) -> Path | Proof | AllSeparated: ...
 @checked
 def plan(
     scene: Scene | FreeSpace,
@@ -72,7 +71,7 @@ def plan(
     tolerance: float | None = None,
     nearest_free: bool = False,
     vehicle: Vehicle | Literal["any"] | None = None,
-) -> Path | Separated | Stuck | AllSeparated:
+) -> Path | Proof | AllSeparated:
     """Plan a path from start to goal with every motion proved free, or prove that there is none.
 
     Parameters
@@ -109,7 +108,7 @@ def plan(
 
     Returns
     -------
-    Path, Separated, Stuck or AllSeparated
+    Path, Separated, Stuck, Unreachable or AllSeparated
         A path leads to the goal with the shortest path found. `AllSeparated` is for places and lists. `Stuck` is a
         proof that contacts at one end hold the vehicle.
 
@@ -169,7 +168,7 @@ def plan(
 
 def _answer(
     scene: Scene, space: FreeSpace | None, start: Pose, goals: Pose | tuple[Goal, ...], options: Options
-) -> Path | Separated | Stuck | AllSeparated:
+) -> Path | Proof | AllSeparated:
     """Answer a query for one pose, or for several goals, any of which will do."""
     ends = None
     if options.nearest_free:
@@ -177,7 +176,7 @@ def _answer(
         start, goals = ends.start, cast(Pose, ends.goals[0]) if isinstance(goals, Pose) else ends.goals
     refuse_far(start, goals)
 
-    def ask(planner: PosePlanner, options: Options) -> Path | Separated | Stuck | AllSeparated:
+    def ask(planner: PosePlanner, options: Options) -> Path | Proof | AllSeparated:
         if isinstance(goals, Pose):
             return answer_for_one(planner, start, goals, options)
         return answer_for_any(planner, start, goals, options)

@@ -21,8 +21,7 @@ from cfree.planning.clearance import plan_any_at_distance, plan_at_distance
 from cfree.planning.goals import AllSeparated, plan_any, refuse_far, several
 from cfree.planning.options import Options, to_distance, to_seconds
 from cfree.planning.pose_planner import PosePlanner
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
 from cfree.value import Value
@@ -97,7 +96,7 @@ class Planner(Value):
         clearance: Number | None = None,
         improve: float | None = None,
         objective: Objective = "balanced",
-    ) -> Path | Separated | Stuck:
+    ) -> Path | Proof:
         """See `cfree.plan`."""
         start = to_pose(start, "start")
         goal = to_pose(goal, "goal")
@@ -140,7 +139,7 @@ class Planner(Value):
         )
 
 
-def answer_for_one(planner: PosePlanner, start: Pose, goal: Pose, options: Options) -> Path | Separated | Stuck:
+def answer_for_one(planner: PosePlanner, start: Pose, goal: Pose, options: Options) -> Path | Proof:
     """Answer a query for one pose."""
     if options.clearance:
         return plan_at_distance(planner.scene, start, goal, options)

@@ -28,8 +28,10 @@ from cfree.planning.improving import Improver
 from cfree.planning.keep_clear import clear
 from cfree.planning.near_poles import near_poles
 from cfree.planning.options import Options
+from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated, known_scene
 from cfree.planning.stuck import Stuck
+from cfree.planning.unreachable import Unreachable
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Vehicle
@@ -76,7 +78,7 @@ class PosePlanner:
             self._space = built_space(self.scene, self.checker.features, *built)
         return self._space
 
-    def path_or_proof(self, start: Pose, goal: Pose, options: Options) -> Path | Separated | Stuck:
+    def path_or_proof(self, start: Pose, goal: Pose, options: Options) -> Path | Proof:
         """Return an improved path, or a proof; a clearance is not kept."""
         way = self.way(start, goal, options)
         assert way is not None, "the search was complete"
@@ -113,7 +115,7 @@ class PosePlanner:
         way = self._planner.quick(end_of(start), end_of(goal), options.caller())
         return None if way is None else [*map(from_numbers, way)]
 
-    def answered(self, way: Sequence[Pose], options: Options) -> Path | Stuck:
+    def answered(self, way: Sequence[Pose], options: Options) -> Path | Stuck | Unreachable:
         """Improve a path, given by its poses; a vehicle drives near it, or may be stuck at its ends."""
         return self.improved(way, options) if options.vehicle is None else self._driven(way, options.vehicle, options)
 
@@ -157,11 +159,11 @@ class PosePlanner:
         searcher = _core.Searcher(self._known, [end_of(pose)[1] for pose in poses], costs, axle)
         return Improver(self.scene, self.checker, searcher, options.preferences, options.stop)
 
-    def _driven(self, way: Sequence[Pose], vehicle: Vehicle, options: Options) -> Path | Stuck:
+    def _driven(self, way: Sequence[Pose], vehicle: Vehicle, options: Options) -> Path | Stuck | Unreachable:
         """Return a path of a vehicle between the ends of a path of the robot, or a proof that it is stuck."""
         with options.phase("driving"):
             drive = registered("drive_along")
-            answer: Path | Stuck = drive(self, self._known, vehicle, replace(options, vehicle=None), way)
+            answer: Path | Stuck | Unreachable = drive(self, self._known, vehicle, replace(options, vehicle=None), way)
         if answer.goal != way[-1]:
             raise InvariantError("a path of a vehicle ends elsewhere", state=answer)
         return answer

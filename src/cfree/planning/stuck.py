@@ -96,6 +96,10 @@ class Stuck(Shown, Answer):
         obstacles = listed([str(k) for k in self.obstacles], ", ")
         return f"Stuck(at={self.at!r}, of={self.of!r}, {counted(len(self.rail), 'pose')} touching ({obstacles}))"
 
+    def said(self) -> str:
+        """Return the sentence with the end that it is about."""
+        return f"{self.at}: {self.sentence()}"
+
     def sentence(self) -> str:
         """Write the proof in a sentence."""
         way = f"leave its {self.at}" if self.at == "start" else f"arrive at its {self.at}"

@@ -3,7 +3,8 @@
 In one cell of the free space every two poses that touch nothing are joined by a vehicle that reverses. So a path of the
 robot, moving in any direction, decides the question; halved often enough, its parts are driven by words that end
 exactly at their goal. Where start or goal touches something, its first motions decide; where the robot fits exactly,
-the motions along its contacts. docs/theory/vehicles.md has the proofs.
+the motions along its contacts. A car without reverse gear has a path if a search gives one, and none if boxes of poses
+that hold all it can reach do not hold the goal. docs/theory/vehicles.md has the proofs.
 """
 
 from __future__ import annotations
@@ -35,10 +36,12 @@ from cfree.planning.first_motions import Touching
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rails import Explored, Way, explore, reversed_way
+from cfree.planning.reach import Reach
 from cfree.planning.stuck import Stuck
+from cfree.planning.unreachable import Unreachable
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene
-from cfree.vehicles.vehicle import Vehicle, described
+from cfree.vehicles.vehicle import Car, Vehicle, described
 
 WORDS = 40_000  # most words tried to follow one path, for each share
 SHARES: dict[Objective, tuple[float, ...]] = {
@@ -53,7 +56,8 @@ IDLE = 400  # attempts without gain that end this
 BLOCK = 50  # attempts between two checks of the clock
 GUIDED = Preferences(sideways=10, turning=3)  # of a path that is easily driven
 GUESSES = 5000  # of a search for another path of the robot
-POSES, SEARCHES = 8000, 3  # of a search for a way without reverse gear
+IN_BOXES = 200_000  # motions looked at for a way without reverse gear, at each fineness of the boxes
+POSES, SEARCHES = 8000, 3  # of a search for one by two trees
 FEW_CUSPS = 1  # a path with no more needs no other guide
 ROOMS = (4, 6, 8, 12, 16, 20, 24)  # binary exponents of a clearance that keeps a path off contacts, in robot radii
 PLACES = (Fraction(0), Fraction(1, 3), Fraction(1, 2), Fraction(2, 3))  # on a motion, at which contacts are looked for
@@ -115,13 +119,13 @@ class Question:
 
 def drive_along(
     planner: PosePlanner, known: _core.KnownScene, vehicle: Vehicle, options: Options, way: Sequence[Pose]
-) -> Path | Stuck:
-    """Return a path of a vehicle between the ends of a path of the robot, or a proof that it is stuck; see `joined`."""
+) -> Path | Stuck | Unreachable:
+    """Return a path of a vehicle between the ends of a path of the robot, or a proof that there is none."""
     return joined(Question(planner, known, vehicle, options), way[0], way[-1], way)
 
 
-def joined(question: Question, start: Pose, goal: Pose, way: Sequence[Pose]) -> Path | Stuck:
-    """Return a path of the vehicle between two poses that a path of the robot joins; or a proof that it is stuck.
+def joined(question: Question, start: Pose, goal: Pose, way: Sequence[Pose]) -> Path | Stuck | Unreachable:
+    """Return a path of the vehicle between two poses that a path of the robot joins; or a proof that there is none.
 
     Raises
     ------
@@ -142,20 +146,26 @@ def joined(question: Question, start: Pose, goal: Pose, way: Sequence[Pose]) -> 
     ins = end.exits if isinstance(end, Explored) else (((), goal),)
     pairs = [(out, into) for out in outs for into in ins][:MOST_PAIRS]
     undecided: UndecidedError | None = None
+    reach = _reach(question, start, goal)
     for (before, first), (after, last) in pairs:
         its = way if not before and not after else question.planner.way(first, last, question.options)
         if not isinstance(its, list) or (roomy := _roomy(question, first, last, its)) is None:
             continue
         try:
-            middle = driven(question, roomy)
+            middle = driven(question, roomy, reach)
         except UndecidedError as error:  # another way out may have more room
             undecided = undecided or error
             continue
+        if isinstance(middle, Unreachable):
+            return middle
         if not before and not after:
             return middle
         return _checked(question, start, (*before, *middle.motions, *reversed_way(after)))
     if undecided is not None:
         raise undecided
+    for level in reach.levels() if reach is not None else ():
+        if level.proof is not None:
+            return level.proof
     if question.vehicle.gears == "both":
         links = _links(question, way)
         for (before, first), (after, last) in pairs:
@@ -163,6 +173,12 @@ def joined(question: Question, start: Pose, goal: Pose, way: Sequence[Pose]) -> 
                 return _checked(question, start, (*before, *through, *reversed_way(after)))
     what = described(question.vehicle)
     raise UndecidedError(f"the robot gets there only along contacts, and no way of {what} along them was found")
+
+
+def _reach(question: Question, start: Pose, goal: Pose) -> Reach | None:
+    """Return the boxes between two poses for a car without reverse gear."""
+    car = question.vehicle
+    return Reach(question.scene, car, start, goal) if isinstance(car, Car) and car.gears == "forward" else None
 
 
 def _ways_out(question: Question, pose: Pose, name: str, other: Pose) -> Explored | None:
@@ -284,7 +300,8 @@ def _drive(question: Question, start: Pose, goal: Pose) -> Way:
     """Return motions between poses of one cell that touch nothing."""
     way = [start] if start == goal else question.planner.way(start, goal, question.options)
     roomy = _roomy(question, start, goal, way) if isinstance(way, list) and len(way) > 1 else None
-    return driven(question, roomy).motions if roomy else ()
+    path = driven(question, roomy) if roomy else None
+    return path.motions if isinstance(path, Path) else ()
 
 
 def _checked(question: Question, start: Pose, motions: Way, poses: Sequence[Pose] | None = None) -> Path:
@@ -311,13 +328,16 @@ def _path_of(question: Question, start: Pose, motions: Sequence[Motion], vehicle
     return Path(start, motions, scene.units, frame_of(scene), scene=scene, vehicle=vehicle)
 
 
-def driven(question: Question, way: Sequence[Pose]) -> Path:
+def driven(question: Question, way: Sequence[Pose], reach: Reach | None = None) -> Path | Unreachable:
     """Return a path of the vehicle near a path of the robot, given by its poses, which touches nothing at its ends.
+
+    A car without reverse gear may have none: then `reach` is what the proof comes from.
 
     Raises
     ------
     UndecidedError
-        If the budget of words does not suffice: the path exists, and the error has an estimate of its manoeuvres.
+        If the budget of words does not suffice: the path exists, and the error has an estimate of its manoeuvres. Or if
+        neither a path nor a proof was found for a car without reverse gear.
     """
     improve, objective = question.options.improve, question.options.objective
     drives, guides, shortfalls = list[_core.Drive](), list[tuple[Sequence[Pose], float]](), list[tuple[float, int]]()
@@ -332,10 +352,11 @@ def driven(question: Question, way: Sequence[Pose]) -> Path:
         guides.append((guide, share))
         if improve == 0 or drive.cusps <= FEW_CUSPS:
             break
-    if not drives and question.vehicle.gears == "forward":
-        searches = (_driving(question, way, 0.0, "short").search_forward(seed, POSES) for seed in range(SEARCHES))
-        found = (drive for drive in searches if drive is not None)
-        drives += islice(found, 1) if improve == 0 else found
+    if not drives and reach is not None:
+        searched = _searched(question, way, reach)
+        if isinstance(searched, Unreachable):
+            return searched
+        drives.append(searched)
     if not drives:
         raise _too_many(question, way, max(shortfalls))
     if improve == 0:
@@ -362,6 +383,35 @@ def driven(question: Question, way: Sequence[Pose]) -> Path:
     is_simple = max(drive.cusps for drive in drives) == 0
     others = iter(()) if is_simple else further()
     return _path(question, min(_shortened(question, drives, others, begin, end), key=_cost))
+
+
+def _searched(question: Question, way: Sequence[Pose], reach: Reach) -> _core.Drive | Unreachable:
+    """Return a way of a car without reverse gear, by searches in finer and finer boxes, then by two trees; or a proof.
+
+    Raises
+    ------
+    UndecidedError
+        If none of them gives one, with what the boxes leave open.
+    """
+    driving = _driving(question, way, 0.0, "short")
+    grid = None
+    for level in reach.levels():
+        if level.proof is not None:
+            return level.proof
+        if (drive := driving.search_in_boxes(level.back, IN_BOXES)) is not None:
+            return drive
+        grid = level.grid
+    for seed in range(SEARCHES):
+        if (drive := driving.search_forward(seed, POSES)) is not None:
+            return drive
+    assert grid is not None, "there are boxes"
+    margin = reach.margin(grid)
+    raise UndecidedError(
+        f"no path of {described(question.vehicle)} was found, and none is excluded: boxes with sides of "
+        f"{float(grid.side):.3g}, in which a robot smaller by up to {margin:.3g} counts, may lead to the goal; with a "
+        "reverse gear there is a path: give gears='both', and a high cost of going backward instead",
+        margin=margin,
+    )
 
 
 def _shortened(
@@ -455,11 +505,6 @@ def _path(question: Question, drive: _core.Drive) -> Path:
 def _too_many(question: Question, way: Sequence[Pose], reached: tuple[float, int]) -> UndecidedError:
     share, motions = reached
     vehicle = described(question.vehicle)
-    if question.vehicle.gears == "forward":
-        return UndecidedError(
-            f"no path of {vehicle} was found; with a reverse gear there is one: give gears='both', and a high cost "
-            "of going backward instead"
-        )
     needed = max(1, round(motions / share)) if share > 0 else 0
     about = f"about {needed:,}" if needed else "too many"
     proof = _path_of(question, way[0], [joining(a, b) for a, b in pairwise(way) if a != b])

@@ -21,8 +21,10 @@ from cfree.palette import BARRIER, EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, GREY, HELI
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.goals import AllSeparated
+from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
+from cfree.planning.unreachable import Unreachable
 from cfree.plot.boundary import (
     around,
     new_figure,
@@ -104,7 +106,7 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
 
 @checked
 def picture(
-    answer: Path | Separated | Stuck | AllSeparated | Scene | Shapes,
+    answer: Path | Proof | AllSeparated | Scene | Shapes,
     scene: Scene | None = None,
     boundary: Boundary | None = None,
     *,
@@ -114,8 +116,8 @@ def picture(
 
     Parameters
     ----------
-    answer : Path, Separated, Stuck, AllSeparated, Scene or Shapes
-        The first of several proofs is drawn; of a vehicle that is stuck, the scene with its start and goal. A scene is
+    answer : Path, Separated, Stuck, Unreachable, AllSeparated, Scene or Shapes
+        The first of several proofs is drawn; of a vehicle alone, the scene with its start and goal. A scene is
         drawn as by `plot_workspace`, round shapes with many edges.
         Over a scene or shapes the record of reading is drawn: lost lines red, guessed outlines hatched in orange,
         joined gaps as dots.
@@ -162,7 +164,7 @@ def picture(
         return drawn
     if isinstance(answer, AllSeparated):
         answer = answer.proofs[0]
-    if isinstance(answer, Stuck):
+    if isinstance(answer, Stuck | Unreachable):
         return picture(with_ends(_scene_of(answer, scene), answer.start, answer.goal))
     scene = of_polygons(answer, _scene_of(answer, scene))
     if isinstance(answer, Separated):
@@ -176,7 +178,7 @@ def picture(
     return figure
 
 
-def _scene_of(answer: Path | Separated | Stuck, scene: Scene | None) -> Scene:
+def _scene_of(answer: Path | Proof, scene: Scene | None) -> Scene:
     scene = scene or answer.curved or answer.scene
     if scene is None:
         raise ValueError("scene: the answer knows none, as it was read from a file; give the one it is an answer for")

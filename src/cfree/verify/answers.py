@@ -15,8 +15,10 @@ from cfree.exact.pose import Pose
 from cfree.formats.answers.answer_file import read_answer
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
+from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
+from cfree.planning.unreachable import Unreachable
 from cfree.scene.digest import Stamp, Whole, stamp_of
 from cfree.scene.goals import Moved, text_of, text_of_move
 from cfree.scene.reading import Note, together
@@ -25,6 +27,7 @@ from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.vehicles.vehicle import described
 from cfree.verify.arc_motions import ArcWorld
 from cfree.verify.arcs import is_of_arcs
+from cfree.verify.boxes import REACH, box_findings
 from cfree.verify.curves import mismatches
 from cfree.verify.driving import DRIVABLE, driving_findings
 from cfree.verify.leeway import is_around_disc, roomier, turning, with_disc
@@ -62,7 +65,7 @@ NO_ROOM = {
 @checked
 def answer(
     scene: Scene,
-    answer: Path | Separated | Stuck | AllSeparated | str | os.PathLike[str],
+    answer: Path | Proof | AllSeparated | str | os.PathLike[str],
     *,
     progress: Callable[[float], object] | None = None,
 ) -> Verification:
@@ -72,7 +75,7 @@ def answer(
     ----------
     scene : Scene
         If it has a start and a goal, these must be the answer's.
-    answer : Path, Separated, Stuck, AllSeparated or path
+    answer : Path, Separated, Stuck, Unreachable, AllSeparated or path
         A file written by `cfree.save`, or an answer in memory (its scene is then not compared).
     progress : callable, optional
         Function called with the share done, from 0 to 1.
@@ -150,6 +153,8 @@ def answer(
         there = world if whole is None else World(part)
         if isinstance(outcome, Stuck):
             findings += stuck_findings(outcome, there)
+        elif isinstance(outcome, Unreachable):
+            findings += box_findings(outcome, there, report)
         else:
             findings += separation_findings(outcome, there, report)
     report(1.0)
@@ -188,12 +193,12 @@ def _with_clearance(world: World | ArcWorld, path: Path) -> World | ArcWorld | N
     return with_disc(world, path.disc) if is_around_disc(path.disc, path.clearance) else None
 
 
-def _record(scene: Scene, outcome: Path | Separated | Stuck | AllSeparated) -> tuple[Note, ...]:
+def _record(scene: Scene, outcome: Path | Proof | AllSeparated) -> tuple[Note, ...]:
     """Return the records of reading of the scene and of the answer's file."""
     return together(scene.reading, outcome.stamp.reading if outcome.stamp else ())
 
 
-def _claim(outcome: Path | Separated | Stuck | AllSeparated) -> Claim:
+def _claim(outcome: Path | Proof | AllSeparated) -> Claim:
     return "path" if isinstance(outcome, Path) else "no path"
 
 
@@ -261,7 +266,7 @@ def _since(begin: float) -> float:
     return time.perf_counter() - begin
 
 
-def _other_poses(scene: Scene, outcome: Path | Separated | Stuck) -> list[Finding]:
+def _other_poses(scene: Scene, outcome: Path | Proof) -> list[Finding]:
     """Findings for a start and a goal that are not the scene's, or were moved from there."""
     requested = outcome.moved or Moved()
     pairs = {"start": (scene.start, outcome.start, requested.start), "goal": (scene.goal, outcome.goal, requested.goal)}
@@ -277,7 +282,7 @@ def _other_poses(scene: Scene, outcome: Path | Separated | Stuck) -> list[Findin
     return findings
 
 
-def _of_moved(outcome: Path | Separated | Stuck) -> dict[str, str]:
+def _of_moved(outcome: Path | Proof) -> dict[str, str]:
     """Moves of start and goal, in words."""
     requested = outcome.moved or Moved()
     pairs = (("start", requested.start, outcome.start), ("goal", requested.goal, outcome.goal))
@@ -292,7 +297,7 @@ def _has_room(world: World, place: ExactPoint) -> bool:
     return x0 <= place[0] <= x1 and y0 <= place[1] <= y1 and left_out(world, place, []) != (0, 0)
 
 
-def _is_left(outcome: Path | Separated | Stuck) -> bool:
+def _is_left(outcome: Path | Proof) -> bool:
     """True if it is not checked that the requested pose of a moved end is forbidden."""
     return (
         bool(outcome.clearance)
@@ -301,7 +306,7 @@ def _is_left(outcome: Path | Separated | Stuck) -> bool:
     )
 
 
-def _needless(outcome: Path | Separated | Stuck, world: World | ArcWorld) -> list[Finding]:
+def _needless(outcome: Path | Proof, world: World | ArcWorld) -> list[Finding]:
     """Findings for ends that were moved although their poses are free."""
     requested, findings = outcome.moved or Moved(), list[Finding]()
     for name, end in (("start", requested.start), ("goal", requested.goal)):
@@ -316,7 +321,7 @@ def _needless(outcome: Path | Separated | Stuck, world: World | ArcWorld) -> lis
     return findings
 
 
-def other_scene(scene: Scene, outcome: Path | Separated | Stuck | AllSeparated) -> Finding | None:
+def other_scene(scene: Scene, outcome: Path | Proof | AllSeparated) -> Finding | None:
     """Return a finding if an answer is for another scene than this one, and not for a part of it."""
     if whole_of(scene, outcome) is not None or (its := outcome.stamp) is None or its == (stamp := stamp_of(scene)):
         return None
@@ -330,14 +335,14 @@ def _box(stamp: Stamp) -> str:
     return f"[{', '.join(map(str, stamp.robot))}]"
 
 
-def _of_scene(outcome: Path | Separated | Stuck | None, whole: Whole | None, count: int) -> dict[str, str]:
+def _of_scene(outcome: Path | Proof | None, whole: Whole | None, count: int) -> dict[str, str]:
     """Statement about the scene, if a file names its scene or an answer is about some of the obstacles."""
     if whole is not None:
         return {SCENE: f"the answer is about {len(whole.obstacles):,} of its {count:,} obstacles, and true among all"}
     return {SCENE: "the one that the answer is for"} if outcome is not None and outcome.stamp else {}
 
 
-def _of_curves(scene: Scene, its: Scene, outcome: Path | Separated | Stuck) -> dict[str, str]:
+def _of_curves(scene: Scene, its: Scene, outcome: Path | Proof) -> dict[str, str]:
     count, polygons = round_count(shapes_of(scene)), round_count(shapes_of(scene)) - round_count(shapes_of(its))
     exactly = f"{round_count(shapes_of(its)):,}: lines and circular arcs, exactly"
     if not polygons:
@@ -363,11 +368,15 @@ def _of_decimals(read: Read | None) -> dict[str, str]:
     return {DECIMALS: f"also free as doubles: the path keeps {room:.3g}, four times their error"}
 
 
-def _of_kind(outcome: Path | Separated | Stuck) -> dict[str, str]:
+def _of_kind(outcome: Path | Proof) -> dict[str, str]:
     if isinstance(outcome, Path):
         return _of_path(outcome)
     if isinstance(outcome, Stuck):
         return {HELD: f"{counted(len(outcome.rail), 'pose')}: no first motion of the vehicle leaves its contacts"}
+    if isinstance(outcome, Unreachable):
+        where = "in them, or where the robot overlaps something"
+        other = "goal" if outcome.at == "start" else "start"
+        return {REACH: f"{outcome.count:,}: a step of travel from each ends {where}; the {other} is in none"}
     return _of_separation(outcome)
 
 
@@ -398,7 +407,7 @@ def _of_separation(proof: Separated) -> dict[str, str]:
     }
 
 
-def _sentence(outcome: Path | Separated | Stuck, read: Read | None) -> str:
+def _sentence(outcome: Path | Proof, read: Read | None) -> str:
     requested, far = outcome.moved or Moved(), f"{float(outcome.clearance):g} from obstacles and workspace"
     ends = text_of_move(requested.start, outcome.start), text_of_move(requested.goal, outcome.goal)
     if isinstance(outcome, Path):
@@ -410,6 +419,8 @@ def _sentence(outcome: Path | Separated | Stuck, read: Read | None) -> str:
     if isinstance(outcome, Stuck):
         sentence = outcome.sentence()
         return f"From {ends[0]} to {ends[1]}: {sentence}."
+    if isinstance(outcome, Unreachable):
+        return f"No path of {described(outcome.vehicle)} leads from {ends[0]} to {ends[1]}."
     return _none_leads(outcome, f"leads from {ends[0]} to {ends[1]}")
 
 

@@ -31,8 +31,7 @@ if TYPE_CHECKING:
     from cfree.collision.motion import Motion
     from cfree.exact.pose import Pose
     from cfree.paths.path import Path
-    from cfree.planning.separation import Separated
-    from cfree.planning.stuck import Stuck
+    from cfree.planning.proof import Proof
     from cfree.verify.world import World
 
     AnyWorld = World | ArcWorld
@@ -88,7 +87,7 @@ def _course_in(there: AnyWorld, placed: Placed, motion: Motion, world: AnyWorld)
     return Course((factor * x, factor * y, c, s), motion, there.scale)
 
 
-def end_findings(answer: Path | Separated | Stuck, world: AnyWorld) -> Iterator[Finding]:
+def end_findings(answer: Path | Proof, world: AnyWorld) -> Iterator[Finding]:
     """Findings for a forbidden start and goal."""
     for name, pose in (("start", answer.start), ("goal", answer.goal)):
         if (fault := fault_at(pose, world)) is not None:

@@ -12,19 +12,18 @@ from dataclasses import replace
 from cfree.collision.slide import Slide, Touch
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 from cfree.scene.digest import Whole, stamp_of
 from cfree.scene.scene import Scene
 
 
-def whole_of(scene: Scene, answer: Path | Separated | Stuck | AllSeparated) -> Whole | None:
+def whole_of(scene: Scene, answer: Path | Proof | AllSeparated) -> Whole | None:
     """The answer's record of the whole scene, if this scene is that one."""
     whole = None if isinstance(answer, AllSeparated) else answer.whole
     return whole if whole is not None and whole.sha256 == stamp_of(scene).sha256 else None
 
 
-def part_of(scene: Scene, answer: Path | Separated | Stuck, whole: Whole) -> Scene | None:
+def part_of(scene: Scene, answer: Path | Proof, whole: Whole) -> Scene | None:
     """Scene with the obstacles that an answer is about; None if its scene is another one."""
     if whole.obstacles and not whole.obstacles[-1] < len(scene.obstacles):
         return None

@@ -23,8 +23,10 @@ from cfree.palette import paler
 from cfree.paths.path import Path
 from cfree.paths.travel import Travel, ghosts
 from cfree.planning.goals import AllSeparated
+from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
+from cfree.planning.unreachable import Unreachable
 from cfree.plot.labels import BODY, CORNERS, LINE, MAY, WALL
 from cfree.plot.looks import EDGES, smooth
 from cfree.plot.workspace import roomiest
@@ -59,7 +61,7 @@ def picture(value: object) -> str | None:
             return _workspace(smooth(value), [value.start], [value.goal, *value.goals], (), repr(value))
         case Path():
             return _path(value)
-        case Separated() | Stuck() | AllSeparated():
+        case Separated() | Stuck() | Unreachable() | AllSeparated():
             return _apart(value)
         case Slice():
             panel = _plane(value.boundary.scene, WIDTH, HEIGHT)
@@ -191,7 +193,7 @@ def _path(path: Path) -> str:
     return _workspace(scene, [path.start], [path.goal], (), caption, rows)
 
 
-def _apart(proof: Separated | Stuck | AllSeparated) -> str | None:
+def _apart(proof: Proof | AllSeparated) -> str | None:
     if proof.scene is None:
         return None
     proofs = proof.proofs if isinstance(proof, AllSeparated) else (proof,)

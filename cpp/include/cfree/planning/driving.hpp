@@ -30,6 +30,8 @@ public:
     Followed follow(long long most);
     // The words of a vehicle without reverse gear, if a search with so many poses finds some.
     std::optional<Legs> search_forward(std::uint64_t seed, int poses);
+    // The same, within boxes from which the goal may be reached.
+    std::optional<Legs> search_in_boxes(const Boxes& boxes, int poses);
     Shortening shortening(Legs legs, std::uint64_t seed) const { return {driver, std::move(legs), seed}; }
     // Robot poses at the joints of all words.
     Poses poses(const Legs& legs) const;

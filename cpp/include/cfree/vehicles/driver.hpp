@@ -6,6 +6,7 @@
 #include "cfree/search/motion_guess.hpp"
 #include "cfree/search/random.hpp"
 #include "cfree/search/way.hpp"
+#include "cfree/vehicles/boxes.hpp"
 #include "cfree/vehicles/exact_word.hpp"
 
 namespace cfree {
@@ -97,6 +98,10 @@ Followed follow(Driver& driver, const Marked& path, long long most);
 // Words of a vehicle without reverse gear, by two trees of poses in doubles, from the start and to the goal; half of the
 // poses are near the path. The chain is made exact when the trees meet. Nothing if they do not.
 std::optional<Legs> search_forward(Driver& driver, const Marked& path, const Area& area, std::uint64_t seed, int poses);
+
+// Words of a tree of poses from the start, with at most one in each box from which the goal may be reached, those of fewest
+// steps first. The boxes are of the way back from the goal, in the user's units; each has `unit` of the driver's.
+std::optional<Legs> search_in_boxes(Driver& driver, const Marked& path, const Boxes& boxes, double unit, int poses);
 
 // Shorter words between the same ends.
 class Shortening {

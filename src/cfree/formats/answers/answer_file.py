@@ -14,8 +14,7 @@ from cfree.paths.leeway import keeps_leeway
 from cfree.paths.path import Path
 from cfree.paths.stops import Stops
 from cfree.planning.goals import AllSeparated
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 from cfree.scene.digest import Stamp, stamp_for, stamp_of
 from cfree.scene.scene import Scene, robot_radius
 
@@ -32,7 +31,7 @@ ANY = ("", ".txt")  # suffixes that fit every form
 
 
 @checked
-def load_answer(path: str | PathLike[str]) -> Path | Separated | Stuck | AllSeparated:
+def load_answer(path: str | PathLike[str]) -> Path | Proof | AllSeparated:
     """Read a path or a separation, or several separations, from a JSON file.
 
     Raises
@@ -256,7 +255,7 @@ def usual_step(path: Path, scene: Scene | None) -> float:
     return path.length / PARTS_OF_LENGTH or 1.0
 
 
-def text_of_proof(proof: Separated | Stuck | AllSeparated, file: object) -> str:
+def text_of_proof(proof: Proof | AllSeparated, file: object) -> str:
     """Return the text that `save_separation` writes."""
     from cfree.formats.answers.separation_text import all_separated_text, proof_text
 
@@ -264,14 +263,14 @@ def text_of_proof(proof: Separated | Stuck | AllSeparated, file: object) -> str:
     return all_separated_text(proof, stamp) if isinstance(proof, AllSeparated) else proof_text(proof, stamp)
 
 
-def _stamp(file: object, answer: Path | Separated | Stuck | AllSeparated, scene: Scene | None) -> Stamp:
+def _stamp(file: object, answer: Path | Proof | AllSeparated, scene: Scene | None) -> Stamp:
     """Return the stamp of the answer's scene: the one with round shapes, if there is one."""
     if answer.curved is None and answer.scene is not None and answer.stamp is not None:
         return answer.stamp
     return stamp_for(file, answer.curved or scene, answer.stamp)
 
 
-def save_separation(proof: Separated | Stuck | AllSeparated, file: str | PathLike[str]) -> None:
+def save_separation(proof: Proof | AllSeparated, file: str | PathLike[str]) -> None:
     """Write a separation, or several, to a ``.json`` file, exactly, whole or not at all.
 
     Raises

@@ -16,17 +16,18 @@ from cfree.formats.answers.answer_rules import Faults, completed, effect_faults,
 from cfree.formats.answers.path_format import PathModel
 from cfree.formats.answers.separation_format import AllSeparatedModel, SeparationModel
 from cfree.formats.answers.stuck_format import StuckModel
+from cfree.formats.answers.unreachable_format import UnreachableModel
 from cfree.formats.scenes.scene_format import report
 from cfree.formats.text.findings import Findings, InvalidFileError, whole
 from cfree.formats.text.json_positions import Path as Place
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
-from cfree.planning.separation import Separated
-from cfree.planning.stuck import Stuck
+from cfree.planning.proof import Proof
 
-Model = PathModel | SeparationModel | StuckModel | AllSeparatedModel
+Model = PathModel | SeparationModel | StuckModel | UnreachableModel | AllSeparatedModel
 _MODELS: dict[str, type[Model]] = {
-    "path": PathModel, "separated": SeparationModel, "stuck": StuckModel, "all separated": AllSeparatedModel
+    "path": PathModel, "separated": SeparationModel, "stuck": StuckModel, "unreachable": UnreachableModel,
+    "all separated": AllSeparatedModel,
 }  # fmt: skip
 
 
@@ -36,14 +37,14 @@ class Read:
 
     Attributes
     ----------
-    answer : Path, Separated, Stuck or AllSeparated
+    answer : Path, Separated, Stuck, Unreachable or AllSeparated
     decimals : "free", "approximate" or None
         The claim about decimals beside exact numbers; None if there are only decimals.
     leeway : Fraction or None
         The clearance of the exact path that makes the path of the decimals free; None if none is enough.
     """
 
-    answer: Path | Separated | Stuck | AllSeparated
+    answer: Path | Proof | AllSeparated
     decimals: str | None = None
     leeway: Fraction | None = None
 
@@ -56,7 +57,7 @@ def answer_from_json(findings: Findings, data: Any) -> Read:
     if not isinstance(kind, str) or kind not in _MODELS:
         named = isinstance(data, dict) and "answer" in data
         fault = 'no answer: "answer" is missing'
-        fault = 'expected "path", "separated", "stuck" or "all separated", got {got}' if named else fault
+        fault = 'expected "path", "separated", "stuck", "unreachable" or "all separated", got {got}' if named else fault
         findings.under(("answer",) if named else (), f"{fault}; give a file that `save` of a path or a proof wrote")
         findings.fail_if_any()
     kind_of_model = _MODELS[str(kind)]
@@ -68,7 +69,7 @@ def answer_from_json(findings: Findings, data: Any) -> Read:
             if path[:1] in (("motions",), ("proofs",)) and len(path) > 2:
                 path = (*path[:2], *path[3:])  # without the tag of the union
             if item["type"].startswith("union_tag") and path[:1] == ("proofs",):
-                findings.under(path, 'expected a proof with "answer": "separated" or "stuck", got {got}')
+                findings.under(path, 'expected a proof with "answer": "separated", "stuck" or "unreachable", got {got}')
             elif item["type"].startswith("union_tag"):
                 kinds = '"translation", "rotation" or "slide"'
                 findings.under(path, f'expected a motion with "type": {kinds}, got {{got}}')
@@ -91,7 +92,7 @@ def answer_from_json(findings: Findings, data: Any) -> Read:
 def _faults(model: Model, data: Any) -> Faults:
     if isinstance(model, PathModel):
         yield from path_faults(model, data)
-    elif isinstance(model, SeparationModel | StuckModel):
+    elif isinstance(model, SeparationModel | StuckModel | UnreachableModel):
         yield from effect_faults(model, Path(model.ends[0], ()), data)
     else:
         for k, proof in enumerate(model.proofs):

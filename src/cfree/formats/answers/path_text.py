@@ -24,8 +24,7 @@ from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from cfree.planning.separation import Separated
-    from cfree.planning.stuck import Stuck
+    from cfree.planning.proof import Proof
 
 
 def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> str:
@@ -53,7 +52,7 @@ def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> st
     return "{" + ",\n ".join(members) + "}\n"
 
 
-def answer_head(kind: str, answer: Path | Separated | Stuck, stamp: Stamp, decimals: Written) -> dict[str, Any]:
+def answer_head(kind: str, answer: Path | Proof, stamp: Stamp, decimals: Written) -> dict[str, Any]:
     """Return the members with which every answer begins."""
     return {
         "version": 1,
@@ -81,7 +80,7 @@ def _asked(moved: Moved) -> dict[str, Any]:
     return {name: exact_pose(end) if isinstance(end, Pose) else _exactly(end) for name, end in ends.items() if end}
 
 
-def has_polygons(answer: Path | Separated | Stuck) -> bool:
+def has_polygons(answer: Path | Proof) -> bool:
     """True if the answer's scene has polygons in place of the round shapes of the scene it answers."""
     return answer.curved is not None or (answer.scene is not None and answer.stamp is not None)
 

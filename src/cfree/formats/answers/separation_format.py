@@ -17,6 +17,7 @@ from cfree.formats.answers.contact_format import ContactModel
 from cfree.formats.answers.path_format import AnswerModel, Length
 from cfree.formats.answers.separation_text import KINDS
 from cfree.formats.answers.stuck_format import StuckModel
+from cfree.formats.answers.unreachable_format import UnreachableModel
 from cfree.formats.scenes.json_types import Point, Strict
 from cfree.formats.scenes.scene_format import Bounds, PolygonModel, Version
 from cfree.formats.scenes.scene_values import Fault
@@ -149,6 +150,9 @@ class SeparationModel(AnswerModel):
         )
 
 
+ProofModel = Annotated[SeparationModel | StuckModel | UnreachableModel, Field(discriminator="answer")]
+
+
 class AllSeparatedModel(Strict):
     """Separations of one start from all goals."""
 
@@ -156,7 +160,7 @@ class AllSeparatedModel(Strict):
     answer: Literal["all separated"]
     of: Literal["closed", "interior", "pieces"]
     places: Annotated[list[Point], Field(default_factory=list)]
-    proofs: Annotated[list[Annotated[SeparationModel | StuckModel, Field(discriminator="answer")]], Field(min_length=1)]
+    proofs: Annotated[list[ProofModel], Field(min_length=1)]
 
     @model_validator(mode="after")
     def _fits(self) -> AllSeparatedModel:

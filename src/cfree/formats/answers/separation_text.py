@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 from typing import Any
 
@@ -12,8 +13,10 @@ from cfree.formats.scenes.scene_values import vehicle_record
 from cfree.formats.text.json_text import json_line
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
+from cfree.planning.proof import Proof
 from cfree.planning.separation import Pieces, Separated
 from cfree.planning.stuck import Stuck
+from cfree.planning.unreachable import Unreachable
 from cfree.scene.digest import Stamp
 from cfree.scene.features import unpacked
 
@@ -59,9 +62,32 @@ def stuck_text(proof: Stuck, stamp: Stamp) -> str:
     return "{" + ",\n ".join(f'"{key}": {json_line(value)}' for key, value in head.items()) + "}\n"
 
 
-def proof_text(proof: Separated | Stuck, stamp: Stamp) -> str:
+def unreachable_text(proof: Unreachable, stamp: Stamp) -> str:
+    """Return the JSON of a proof by boxes; reading it gives an equal proof."""
+    decimals, grid = Effect(Path(proof.start, ()), proof.goal, stamp).decimals(), proof.grid
+    head: dict[str, Any] = {
+        **answer_head("unreachable", proof, stamp, decimals),
+        "vehicle": vehicle_record(proof.vehicle),
+        "at": proof.at,
+        "pieces": [[[str(x), str(y)] for x, y in piece] for piece in proof.pieces],
+        "grid": {
+            "corner": [*map(str, grid.corner)],
+            "side": str(grid.side),
+            "step": str(grid.step),
+            "columns": grid.columns,
+            "rows": grid.rows,
+            "slices": grid.slices,
+        },
+        "boxes": base64.b64encode(proof.boxes).decode(),
+    }
+    return "{" + ",\n ".join(f'"{key}": {json_line(value)}' for key, value in head.items()) + "}\n"
+
+
+def proof_text(proof: Proof, stamp: Stamp) -> str:
     """Return the JSON of one proof."""
-    return separation_text(proof, stamp) if isinstance(proof, Separated) else stuck_text(proof, stamp)
+    if isinstance(proof, Separated):
+        return separation_text(proof, stamp)
+    return stuck_text(proof, stamp) if isinstance(proof, Stuck) else unreachable_text(proof, stamp)
 
 
 def all_separated_text(answer: AllSeparated, stamp: Stamp) -> str:
