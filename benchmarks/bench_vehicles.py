@@ -162,9 +162,10 @@ def figures(report: Report, rows: Sequence[Row]) -> None:
     if any(row.firsts for row in joined):
         raw = [run for row in joined for run in row.firsts]
         best = [row.best for row in joined if row.best]
+        (paths_raw, clipped), (simplified, its_clipped) = map(_counts, (raw, best))
         report.notes += [
-            f"OMPL solves {sum(run.paths for run in raw)} of {len(raw)} runs; {sum(run.clipped for run in raw)} of",
-            f"these paths clip, and {sum(run.clipped for run in best)} of {sum(run.paths for run in best)} simplified ones",
+            f"OMPL solves {paths_raw} of {len(raw)} runs; {clipped} of these paths clip,",
+            f"and {its_clipped} of {simplified} simplified ones",
         ]
     else:
         report.notes.append("no OMPL: it takes libompl-dev (Debian), and the core built in this clone (make)")
@@ -217,6 +218,12 @@ def _ratios(report: Report, what: str, rows: Iterable[Row], ratio: Callable[[Row
     values = [value for row in rows if math.isfinite(value := ratio(row))]
     if values:
         report.figure(what, f"median of {len(values)}", statistics.median(values), "<=", most)
+
+
+def _counts(found: Iterable[Run]) -> tuple[int, int]:
+    """Paths, and those of them that clip."""
+    its = [*found]
+    return sum(run.paths for run in its), sum(run.clipped for run in its)
 
 
 def _touches(scene: cfree.Scene) -> bool:
