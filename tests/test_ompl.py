@@ -17,6 +17,7 @@ import pytest
 import oracles
 from cfree import (
     Car,
+    DifferentialDrive,
     InvalidPoseError,
     MotionChecker,
     Pose,
@@ -365,6 +366,22 @@ def test_the_word_is_ompl_s_own_where_two_are_as_short(exact: Any) -> None:
             gaps = np.abs(poses.xy - (middle.getX(), middle.getY())).max(axis=1)
             turns = np.abs([math.remainder(theta - middle.getYaw(), math.tau) for theta in poses.theta])
             assert (gaps + turns).min() < 0.003
+
+
+def test_a_differential_drive_takes_words_of_any_radius(exact: Any) -> None:
+    from ompl import base
+
+    field, drive = Scene(box(-1, -1, 1, 1)[0], []), DifferentialDrive(axle=("1/2", 0))
+    for radius in (0.003, 0.4, 7.0):
+        for rows in (
+            [(0, 0, 0), (3, 1, 2), (5, -4, 0)],
+            [(0, 0, 0.5), (math.cos(0.5), math.sin(0.5), 0.5)],
+            [(1, 2, 3)],
+        ):
+            path = word_between(exact, base.ReedsSheppStateSpace(radius), *rows)
+            found = exact.to_path(path, field, vehicle=drive)
+            assert is_drivable(found, drive)
+            assert sum(part.length for part in found.driving) == pytest.approx(path.length(), rel=1e-3)
 
 
 def test_a_word_that_clips_is_refused_with_its_place(exact: Any) -> None:

@@ -222,9 +222,11 @@ def to_path(path: Any, scene: Scene, vehicle: Vehicle | None = None) -> Path:
 def _driven_path(path: Any, scene: Scene, vehicle: Vehicle) -> Path:
     """Convert a path in a ReedsSheppStateSpace or DubinsStateSpace."""
     rows, finer = _rows(path), og.PathGeometric(path)
+    if len(rows) < 2:
+        return driven_path(rows, scene, vehicle)
     for _ in range(2):
         finer.subdivide()  # as the path's own space does it
-    steps = (len(_rows(finer)) - 1) // max(1, len(rows) - 1)
+    steps = (len(_rows(finer)) - 1) // (len(rows) - 1)
     middles = np.stack([_rows(finer)[k::steps][: len(rows) - 1] for k in range(1, steps)], axis=1)
     return driven_path(rows, scene, vehicle, length=path.length(), middles=middles)
 

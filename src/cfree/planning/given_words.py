@@ -41,6 +41,7 @@ NEAR = 1e-6  # the same of poses within a motion
 NOTHING = 1e-12  # shorter pieces are left out, in radii
 SHORT = 1e-3  # shorter pieces may be left out, in radii
 CLOSED = 1e-11  # greatest error of an end in doubles, in radii
+TINY = 2.0**-20  # least radius of a differential drive's words that is told from their length, as a share of it
 STEPS = 20  # of Newton's method
 DOUBLINGS, HALVINGS = 60, 80  # of the search for a radius
 
@@ -112,16 +113,18 @@ def given_words(
     >>> [(piece.kind, round(piece.length, 3)) for piece in words.words[0]], words.radius
     ([(1, 1.571)], 4.0)
     """
-    least = float(vehicle.turning_radius) or 1.0
+    least, greatest = float(vehicle.turning_radius), 0.0
+    if vehicle.kind == "differential":  # any radius; a large one for straight lines alone
+        least, greatest = (1.0, 0.0) if not length else (length * TINY, length)
     families: tuple[Family, ...] = ("Dubins",) if vehicle.gears == "forward" else get_args(Family)
     is_shorter = False
     for family in families:
-        its = least if length is None else _radius(rows, family, least, length)
+        its = least if length is None else _radius(rows, family, (greatest or least, least), length)
         if its is None:
             is_shorter |= length is not None and _total(rows, family, least) > length * (1 + SAME)
         elif all(words := _shortest(rows, its, family, middles)):
             return GivenWords(rows, its, words)
-    what, least_text = described(vehicle), f"{least:.6g}"
+    what, least_text = described(vehicle), f"{least:.6g}" if vehicle.kind == "car" else "1"
     if is_shorter:
         raise ValueError(
             f"path: its motions are shorter than those of {what}; give OMPL's space a turning radius of at least "
@@ -462,14 +465,15 @@ def _total(rows: Floats, family: Family, radius: float) -> float:
     return sum(words.travel(k) for k in range(len(words.words)))
 
 
-def _radius(rows: Floats, family: Family, least: float, length: float) -> float | None:
-    """Return the radius, not much less than the least, with which the words have a total length; None without one."""
+def _radius(rows: Floats, family: Family, tried: tuple[float, float], length: float) -> float | None:
+    """Return the radius with which the words have a total length: one of those tried, or a larger one; or None."""
+    first, least = tried
 
     def is_same(radius: float) -> bool:
         return abs(_total(rows, family, radius) - length) <= SAME * length
 
     # words may be longer by whole turns if a radius is larger by rounding
-    for radius in (least, least * (1 - SAME / 8)):
+    for radius in (first, least, least * (1 - SAME / 8)):
         if is_same(radius):
             return radius
     low, high = least, 2 * least
