@@ -151,6 +151,12 @@ def test_the_motion_that_clips_is_named_with_its_place_and_obstacle() -> None:
         driven_path(np.array([(-8, 9, 0), (-12, 9, 0), *rows[2:]]), replace(scene, bounds=(-9, 0, 9, 20)), Car(4))
 
 
+def test_the_place_of_a_clip_is_a_share_of_its_whole_motion() -> None:
+    scene = Scene(box(-1, -1, 1, 1)[0], [box(2, 7, 6, 8)[0]])  # an arc of 2 pi, and 2 of the 5 after it
+    with pytest.raises(ValueError, match=r"^motion 0 of 1 is not free near 0\.734\d+ of it: at \(4, 6, 90 deg\)"):
+        driven_path(np.array([(0, 0, 0), (4, 9, math.pi / 2)]), scene, Car("3.99"), length=2 * math.pi + 5)
+
+
 def test_every_motion_is_proved_free() -> None:
     wall = box(-50, "1.0000001", 50, 3)[0]
     scene = Scene(box(-1, -1, 1, 1)[0], [wall])
