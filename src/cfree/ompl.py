@@ -34,8 +34,8 @@ from cfree.collision.nearest_free import require_free
 from cfree.collision.pose_checker import PoseChecker
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
-from cfree.planning.given_words import driven_path
 from cfree.planning.separation import known_scene
+from cfree.planning.through_states import driven_path
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Vehicle

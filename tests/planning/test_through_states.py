@@ -11,7 +11,8 @@ import pytest
 from numpy.typing import NDArray
 
 from cfree import Car, DifferentialDrive, MotionChecker, Path, Pose, Scene, _core, is_drivable
-from cfree.planning.given_words import FARTHEST, driven_path, given_words
+from cfree.planning.given_words import given_words
+from cfree.planning.through_states import FARTHEST, driven_path
 from shapes import box
 
 Floats = NDArray[np.float64]
