@@ -33,6 +33,7 @@ BENCHES = (
     "plan",
     "paths",
     "tight",
+    "vehicles",
     "curves",
     "fits",
     "scene",

@@ -15,7 +15,19 @@ import numpy as np
 import pytest
 
 import oracles
-from cfree import InvalidPoseError, MotionChecker, Pose, PoseChecker, Rotation, Scene, Translation, load_scene
+from cfree import (
+    Car,
+    DifferentialDrive,
+    InvalidPoseError,
+    MotionChecker,
+    Pose,
+    PoseChecker,
+    Rotation,
+    Scene,
+    Translation,
+    is_drivable,
+    load_scene,
+)
 from compared import plain_of, scene_of
 from shapes import KINDS, box, random_scene
 
@@ -253,3 +265,140 @@ def test_even_motions_with_room_are_told_free() -> None:
     assert not checker.sweep_is_free((0, -30, 0), (0, 90, 0))  # out of the bounds
     assert checker.sweep_is_free((-9, -40, 0), (0, 80, 0))  # along the bounds, which are exact
     assert PoseChecker(Scene(box(-1, -1, 1, 1)[0], [wall])).sweep_is_free((-1e6, -1e6, 0), (0, 2e6, 100))
+
+
+LOT = Scene(
+    robot=box(-2, -1, 2, 1)[0],
+    obstacles=[box(-9, 3, 1, 6)[0], box(7, 3, 15, 6)[0]],
+    bounds=(-8, -6, 14, 5),
+    start=Pose(-5, 0),
+    goal=Pose(4, "9/2", "90deg"),
+)
+
+
+def driven_by(exact: Any, scene: Scene, car: Car, space: Any, fraction: float = 0.001) -> Any:
+    """A set-up of OMPL in a space of words, its states tested exactly."""
+    from ompl import base, geometric
+
+    (x0, y0, x1, y1), checker, to_robot = map(float, scene.bounds or ()), PoseChecker(scene), car.frame.inverse()
+    limits = base.RealVectorBounds(2)
+    for k, (low, high) in enumerate(((x0, x1), (y0, y1))):
+        limits.setLow(k, low - 2)
+        limits.setHigh(k, high + 2)
+    space.setBounds(limits)
+    setup = geometric.SimpleSetup(space)
+    setup.setStateValidityChecker(lambda state: checker.is_free(exact.pose_of(state) @ to_robot))
+    space.setLongestValidSegmentFraction(fraction)
+    states = []
+    for pose in (scene.start, scene.goal):
+        assert pose is not None
+        axle, state = pose @ car.frame, space.allocState()
+        exact.set_pose(state, float(axle.x), float(axle.y), axle.theta)
+        states.append(state)
+    setup.setStartAndGoalStates(*states)
+    return setup
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", [1, 1.001], ids=["same radius", "larger radius"])
+def test_paths_of_reeds_and_shepp_become_exact_and_are_proved(exact: Any, ratio: float) -> None:
+    from ompl import base, geometric
+
+    car = Car(3, axle=("-5/4", 0))
+    setup = driven_by(exact, LOT, car, base.ReedsSheppStateSpace(3 * ratio))
+    setup.setPlanner(geometric.RRTConnect(setup.getSpaceInformation()))
+    assert setup.solve(20.0) and setup.haveExactSolutionPath()
+    for _ in ("raw", "simplified"):
+        path = setup.getSolutionPath()
+        found = exact.to_path(path, LOT, vehicle=car)
+        assert found.is_free(MotionChecker(LOT)) and is_drivable(found, car)
+        assert (found.start, found.goal, found.vehicle) == (LOT.start, LOT.goal, car)
+        assert sum(part.length for part in found.driving) == pytest.approx(path.length(), rel=1e-3)
+        setup.simplifySolution(0.5)
+
+
+def word_between(exact: Any, space: Any, *rows: tuple[float, float, float]) -> Any:
+    """A path of OMPL through states, which nobody has tested."""
+    from ompl import base, geometric
+
+    limits = base.RealVectorBounds(2)
+    limits.setLow(-50)
+    limits.setHigh(50)
+    space.setBounds(limits)
+    states = []
+    for row in rows:
+        states.append(space.allocState())
+        exact.set_pose(states[-1], *row)
+    path = geometric.PathGeometric(base.SpaceInformation(space))
+    for state in states:
+        path.append(state)
+    return path
+
+
+def test_dubins_paths_go_forward_only(exact: Any) -> None:
+    from ompl import base
+
+    rows = [(0.0, 0.0, 0.0), (2.0, 7.0, -2.0), (9.0, -3.0, 1.0)]
+    field = Scene(box(-1, -1, 1, 1)[0], [])
+    for symmetric, gears in ((False, "forward"), (False, "both"), (True, "both")):
+        car = Car(1, gears=gears)
+        path = word_between(exact, base.DubinsStateSpace(1.0, symmetric), *rows)
+        found = exact.to_path(path, field, vehicle=car)
+        assert is_drivable(found, car) and (symmetric or found.cusps == 0)
+        assert sum(part.length for part in found.driving) == pytest.approx(path.length(), rel=1e-3)
+    with pytest.raises(ValueError, match="no reverse gear"):
+        path = word_between(exact, base.ReedsSheppStateSpace(1.0), *rows)
+        exact.to_path(path, field, vehicle=Car(1, gears="forward"))
+
+
+def test_the_word_is_ompl_s_own_where_two_are_as_short(exact: Any) -> None:
+    from ompl import base
+
+    field, car = Scene(box(-1, -1, 1, 1)[0], []), Car(1)
+    for rows in ([(0.0, 0.0, 0.0), (0.0, 0.0, 3.141592653589793)], [(0.0, 0.0, 0.0), (0.0, 0.01, 0.0)]):
+        space = base.ReedsSheppStateSpace(1.001)
+        path = word_between(exact, space, *rows)
+        found, middle = exact.to_path(path, field, vehicle=car), space.allocState()
+        first, last = path.getStates()
+        for share in (0.2, 0.5, 0.9):
+            space.interpolate(first, last, share, middle)
+            poses = found.sample(0.001, 0.001)
+            gaps = np.abs(poses.xy - (middle.getX(), middle.getY())).max(axis=1)
+            turns = np.abs([math.remainder(theta - middle.getYaw(), math.tau) for theta in poses.theta])
+            assert (gaps + turns).min() < 0.003
+
+
+def test_a_differential_drive_takes_words_of_any_radius(exact: Any) -> None:
+    from ompl import base
+
+    field, drive = Scene(box(-1, -1, 1, 1)[0], []), DifferentialDrive(axle=("1/2", 0))
+    for radius in (0.003, 0.4, 7.0):
+        for rows in (
+            [(0, 0, 0), (3, 1, 2), (5, -4, 0)],
+            [(0, 0, 0.5), (math.cos(0.5), math.sin(0.5), 0.5)],
+            [(1, 2, 3)],
+        ):
+            path = word_between(exact, base.ReedsSheppStateSpace(radius), *rows)
+            found = exact.to_path(path, field, vehicle=drive)
+            assert is_drivable(found, drive)
+            assert sum(part.length for part in found.driving) == pytest.approx(path.length(), rel=1e-3)
+
+
+def test_a_word_that_clips_is_refused_with_its_place(exact: Any) -> None:
+    from ompl import base
+
+    path = word_between(exact, base.ReedsSheppStateSpace(4.0), (-3, 0, 0), (1, 0, 0), (1, 0.5, 0), (9, 0.5, 0))
+    scene = Scene(box(-1, -1, 1, 1)[0], [box(20, 9, 21, 10)[0], box(7, -1, 8, 1)[0]])
+    with pytest.raises(ValueError, match=r"^motion 2 of 3 is not free near 0\.625 of it: at \(6, .* obstacle 1, 1 x 2"):
+        exact.to_path(path, scene, vehicle=Car("3.99"))
+
+
+def test_paths_of_other_spaces_and_radii_are_refused(exact: Any) -> None:
+    from ompl import base
+
+    rows, field = [(0.0, 0.0, 0.0), (0.0, 3.0, 1.0)], Scene(box(-1, -1, 1, 1)[0], [])
+    for space in (base.SE2StateSpace(), base.ReedsSheppStateSpace(0.9)):
+        with pytest.raises(
+            ValueError, match=r"give OMPL's space a turning radius of at least 1|ReedsSheppStateSpace\(1\)"
+        ):
+            exact.to_path(word_between(exact, space, *rows), field, vehicle=Car(1))

@@ -98,6 +98,16 @@ void bind_words(nb::module_& m) {
         }
         return found;
     }, "vehicle"_a, "start"_a, "goal"_a, "kind"_a, "angle"_a);
+    m.def("exact_word", [](const VehicleNumbers& numbers, const PoseNumbers& from, const PoseNumbers& to,
+                           const std::vector<std::pair<int, double>>& steps, double radius) {
+        cfree::Word word;
+        if (steps.size() > word.kind.size()) throw std::invalid_argument("a word has at most five pieces");
+        for (const auto& [kind, length] : steps) {
+            const auto k = static_cast<std::size_t>(word.count++);
+            word.kind[k] = static_cast<signed char>(kind), word.length[k] = length;
+        }
+        return joints_of(cfree::exact_word(cfree::vehicle_of(vehicle_of(numbers), cfree::Scene{}), 0, axle_at(from), axle_at(to), word, radius));
+    }, "vehicle"_a, "start"_a, "goal"_a, "word"_a, "radius"_a);
     m.def("time_words", [](const VehicleNumbers& numbers, const PoseNumbers& from, const PoseNumbers& to, int count) {
         const cfree::Vehicle v = cfree::vehicle_of(vehicle_of(numbers), cfree::Scene{});
         const cfree::Configuration a = axle_at(from), b = axle_at(to);
