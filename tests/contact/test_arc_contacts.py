@@ -1,4 +1,4 @@
-"""Contact surfaces of circular arcs: poses placed by them touch, with and without room, in exact and in other numbers."""
+"""Contact surfaces of circular arcs: poses placed by them touch, exactly where radii are rational."""
 
 from __future__ import annotations
 
@@ -33,7 +33,9 @@ from cfree.curves import Arc
 from cfree.exact.orientation import Location, Order, compare_directions
 
 NEAR, STEP = 0.01, 1e-4  # of a contact; off it
-PAIRS = [(a, o) for a, o in product(SHAPES, SHAPES) if {a, o} & {"disc", "stadium", "bay", "fillet", "moon", "plate", "cap"}]
+PAIRS = [
+    (a, o) for a, o in product(SHAPES, SHAPES) if {a, o} & {"disc", "stadium", "bay", "fillet", "moon", "plate", "cap"}
+]
 
 
 def near(shape: shapely.Polygon, point: np.ndarray) -> shapely.Geometry:
@@ -49,7 +51,9 @@ def test_shapes_touch_at_random_poses_of_patches_and_overlap_nowhere_near(robot:
     every = arc_contacts(A, O)
     for k in random.permutation(len(every))[:12]:
         contact = every[k]
-        if (robot == "corner" and isinstance(contact, EdgeArc)) or (obstacle == "corner" and isinstance(contact, ArcEdge)):
+        if (robot == "corner" and isinstance(contact, EdgeArc)) or (
+            obstacle == "corner" and isinstance(contact, ArcEdge)
+        ):
             continue  # beside its reflex vertex the edge of a grown shape ends before its core
         pose, point, u = touching(A, O, contact, tuple(random.uniform(0.15, 0.85, 2)))
         here, there = placed(a, pose), near(o, point)
@@ -108,6 +112,7 @@ def test_local_possibility_is_that_of_signed_curvature() -> None:
 
 def test_signs_of_sums_of_roots_are_exact() -> None:
     """A convex arc of radius sqrt(2) + 2^-60 or so does not fit into one of sqrt(2)."""
+
     def cap(far: Fraction) -> ArcArcSurface:
         bow = Curved([(-1, 0), (1, 0), Arc((-1, 0), center=(0, -far))])
         bite = Curved([(-5, -5), (5, -5), (5, 0), (1, 0), Arc((-1, 0), center=(0, 1), clockwise=True), (-5, 0)])
@@ -202,7 +207,9 @@ def test_the_exact_parallelogram_is_that_of_the_angles() -> None:
     for A, O, contact in ((CAR, STADIUM, ArcArc(1, 0)), (STADIUM, STADIUM, ArcArc(0, 1)), (DISC, CAP, ArcArc(0, 1))):
         S = arc_surface(A, O, contact)
         assert isinstance(S, ArcArcSurface)
-        assert S.parallelogram[:, 1].max() - S.parallelogram[:, 1].min() == pytest.approx(S.robot.width + S.obstacle.width)
+        assert S.parallelogram[:, 1].max() - S.parallelogram[:, 1].min() == pytest.approx(
+            S.robot.width + S.obstacle.width
+        )
         for _ in range(200):
             normal, turn = random.integers(-9, 10, (2, 2)).tolist()
             if not any(normal) or not any(turn):

@@ -1,4 +1,4 @@
-"""The tiling of a convex pair's torus: exact counts against the places of all corners, and its sides on both patches."""
+"""The tiling of a convex pair's torus: exact counts against the places of all corners; sides that two patches share."""
 
 from __future__ import annotations
 
@@ -33,7 +33,11 @@ def test_parallelograms_fill_the_torus(robot: str, obstacle: str) -> None:
     counts = tiling(ALL[robot], ALL[obstacle])
     every = arc_contacts(ALL[robot], ALL[obstacle])
     assert counts.parallelograms == sum(isinstance(contact, ArcArc) for contact in every)
-    assert counts.strips == sum(not isinstance(contact, ArcArc) for contact in every) == counts.faces - counts.parallelograms
+    assert (
+        counts.strips
+        == sum(not isinstance(contact, ArcArc) for contact in every)
+        == counts.faces - counts.parallelograms
+    )
 
 
 @pytest.mark.parametrize(("robot", "obstacle"), PAIRS)
