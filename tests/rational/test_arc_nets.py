@@ -26,7 +26,7 @@ def surface() -> ArcArcSurface:
 
 @pytest.mark.parametrize("charts", [(0, 0), (1, 0), (0, 1), (1, 1)])
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_nets_evaluate_to_the_surface_exactly(charts: tuple[int, int], dimension: int) -> None:
+def test_nets_evaluate_to_the_surface_of_two_arcs_exactly(charts: tuple[int, int], dimension: int) -> None:
     S = surface()
     net = arc_bezier_net(S, "-1/2", "2/3", "1/5", 1, charts=charts, dimension=dimension)  # type: ignore[arg-type]
     assert (len(net.points), len(net.points[0])) == (3, dimension + 1)

@@ -165,7 +165,7 @@ FIGURES = (
     Entry(
         23, "arc-curvature", "Gaussian curvature of the surface of an arc on an arc.", (10.4, 5.6),
         (
-            Panel("arcs.arc_curvature", (0.0, 0.06, 0.64, 0.94), True),
+            Panel("arcs.arc_curvature", (0.055, 0.06, 0.59, 0.94), True),
             Panel("arcs.arc_curvature_around", (0.71, 0.2, 0.27, 0.62)),
         ),
     ),
