@@ -28,6 +28,7 @@ from cfree.contact import (
     contact_surface,
     contacts,
     shape_features,
+    tiling,
 )
 from cfree.curves import Arc
 from cfree.exact.orientation import Location, Order, compare_directions
@@ -238,3 +239,37 @@ def test_a_disc_in_a_hole_of_its_radius_turns_about_the_common_centre() -> None:
     assert isinstance(S, ArcArcSurface) and S.sigma == 0 and S.sign == 0
     helix = S.helix(0)
     assert helix.centre == (0, 0) and helix.fixed == (Fraction(1, 2), 0) and helix == S.helix("90deg")
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_a_circle_of_several_arcs_is_the_same_disc(count: int) -> None:
+    """Joints between arcs are smooth: no vertices, and a torus again."""
+    points = [(5, 0), (0, 5), (-5, 0), (0, -5)][: max(count, 2) if count != 3 else 3]
+    arcs = [Arc(end, center=(0, 0)) for end in [*points[1:], points[0]]] if count > 1 else [Arc((5, 0), center=(0, 0))]
+    ring = Curved([(5, 0), *arcs])
+    features = shape_features(ring)
+    assert len(features.arcs) == count and not features.edges
+    assert (features.area, features.perimeter) == pytest.approx((25 * math.pi, 10 * math.pi))
+    for other in (ring, DISC, TRIANGLE, CAR):
+        assert tiling(ring, other).euler_number == tiling(other, ring).euler_number == 0
+
+
+def test_arcs_of_more_than_half_a_turn_have_their_whole_range() -> None:
+    key = Curved([(3, -4), (9, -4), (9, 4), (3, 4), Arc((3, -4), center=(0, 0))])
+    k = [arc.signed_square for arc in shape_features(key).arcs].index(25)
+    Phi = arc_range(key, TRIANGLE, ArcEdge(k, 0))
+    assert Phi.phi_range == shape_features(key).arcs[k].width > 1.2 * math.pi
+    assert arc_range(key, key, ArcArc(k, k)).phi_range == math.tau
+    S = arc_surface(key, key, ArcArc(k, k))
+    assert isinstance(S, ArcArcSurface) and S.sigma == 10
+    assert S.locate((-1, 0), (-1, 0)) is Location.INSIDE and S.locate((1, 0), (-1, 0)) is Location.OUTSIDE
+
+
+def test_features_that_do_not_exist_are_named() -> None:
+    for contact, words in (
+        (ArcEdge(7, 0), "arc of the robot 7: there are 3"), (ArcEdge(0, 9), "edge of the obstacle 9: there are 4"),
+        (EdgeArc(-1, 0), "edge of the robot -1: there are 3"), (ArcArc(0, 4), "arc of the obstacle 4: there are 4"),
+    ):  # fmt: skip
+        for function in (arc_surface, arc_range):
+            with pytest.raises(ValueError, match=words):
+                function(TRIANGLE, CAR, contact)

@@ -10,9 +10,10 @@ import pytest
 import shapely
 
 from arc_shapes import placed
-from cfree import palette
-from cfree.contact import arc_contacts
+from cfree import Curved, palette
+from cfree.contact import ArcArcSurface, arc_contacts, arc_surface
 from cfree.contact.arcs import Shape
+from cfree.curves import Arc
 from cfree.figures import arcs
 from cfree.figures.surfaces import OTHER
 from cfree.geometry import arc_geometry, parabolic_angles, zero_mean_angles
@@ -36,6 +37,27 @@ def test_every_drawn_point_of_a_patch_is_a_contact(k: int) -> None:
             for pose in grid[::7, ::4].reshape(-1, 3):
                 here = placed(a, pose)
                 assert here.distance(o) < 2e-3 and here.intersection(o).area < 2e-3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("robot", "obstacle"), [*product(range(4), range(4))])
+def test_drawn_patches_have_the_area_of_their_parallelograms(robot: int, obstacle: int) -> None:
+    """No part is left out, also of arcs of more than half a turn and of whole circles."""
+    key = Curved([(1, "-1/2"), (3, "-1/2"), (3, "1/2"), (1, "1/2"), Arc((1, "-1/2"), center=(0, 0))])
+    shapes: list[Shape] = [key, arcs.ROUND, arcs.DISC, OTHER]
+    x, weights = np.polynomial.legendre.leggauss(40)
+    for contact in arc_contacts(shapes[robot], shapes[obstacle]):
+        S = arc_surface(shapes[robot], shapes[obstacle], contact)
+        if not isinstance(S, ArcArcSurface):
+            continue
+        drawn = 0.0
+        for grid in arcs.patch_grids(shapes[robot], shapes[obstacle], contact):
+            assert grid[..., 2].min() > -1e-9 and grid[..., 2].max() < math.tau + 1e-9
+            one, other = grid[1:, 1:] - grid[:-1, :-1], grid[1:, :-1] - grid[:-1, 1:]
+            drawn += float(np.linalg.norm(np.cross(one, other), axis=-1).sum()) / 2
+        nu = S.robot.first + S.robot.width * (x + 1) / 2
+        v = arc_geometry(S.circular, 0.0, math.pi - nu).v  # depends on psi - phi alone
+        assert drawn == pytest.approx(float(v @ weights) / 2 * S.robot.width * S.obstacle.width, rel=0.02)
 
 
 @pytest.mark.parametrize("k", range(4))

@@ -18,13 +18,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
 from cfree.contact.contact import AngleRange, EdgeVertex, VertexEdge
-from cfree.contact.features import ArcFeature, ShapeFeatures, shape_features, signed_root
+from cfree.contact.features import ArcFeature, EdgeFeature, ShapeFeatures, shape_features, signed_root
 from cfree.contact.surface import Helix, Surface, evaluate
 from cfree.curves.curved import Curved
 from cfree.exact.half_angle import Angle, normalize_angles
@@ -33,9 +34,12 @@ from cfree.exact.orientation import Location, Vector
 from cfree.exact.pose import Pose
 from cfree.polygons.polygon import Polygon
 
+F = TypeVar("F", ArcFeature, EdgeFeature)
 Floats = NDArray[np.float64]
 Shape = Polygon | Curved
 ZERO = (Fraction(0), Fraction(0))
+ROBOT_ARC, ROBOT_EDGE = "arc of the robot", "edge of the robot"
+OBSTACLE_ARC, OBSTACLE_EDGE = "arc of the obstacle", "edge of the obstacle"
 
 
 @checked
@@ -397,13 +401,13 @@ def arc_range(robot: Shape, obstacle: Shape, contact: ArcContact) -> AngleRange:
     A, O = shape_features(robot), shape_features(obstacle)
     match contact:
         case ArcEdge(i, j):
-            arc, n = A.arcs[i], O.edges[j].outward
+            arc, n = _feature(A.arcs, i, ROBOT_ARC), _feature(O.edges, j, OBSTACLE_EDGE).outward
             possible, width, start, end = arc.is_convex, arc.width, _turn(n, arc.end), _turn(n, arc.start)
         case EdgeArc(i, j):
-            arc, m = O.arcs[j], A.edges[i].outward
+            arc, m = _feature(O.arcs, j, OBSTACLE_ARC), _feature(A.edges, i, ROBOT_EDGE).outward
             possible, width, start, end = arc.is_convex, arc.width, _turn(arc.start, m), _turn(arc.end, m)
         case ArcArc(i, j):
-            S = ArcArcSurface(contact, A.arcs[i], O.arcs[j])
+            S = ArcArcSurface(contact, _feature(A.arcs, i, ROBOT_ARC), _feature(O.arcs, j, OBSTACLE_ARC))
             possible, width = S.is_possible, S.robot.width + S.obstacle.width
             start, end = _turn(S.obstacle.start, S.robot.end), _turn(S.obstacle.end, S.robot.start)
     if not possible:
@@ -421,14 +425,20 @@ def arc_surface(robot: Shape, obstacle: Shape, contact: ArcContact) -> OffsetSur
     A, O = shape_features(robot), shape_features(obstacle)
     match contact:
         case ArcArc(i, j):
-            return ArcArcSurface(contact, A.arcs[i], O.arcs[j])
+            return ArcArcSurface(contact, _feature(A.arcs, i, ROBOT_ARC), _feature(O.arcs, j, OBSTACLE_ARC))
         case ArcEdge(i, j):
-            arc, edge = A.arcs[i], O.edges[j]
+            arc, edge = _feature(A.arcs, i, ROBOT_ARC), _feature(O.edges, j, OBSTACLE_EDGE)
             core = Surface(VertexEdge(i, j), edge.start, edge.along, arc.centre, ZERO)
         case EdgeArc(i, j):
-            edge, arc = A.edges[i], O.arcs[j]
+            edge, arc = _feature(A.edges, i, ROBOT_EDGE), _feature(O.arcs, j, OBSTACLE_ARC)
             core = Surface(EdgeVertex(i, j), arc.centre, ZERO, edge.start, edge.along)
     return OffsetSurface(contact, core, arc.signed_square, edge.offset)
+
+
+def _feature(features: tuple[F, ...], k: int, name: str) -> F:
+    if 0 <= k < len(features):
+        return features[k]
+    raise ValueError(f"{name} {k}: there are {len(features)}, counted from 0; see shape_features()")
 
 
 def opposite_in_robot(normal: Vector, turn: Vector) -> Vector:

@@ -86,25 +86,39 @@ def below_the_top(points: Floats) -> Floats:
 
 def patch_grids(robot: Shape, obstacle: Shape, contact: ArcContact) -> Iterator[Floats]:
     """Grids (angles, across, 3) of points of a patch, cut where theta is a full turn."""
-    S, Phi, across = (
-        arc_surface(robot, obstacle, contact),
-        arc_range(robot, obstacle, contact),
-        np.linspace(0, 1, ACROSS),
-    )
-    low, high, bends = Phi.phi_min, Phi.phi_max, [math.tau]
-    if isinstance(S, ArcArcSurface) and Phi.phi_range < math.tau:
-        bends += [low + S.obstacle.width, low + S.robot.width]
+    S, Phi = arc_surface(robot, obstacle, contact), arc_range(robot, obstacle, contact)
+    low, high, bends = Phi.phi_min, Phi.phi_max, [math.tau, 2 * math.tau]
+    if isinstance(S, ArcArcSurface):
+        turns = S.robot.width, S.obstacle.width
+        if math.tau in turns:  # a whole circle has all orientations alike
+            low, high = 0.0, math.tau
+        else:
+            high = low + sum(turns)
+            bends += [low + turn for turn in turns]
     cuts = [low, *sorted(bend for bend in bends if low + CLOSE < bend < high - CLOSE), high]
+    sweep = S.obstacle.width if isinstance(S, ArcArcSurface) else 0.0
+    across = np.linspace(0, 1, max(ACROSS, 1 + math.ceil(sweep / (2 * STEP))))
     for start, stop in pairwise(cuts):
         phi = np.linspace(start, stop, 2 + math.ceil((stop - start) / STEP))[:, None]
         if isinstance(S, ArcArcSurface):
-            # psi + pi - phi is the last angle of the robot's cone at the least phi, and the first at the greatest
-            first, last = S.obstacle.first, S.obstacle.first + S.obstacle.width
-            psi = [np.clip(first + phi - low - turn, first, last) for turn in (S.robot.width, 0.0)]
-            points = S(psi[0] + across * (psi[1] - psi[0]), phi)
+            first, last = _normals(S, phi, low)
+            points = S(first + across * (last - first), phi)
         else:
             points = S(across, phi)
-        yield points - (0, 0, math.tau * (start > math.tau - CLOSE))
+        yield points - (0, 0, math.tau * math.floor((start + CLOSE) / math.tau))
+
+
+def _normals(S: ArcArcSurface, phi: Floats, low: float) -> tuple[Floats, Floats]:
+    """First and last psi of the contact at angles phi, of which low is the least of the parallelogram."""
+    first, last = S.obstacle.first + np.zeros_like(phi), S.obstacle.first + S.obstacle.width + np.zeros_like(phi)
+    if S.robot.is_whole:
+        return first, last
+    if S.obstacle.is_whole:
+        start = phi - math.pi + S.robot.first
+        return start, start + S.robot.width
+    # psi + pi - phi is the last angle of the robot's cone at the least phi, and the first at the greatest
+    start = first + phi - low - S.robot.width
+    return np.clip(start, first, last), np.clip(start + S.robot.width, first, last)
 
 
 def segments(robot: Shape, obstacle: Shape) -> Iterator[Floats]:
