@@ -93,7 +93,8 @@ class EdgeFeature:
     Attributes
     ----------
     start, along : pair of Fraction
-        The core edge; that of a polygon grown by a disc is the polygon's.
+        The core edge; that of a polygon grown by a disc is the polygon's. Beside a reflex vertex the grown shape's own
+        edge ends before it.
     offset : Fraction
         Distance of the edge from the core edge: how much the polygon is grown.
     """

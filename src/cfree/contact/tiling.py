@@ -9,7 +9,6 @@ docs/theory/arcs.md has the count.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -96,13 +95,12 @@ def tiling(robot: Shape, obstacle: Shape) -> Tiling:
         if not shape.is_convex:
             raise ValueError(f"{name}: not convex; its patches are trimmed and tile no torus")
     (arcs_A, joints_A), (arcs_O, joints_O) = _cycle(A), _cycle(O)
-    classes: dict[object, object] = {}  # union and find over the places of e-e segments
-    edges = 0
-    for k, one in enumerate(joints_A):
-        for l, other in enumerate(joints_O):
-            keys = {_place(one, x, other, y) for x in one.places for y in other.places}
-            edges += len(keys) - 1
-            classes |= {(k, l, key): (k, l, key) for key in keys}
+    vertices = edges = 0
+    for one in joints_A:
+        for other in joints_O:
+            places = {_place(one, x, other, y) for x in one.places for y in other.places}
+            vertices += len(places)
+            edges += len(places) - 1
     # both sides of a strip, or the one line of a joint without edges, from each crossing to the next
     strips = 0
     for joints, others in ((joints_A, arcs_O), (joints_O, arcs_A)):
@@ -110,18 +108,15 @@ def tiling(robot: Shape, obstacle: Shape) -> Tiling:
             edges += (len(joint.edges) + 1) * len(others)
             strips += len(joint.edges) * len(others)
     parallelograms = len(arcs_A) * len(arcs_O)
-    for i, a in enumerate(arcs_A):
-        for j, o in enumerate(arcs_O):
+    for a in arcs_A:
+        for o in arcs_O:
             if a.signed_square or o.signed_square:
                 continue
-            # the parallelogram of two vertices is a helix; its corners at the same angle become one
+            # the parallelogram of two vertices is a helix of three parts; if its turns are equal, two corners are one
+            equal = _have_equal_widths(a, o)
             parallelograms -= 1
-            edges -= 1
-            if _have_equal_widths(a, o):
-                edges -= 1
-                start, end = (_corner(joints_A, joints_O, i, j, after=is_after) for is_after in (False, True))
-                classes[_root(classes, start)] = _root(classes, end)
-    vertices = len({_root(classes, place) for place in classes})
+            edges -= 1 + equal
+            vertices -= equal
     return Tiling(parallelograms, strips, vertices, edges)
 
 
@@ -138,16 +133,6 @@ def _cycle(shape: ShapeFeatures) -> tuple[list[ArcFeature], list[_Joint]]:
         else:
             edges[-1].append(feature)
     return arcs, [_Joint(tuple(joint)) for joint in edges]
-
-
-def _corner(
-    joints_A: Sequence[_Joint], joints_O: Sequence[_Joint], i: int, j: int, *, after: bool
-) -> tuple[int, int, Key]:
-    """Place where the parallelogram of arcs i and j has a corner, at the joints after both, or before both."""
-    k, l = (i, j) if after else ((i - 1) % len(joints_A), (j - 1) % len(joints_O))
-    a, b = joints_A[k], joints_O[l]
-    end = 0 if after else -1  # the joint after an arc begins at it
-    return k, l, _place(a, a.places[end], b, b.places[end])
 
 
 def _place(a: _Joint, x: Fraction, b: _Joint, y: Fraction) -> Key:
@@ -173,9 +158,3 @@ def _rotation(arc: ArcFeature) -> tuple[int, int]:
     """Direction of the rotation from the first normal to the last."""
     (x, y), (u, v) = arc.start, arc.end
     return x * u + y * v, x * v - y * u
-
-
-def _root(classes: dict[object, object], place: object) -> object:
-    while classes[place] != place:
-        place = classes[place]
-    return place
