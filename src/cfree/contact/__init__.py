@@ -1,6 +1,6 @@
 """Contacts of a robot and an obstacle: their types, orientations and surfaces (the paper, sections 1 to 3).
 
-`features`, `arcs` and `tiling` are for shapes with circular arcs, the paper's future work.
+`features`, `arcs` and `torus` are for shapes with circular arcs, the paper's future work.
 """
 
 from typing import TYPE_CHECKING
@@ -44,8 +44,8 @@ if TYPE_CHECKING:
     from cfree.contact.surface import helix_through as helix_through
     from cfree.contact.surface import rotation_about as rotation_about
     from cfree.contact.surface import rotation_of_combination as rotation_of_combination
-    from cfree.contact.tiling import Tiling as Tiling
-    from cfree.contact.tiling import tiling as tiling
+    from cfree.contact.torus import Tiling as Tiling
+    from cfree.contact.torus import tiling as tiling
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
@@ -57,6 +57,6 @@ __getattr__, __dir__, __all__ = lazy_names(
         "features": "ArcFeature EdgeFeature ShapeFeatures shape_features",
         "surface": "EdgeEdgeSegment Helix Surface contact_helix "
         "contact_segment contact_surface edge_edge_surface helix_through rotation_about rotation_of_combination",
-        "tiling": "Tiling tiling",
+        "torus": "Tiling tiling",
     },
 )
