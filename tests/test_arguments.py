@@ -21,6 +21,7 @@ from cfree.arguments import checked, fits
 from public import NAMES, PACKAGES
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+DISC = cfree.Curved.circle((0, 0), 1)
 SCENE = cfree.Scene(SQUARE, [[(3, 0), (4, 0), (4, 1)]], bounds=(-2, -2, 6, 6), start=(0, 0, 0), goal=(1, 2, "90deg"))
 MEETING = cfree.arrangements.intersection(
     *(
@@ -30,11 +31,12 @@ MEETING = cfree.arrangements.intersection(
 )
 # made by cfree, and not by users
 RESULTS = """
-    AlgebraicAngle AngleInterval AngleRange Arrangement ArrangementStatistics BezierPatch Bottleneck Boundary Cell
-    CellComplex Clearance DepthCell EdgeEdgeSegment FirstContact Fit FreeSpace GaussBonnet Geodesic Helix
-    Intersection IntersectionCurve Interval LocalGeometry Mesh NearestMiss Pieces RationalHelix RationalRange
-    RationalSegment RationalSurface Separated Shapes SharedLine Slice Stuck Surface Timed Triple TripleContact
-    BoxGrid Unreachable
+    AlgebraicAngle AngleInterval AngleRange ArcArcSurface ArcFeature ArcGeometry ArcLine Arrangement
+    ArrangementStatistics BezierNet BezierPatch Bottleneck Boundary BoxGrid Cell CellComplex Clearance DepthCell
+    EdgeEdgeSegment EdgeFeature FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve
+    Interval LocalGeometry Mesh NearestMiss OffsetSurface Pieces RationalHelix RationalRange RationalSegment
+    RationalSurface Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed Triple TripleContact
+    Unreachable
 """.split()  # noqa: SIM905
 
 
@@ -89,6 +91,7 @@ def pool() -> list[Any]:
         cfree.MotionChecker(SCENE), boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1),
         cfree.exact.Surd(1), cfree.Preferences(), cfree.exact.AngleInterval(None, None),
         cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING, cfree.arrangements.arrangement(SCENE),
+        cfree.contact.ArcArc(0, 0), cfree.contact.arc_surface(DISC, DISC, cfree.contact.ArcArc(0, 0)),
         cfree.Car(1), Figure().add_subplot(), Figure().add_subplot(projection="3d"),
         cfree.plan(cfree.Scene(SQUARE, [[(3, -9), (4, -9), (4, 9)]], bounds=(0, 0, 7, 2)), (0, 0, 0), (6, 0, 0)),
     ]  # fmt: skip

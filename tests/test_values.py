@@ -15,7 +15,17 @@ import pytest
 import cfree
 import cfree.verify
 from cfree import Pose, Rotation, Translation
-from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
+from cfree.contact import (
+    ArcArc,
+    ArcEdge,
+    EdgeArc,
+    EdgeEdge,
+    EdgeVertex,
+    VertexEdge,
+    VertexVertex,
+    arc_surface,
+    shape_features,
+)
 from cfree.curves import Arc, Bezier, Circle, Ellipse, Spline
 from cfree.exact import Surd
 from cfree.formats.shapes import Shape
@@ -59,8 +69,17 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "AllSeparated": cfree.AllSeparated((separated,), ((step, step),), "closed"),
         "AngleInterval": interval,
         "AngleRange": cfree.contact.AngleRange(float(step), 1.0, (1, 0), (0, x)),
+        "ArcArc": ArcArc(0, x),
+        "ArcArcSurface": arc_surface(TRIANGLE, cfree.Curved.circle((0, 0), x), ArcArc(0, 0)),
+        "ArcEdge": ArcEdge(0, x),
+        "ArcFeature": shape_features(cfree.Curved.circle((0, 0), x)).arcs[0],
+        "ArcGeometry": cfree.geometry.arc_geometry([0, 0, 1, 0, x], [0.5], [0.1]),
+        "ArcLine": cfree.geometry.line_of_curvature([0, 0, 1, 0, x], 0.5, 0.1, 0.3, "least"),
         "Arrangement": cfree.arrangements.arrangement(cfree.Scene(ROBOT, [ROBOT, [(x, 0), (9, 0), (9, 9)]])),
         "ArrangementStatistics": cfree.arrangements.arrangement(cfree.Scene(ROBOT, [ROBOT] * (x - 3))).statistics,
+        "BezierNet": cfree.rational.arc_bezier_net(
+            arc_surface(TRIANGLE, cfree.Curved.circle((0, 0), x), ArcArc(0, 0)), 0, 1, 0, 1
+        ),
         "BezierPatch": bezier_patches(surface, bits=8)[0],
         "Boundary": boundary,
         "Cell": space.cells[0],
@@ -69,10 +88,12 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "PoseChecker": cfree.PoseChecker(scene),
         "Clearance": cfree.clearance(path, scene),
         "DepthCell": cfree.arrangements.DepthCell(x, ((0, 0),), 1, 1, 2.0),
+        "EdgeArc": EdgeArc(0, x),
         "EdgeEdge": EdgeEdge(0, x),
         "EdgeEdgeSegment": cfree.contact.contact_segment(
             TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), EdgeEdge(0, 0)
         ),
+        "EdgeFeature": shape_features(cfree.Curved([(0, 0), (x, 0), (0, 1)])).edges[0],
         "EdgeVertex": EdgeVertex(0, x),
         "ExactAngle": cfree.exact.ExactAngle(1, x),
         "FirstContact": cfree.first_contact(scene, Pose(1, 1), Translation((9, 0))),
@@ -90,6 +111,7 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "MotionChecker": cfree.MotionChecker(scene),
         "Moved": cfree.planning.Moved(Pose(x, 0), (step, step)),
         "NearestMiss": cfree.analysis.NearestMiss(0.0, float(x), (cfree.analysis.Bottleneck(None, (0, x)),)),
+        "OffsetSurface": arc_surface(TRIANGLE, cfree.Curved.circle((0, 0), x), EdgeArc(0, 0)),
         "Path": path,
         "Pieces": separated.pieces,
         "Blocker": cfree.analysis.Blocker(x, path),
@@ -122,6 +144,7 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "Scene": scene,
         "Separated": separated,
         "Sharded": cfree.distributed.boundary(scene, folder=folder, tile=x),
+        "ShapeFeatures": shape_features(cfree.Curved.circle((0, 0), x)),
         "Shapes": cfree.formats.Shapes("SVG", (Shape("robot", str(x), TRIANGLE),), {"units": str(x)}),
         "SharedLine": cfree.arrangements.intersection(floor, below).lines[0],
         "Slice": boundary.slice({"tau": step}),
@@ -129,6 +152,7 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "Surd": Surd(1, step, 2),
         "Surface": cfree.contact.contact_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexEdge(0, 0)),
         "Timed": cfree.timed(path, scene, speed=float(x)),
+        "Tiling": cfree.contact.Tiling(x, 2 * x, 4 * x, 7 * x),
         "Touch": cfree.collision.Touch("vertex-edge", (0, 0), (0, x)),
         "Translation": Translation((x, 0)),
         "Triple": three,

@@ -23,6 +23,7 @@ FREE, FORBIDDEN = "#d6e6f5", "#dcdfe5"
 # the boundary of the forbidden space
 VERTEX_EDGE, EDGE_VERTEX, BOUND = "#d55e00", "#2b8cd6", "#b4b9c1"
 HELIX, EDGE_EDGE = "#003f7f", "#f5c518"  # v-v and e-e contacts
+ARC_ARC = "#cc79a7"  # an arc on an arc or on a vertex
 
 # colours without a meaning of their own
 INK, GREY, RIM, FAINT, WALL = "#20242b", "#6b7280", "#b4b9c1", "#d9dce2", "#f6f7f9"

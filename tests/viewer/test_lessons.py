@@ -1,4 +1,4 @@
-"""Six steps through the paper: each has a scene that can be computed, a text with formulas, and something to do."""
+"""Seven steps through the paper: each has a scene that can be computed, a text with formulas, and something to do."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pytest
 
 from pages import Tried
 
-STEPS = ["contacts", "helix", "vertex_edge", "edge_vertex", "trimming", "start_to_goal"]
+STEPS = ["contacts", "helix", "vertex_edge", "edge_vertex", "round_corners", "trimming", "start_to_goal"]
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""The paper's figures 1 to 10 drawn from computed data, in coordinates of our own, and ten more.
+"""The paper's figures 1 to 10 drawn from computed data, in coordinates of our own, and thirteen more.
 
 Indices count from 1 in the figures, as in the paper. `draw_all` writes them, as ``cfree figures`` does. The other
 functions draw a part of one on given axes.
@@ -9,6 +9,12 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from cfree.figures.arcs import arc_curvature as arc_curvature
+    from cfree.figures.arcs import arc_curvature_around as arc_curvature_around
+    from cfree.figures.arcs import disc_among_polygons as disc_among_polygons
+    from cfree.figures.arcs import disc_pillars as disc_pillars
+    from cfree.figures.arcs import rounded_pillar as rounded_pillar
+    from cfree.figures.arcs import rounded_workspace as rounded_workspace
     from cfree.figures.curvature import curvature_along as curvature_along
     from cfree.figures.curvature import directions as directions
     from cfree.figures.curvature import gaussian_curvature as gaussian_curvature
@@ -53,6 +59,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
         "gallery": "FIGURES draw draw_all",
+        "arcs": "arc_curvature arc_curvature_around disc_among_polygons disc_pillars rounded_pillar rounded_workspace",
         "curvature": "directions indicatrix gaussian_curvature curvature_along",
         "curvature_sum": "gauss_and_bonnet",
         "curves": "vertex_vertex edge_edge",

@@ -146,6 +146,29 @@ FIGURES = (
             Panel("depth.depth_in_a_slice", (0.47, 0.27, 0.51, 0.66)),
         ),
     ),
+    Entry(
+        21, "disc", "A disc among polygons: arcs on edges and on vertices.", (10.4, 5.8),
+        (
+            Panel("arcs.disc_among_polygons", (0.01, 0.12, 0.4, 0.84)),
+            Panel("arcs.disc_pillars", (0.39, 0.09, 0.61, 0.91), True),
+        ),
+    ),
+    Entry(
+        22, "rounded-pillar", "A triangle's pillar, and a rounded square's beside it.", (10.4, 7.4),
+        (
+            Panel("pillars.pillar_workspace", (0.07, 0.83, 0.36, 0.16)),
+            Panel("arcs.rounded_workspace", (0.565, 0.83, 0.36, 0.16)),
+            Panel("pillars.pillar", (0.01, 0.09, 0.49, 0.75), True),
+            Panel("arcs.rounded_pillar", (0.505, 0.09, 0.49, 0.75), True),
+        ),
+    ),
+    Entry(
+        23, "arc-curvature", "Gaussian curvature of the surface of an arc on an arc.", (10.4, 5.6),
+        (
+            Panel("arcs.arc_curvature", (0.055, 0.06, 0.59, 0.94), True),
+            Panel("arcs.arc_curvature_around", (0.71, 0.2, 0.27, 0.62)),
+        ),
+    ),
 )  # fmt: skip
 
 
@@ -207,10 +230,10 @@ def draw_all(
 
     Examples
     --------
-    >>> draw_all("never", only=[21])
+    >>> draw_all("never", only=[24])
     Traceback (most recent call last):
         ...
-    ValueError: figure 21: there are the figures 1 to 20
+    ValueError: figure 24: there are the figures 1 to 23
     """
     folder, chosen, suffixes = (
         Path(directory),

@@ -4,7 +4,7 @@
 `integrals` has areas and integrals of K. `curvature_sum` adds up curvature on closed surfaces, and `normals` counts how
 often their normals cover the sphere. `development` unrolls v-e surfaces, with `elliptic` integrals. `geodesics` has
 straight curves on a surface; `congruence` finds equal helices, surfaces and patches. `kinematic` measures the forbidden
-poses of convex polygons; `ruled` reads the eight numbers of a surface.
+poses of convex shapes; `ruled` reads the eight numbers of a surface. `arcs` has all this for an arc on an arc.
 """
 
 from typing import TYPE_CHECKING
@@ -12,6 +12,12 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from cfree.geometry.arcs import ArcGeometry as ArcGeometry
+    from cfree.geometry.arcs import ArcLine as ArcLine
+    from cfree.geometry.arcs import arc_geometry as arc_geometry
+    from cfree.geometry.arcs import line_of_curvature as line_of_curvature
+    from cfree.geometry.arcs import parabolic_angles as parabolic_angles
+    from cfree.geometry.arcs import zero_mean_angles as zero_mean_angles
     from cfree.geometry.congruence import arc_classes as arc_classes
     from cfree.geometry.congruence import helix_classes as helix_classes
     from cfree.geometry.congruence import patch_classes as patch_classes
@@ -42,6 +48,7 @@ if TYPE_CHECKING:
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
+        "arcs": "ArcGeometry ArcLine arc_geometry line_of_curvature parabolic_angles zero_mean_angles",
         "congruence": "arc_classes helix_classes patch_classes surface_classes",
         "development": "develop",
         "curvature_sum": "GaussBonnet gauss_bonnet",

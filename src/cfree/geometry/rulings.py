@@ -14,13 +14,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cfree.arguments import checked
+from cfree.contact.arcs import ArcArcSurface, OffsetSurface
 from cfree.contact.surface import Helix, Surface
 from cfree.geometry.ruled import Floats, check_scale, read_ruled
 
+AnySurface = Surface | OffsetSurface | ArcArcSurface
+
 
 @checked
-def is_developable(surface: Surface) -> bool:
+def is_developable(surface: AnySurface) -> bool:
     """True if the Gaussian curvature is 0 everywhere: on v-e surfaces, which are cylinders, never on e-v surfaces.
+
+    Offsets change nothing. The surface of an arc on an arc is a cylinder if the robot's arc is about the reference
+    point, else not developable.
 
     Examples
     --------
@@ -30,11 +36,13 @@ def is_developable(surface: Surface) -> bool:
     >>> [is_developable(contact_surface(square, square, contact)) for contact in (VertexEdge(0, 0), EdgeVertex(0, 0))]
     [True, False]
     """
-    return not any(surface.g)
+    if isinstance(surface, ArcArcSurface):
+        return not any(surface.a)
+    return not any((surface.core if isinstance(surface, OffsetSurface) else surface).g)
 
 
 @checked
-def is_helicoid(surface: Surface) -> bool:
+def is_helicoid(surface: AnySurface) -> bool:
     """True if it is an e-v surface whose robot edge lies on a line through the reference point, decided exactly.
 
     Notes
@@ -46,14 +54,15 @@ def is_helicoid(surface: Surface) -> bool:
 
 
 @checked
-def is_minimal(surface: Surface) -> bool:
+def is_minimal(surface: AnySurface) -> bool:
     """True if the mean curvature is 0 everywhere, decided exactly.
 
     Notes
     -----
     Lemma 3, as "if and only if". On an e-v surface H = w E F / (2 v^3) is 0 somewhere only if F = det(a_i, a_{i+1}) is
     0, and then everywhere. On a v-e surface H = -w E F / (2 v^3) with F = q x R(phi) a: it is 0 everywhere only if a_i
-    is the reference point, and the surface then lies in a plane.
+    is the reference point, and the surface then lies in a plane. The surface of an arc on an arc is never minimal, and
+    an offset c of an edge E changes F to F + c |E|: squares decide.
 
     Examples
     --------
@@ -65,8 +74,18 @@ def is_minimal(surface: Surface) -> bool:
     >>> [is_minimal(contact_surface(square, square, VertexEdge(i, 0))) for i in range(4)]
     [True, False, False, False]
     """
-    (ax, ay), (gx, gy) = surface.a, surface.g
-    return ax * gy == ay * gx if any(surface.g) else not any(surface.a)
+    if isinstance(surface, ArcArcSurface):
+        return False
+    core = surface.core if isinstance(surface, OffsetSurface) else surface
+    (ax, ay), (gx, gy) = core.a, core.g
+    if not any(core.g):
+        return not any(core.a)
+    beside = ax * gy - ay * gx
+    if not isinstance(surface, OffsetSurface):
+        return beside == 0
+    # the edge's own offset s and rho sqrt(q): (s + rho) |g| = -beside, compared by squares on both sides of a root
+    length = gx * gx + gy * gy
+    return _is_sum_of_roots(-beside * abs(beside) / length, surface.signed_square, surface.edge_offset)
 
 
 @checked
@@ -147,3 +166,12 @@ def distribution_parameters(ruled: ArrayLike, *, angle_scale: float = 1.0) -> Fl
     array([ 2., nan])
     """
     return np.where(read_ruled(ruled).is_edge_vertex, check_scale(angle_scale), np.nan)
+
+
+def _is_sum_of_roots(total: Fraction, first: Fraction, second: Fraction) -> bool:
+    """True if x = y + second for the numbers x and y with x |x| = total and y |y| = first."""
+    # (x - y)^2 = second^2 holds exactly if 2 x y = x^2 + y^2 - second^2; the sign of x - y is that of total - first
+    product = abs(total) + abs(first) - second * second
+    same = (total > 0) == (first > 0) or not total or not first
+    is_square = 4 * abs(total * first) == product * product and (product >= 0 if same else product <= 0)
+    return is_square and (total > first) == (second > 0) and (total < first) == (second < 0)

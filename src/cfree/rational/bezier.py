@@ -25,7 +25,7 @@ from fractions import Fraction
 from itertools import combinations, pairwise
 from math import comb, prod
 from os import PathLike
-from typing import Any, Literal
+from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +39,13 @@ from cfree.rational.model import RationalSurface
 
 Floats = NDArray[np.float64]
 Row = tuple[tuple[Fraction, ...], ...]
+
+
+@runtime_checkable
+class SavedPatch(Protocol):
+    """A patch with a form in JSON."""
+
+    def as_json(self) -> dict[str, Any]: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +100,7 @@ class BezierPatch:
         if not (0 <= along <= 1 and 0 <= local <= 1):
             raise ValueError(f"(t, tau) = ({t}, {tau}) is not in [0, 1] x [{low}, {high}]; give a point of the patch")
         rows = [[(*(w * c for c in p), w) for p, w in zip(row, self.weights, strict=True)] for row in self.points]
-        *point, weight = _de_casteljau([_de_casteljau(row, local) for row in rows], along)
+        *point, weight = de_casteljau([de_casteljau(row, local) for row in rows], along)
         return tuple(c / weight for c in point)
 
     def arrays(self) -> tuple[Floats, Floats]:
@@ -105,10 +112,10 @@ class BezierPatch:
         """Return chart, interval, degrees, weights and points; numbers are exact strings such as "2/3"."""
         return {
             "chart": self.chart,
-            "interval": _texts(self.interval),
+            "interval": exact_texts(self.interval),
             "degrees": [1, len(self.weights) - 1],
-            "weights": _texts(self.weights),
-            "points": [[_texts(point) for point in row] for row in self.points],
+            "weights": exact_texts(self.weights),
+            "points": [[exact_texts(point) for point in row] for row in self.points],
         }
 
 
@@ -207,8 +214,8 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
 
 
 @checked
-def save_bezier(patches: Iterable[BezierPatch], path: str | PathLike[str]) -> None:
-    """Write Bezier patches as a JSON list of `BezierPatch.as_json`, completely or not at all."""
+def save_bezier(patches: Iterable[SavedPatch], path: str | PathLike[str]) -> None:
+    """Write `BezierPatch` and `BezierNet` as a JSON list of their `as_json`, completely or not at all."""
     with replacing(path) as unfinished:
         unfinished.write_text(json.dumps([patch.as_json() for patch in patches]) + "\n", encoding="utf-8")
 
@@ -232,11 +239,11 @@ def _polar(coefficients: Sequence[Fraction | int], arguments: Sequence[Fraction]
     )
 
 
-def _de_casteljau(points: Sequence[tuple[Fraction, ...]], s: Fraction) -> tuple[Fraction, ...]:
+def de_casteljau(points: Sequence[tuple[Fraction, ...]], s: Fraction) -> tuple[Fraction, ...]:
     while len(points) > 1:
         points = [tuple((1 - s) * a + s * b for a, b in zip(p, q, strict=True)) for p, q in pairwise(points)]
     return points[0]
 
 
-def _texts(numbers: Iterable[Fraction]) -> list[str]:
+def exact_texts(numbers: Iterable[Fraction]) -> list[str]:
     return [str(number) for number in numbers]

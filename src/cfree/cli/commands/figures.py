@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 def figures(output: Path, only: str | None, formats: str, renderer: Renderer | None, as_json: bool) -> None:
     """Draw the figures of the paper from computed data.
 
-    Draws figures 1 to 10 of the paper, and ten more.
+    Draws figures 1 to 10 of the paper, and thirteen more.
     """
     with one_line_faults():
         from cfree.arguments import one_of
