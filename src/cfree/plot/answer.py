@@ -315,7 +315,7 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     opacity = np.concatenate((np.where(fading > 0.5, 1.0, fading), np.ones(len(line.corners))))
     _draw_patches(ax, boundary, window, degrees, joined([near, line]), opacity)
     names = {"v-e patch": PALE.vertex_edge, "e-v patch": PALE.edge_vertex}
-    middle = track.colour(np.array([track.most / 2]))[0]
+    middle = track.colour(np.array([track.most / 2]))[0] if track.gears is None else track.at_steps()[0]
     _legend(ax, names, [("path, coloured as beside", middle, "-"), ("hidden", middle, (0, (2, 1.5)))])
     shadow = np.full(len(rows), degrees[0])
     ax.plot(*rows[:, :2].T, shadow, color=GREY, linewidth=1.2, zorder=0.5, label="reference point")
@@ -393,7 +393,7 @@ def _range(degrees: Floats) -> Range:
 
 def _line(track: Track, rows: Floats) -> Pieces:
     """Return the path, coloured by clearance, with a white rim, and dashes that nothing hides."""
-    rgb = track.colour((track.distance[1:] + track.distance[:-1]) / 2)[:, :3]
+    rgb = track.between_steps()[:, :3]
     rim = of_line(rows, "white", 5.0)
     line, above = (replace(of_line(rows, INK, width, sort), rgb=rgb) for width, sort in ((3.0, OVER), (1.8, ON_TOP)))
     line.corners[:-1, 1:3] = line.corners[1:, 1:3]  # parts overlap to avoid seams
