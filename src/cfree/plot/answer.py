@@ -13,6 +13,8 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
+from cfree.errors import UndecidedError
+from cfree.exact.number import Number
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.forbidden.kinds import COLOURS, PatchKind
@@ -24,28 +26,28 @@ from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.plot.boundary import (
-    around,
     new_figure,
     new_space,
     plain,
     plot_workspace,
-    roomy,
     set_ticks,
     set_window,
     with_unit,
 )
 from cfree.plot.depth_sort import Painting
+from cfree.plot.headed import headed, new_picture, window_of
 from cfree.plot.labels import BODY, Labels, name_in_space
 from cfree.plot.looks import looks, of_polygons, smooth
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
 from cfree.plot.reading import plot_shapes, with_record
 from cfree.plot.strips import strips
+from cfree.plot.stuck import picture_of_stuck
 from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
 from cfree.scene.naming import all_placed, numbered, placed
-from cfree.scene.scene import Scene, box_of, robot_radius, with_ends
+from cfree.scene.scene import Scene, box_of, robot_radius
 from cfree.words import MOST_NAMES, listed
 
 Floats = NDArray[np.float64]
@@ -104,19 +106,21 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
 
 @checked
 def picture(
-    answer: Path | Separated | Stuck | AllSeparated | Scene | Shapes,
+    answer: Path | Separated | Stuck | AllSeparated | UndecidedError | Scene | Shapes,
     scene: Scene | None = None,
     boundary: Boundary | None = None,
     *,
     preferences: Preferences | None = None,
+    wheelbase: Number | None = None,
 ) -> Figure:
     """Draw an answer in the workspace and, beside it, in the configuration space; or a scene, or the shapes of a file.
 
     Parameters
     ----------
-    answer : Path, Separated, Stuck, AllSeparated, Scene or Shapes
-        The first of several proofs is drawn; of a vehicle that is stuck, the scene with its start and goal. A scene is
-        drawn as by `plot_workspace`, round shapes with many edges.
+    answer : Path, Separated, Stuck, AllSeparated, UndecidedError, Scene or Shapes
+        The first of several proofs is drawn. The contacts of a vehicle that is stuck are marked, and all poses that it
+        reaches. Of an `UndecidedError` its path is drawn, which proves that a vehicle has one. A scene is drawn as by
+        `plot_workspace`, round shapes with many edges.
         Over a scene or shapes the record of reading is drawn: lost lines red, guessed outlines hatched in orange,
         joined gaps as dots.
     scene : Scene, optional
@@ -125,6 +129,8 @@ def picture(
         The boundary of that scene; if None, a path is drawn in the workspace alone. A separation has its own surface.
     preferences : Preferences, optional
         Motions penalised by these preferences are marked.
+    wheelbase : number, optional
+        Distance of a car's steered axle from the other one; see `plot_path`.
 
     Returns
     -------
@@ -133,7 +139,8 @@ def picture(
     Raises
     ------
     ValueError
-        If a path is not free, or the scene is missing, or a scene is given for a scene.
+        If a path is not free, or its vehicle cannot drive it; if the scene is missing, or given for a scene; if an
+        error has no path.
 
     See Also
     --------
@@ -163,17 +170,28 @@ def picture(
     if isinstance(answer, AllSeparated):
         answer = answer.proofs[0]
     if isinstance(answer, Stuck):
-        return picture(with_ends(_scene_of(answer, scene), answer.start, answer.goal))
+        return picture_of_stuck(answer, _scene_of(answer, scene), wheelbase)
+    headline, details = "", ""
+    if isinstance(answer, UndecidedError):
+        headline, details = "undecided: a path exists", f"about {answer.manoeuvres:,} motions; shown in any direction: "
+        answer = _path_of(answer)
     scene = of_polygons(answer, _scene_of(answer, scene))
     if isinstance(answer, Separated):
         return _picture_of_separation(answer, scene)
-    track = Track.of(answer, scene)
-    figure, ax = _new_picture(track.window, boundary is not None)
+    track = Track.of(answer, scene, wheelbase)
+    figure, ax = new_picture(track.window, boundary is not None, below=0.65 if track.gears is None else 1.0)
     draw_track(ax, track, preferences or NONE)
     if boundary is not None:
         _draw_track(_right(figure), track, boundary)
-    _head(figure, scene, "a free path", statement(track))
+    headline = headline or ("a free path" if track.gears is None else f"a path of {track.gears.driver()}")
+    headed(figure, scene, headline, details + statement(track))
     return figure
+
+
+def _path_of(error: UndecidedError) -> Path:
+    if not isinstance(error.path, Path):
+        raise ValueError(f"answer: {error}; there is no path to draw")
+    return error.path
 
 
 def _scene_of(answer: Path | Separated | Stuck, scene: Scene | None) -> Scene:
@@ -185,8 +203,8 @@ def _scene_of(answer: Path | Separated | Stuck, scene: Scene | None) -> Scene:
 
 def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     """Draw start, goal and the blocking obstacles; beside them the separating surface."""
-    window, shown = _window(answer, scene), looks(answer, scene)
-    figure, ax = _new_picture(window, len(answer.pieces) > 0)
+    window, shown = window_of(scene, [answer.start, answer.goal]), looks(answer, scene)
+    figure, ax = new_picture(window, len(answer.pieces) > 0)
     draw_surroundings(ax, shown)
     _draw_barrier(ax, shown, answer.obstacles)
     ends = {"start": answer.start, "goal": answer.goal}
@@ -207,7 +225,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     if len(named) > WIDEST:
         named = listed([numbered(scene, k) for k in answer.obstacles], ", ")
     blocking = f"separated by {plain(named)}" if named else "the one or the other touches, and fits exactly"
-    _head(figure, scene, f"no {without} from start to goal", blocking)
+    headed(figure, scene, f"no {without} from start to goal", blocking)
     return figure
 
 
@@ -255,17 +273,6 @@ def _features_of(shape: ShapeFeatures, owners: NDArray[np.int32]) -> NDArray[np.
 
 
 # the plane
-
-
-def _window(answer: Separated, scene: Scene) -> Window:
-    """Return the rectangle around everything in the scene."""
-    robots = np.concatenate([q.apply(part.vertices) for q in (answer.start, answer.goal) for part in scene.robot])
-    boxes: list[Window] = [(*robots.min(axis=0).tolist(), *robots.max(axis=0).tolist())]
-    boxes += [body.bounds for body in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
-    if scene.bounds is not None:
-        x0, y0, x1, y1 = map(float, scene.bounds)
-        boxes.append((x0, y0, x1, y1))
-    return roomy(around(boxes))
 
 
 def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
@@ -410,24 +417,5 @@ def _space(ax: Axes3D | None) -> Any:
     return ax
 
 
-def _new_picture(window: Window, with_space: bool) -> tuple[Figure, Any]:
-    """Make a figure with room for a headline, and its axes of the workspace, alone or at the left."""
-    shape = (window[3] - window[1]) / (window[2] - window[0])
-    if with_space:
-        height = float(np.clip(6.0 * shape, 4.2, 6.0)) + 1.6
-        figure = new_figure((15, height))
-        return figure, figure.add_axes((0.045, 0.65 / height, 0.4, 1 - 1.6 / height))
-    height = float(np.clip(6.6 * shape, 2.5, 8.5)) + 1.6
-    figure = new_figure((8.4, height))
-    return figure, figure.add_axes((0.09, 0.65 / height, 0.78, 1 - 1.6 / height))
-
-
 def _right(figure: Figure) -> Any:
     return _space(new_space(figure, (0.48, 0.09, 0.5, 0.79)))
-
-
-def _head(figure: Figure, scene: Scene, headline: str, details: str) -> None:
-    title = f"{plain(scene.name)}: {headline}" if scene.name else headline
-    height = float(figure.get_size_inches()[1])
-    figure.text(0.5, 1 - 0.32 / height, title, ha="center", va="center", weight="bold", fontsize=14)
-    figure.text(0.5, 1 - 0.64 / height, details, ha="center", va="center", fontsize=11)

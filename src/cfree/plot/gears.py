@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,7 @@ from cfree.paths.path import Path
 from cfree.paths.travel import Travel
 from cfree.plot.workspace import draw_robot, path_of, rings_of
 from cfree.scene.scene import Scene, robot_radius
-
-if TYPE_CHECKING:
-    from cfree.vehicles.vehicle import Vehicle
+from cfree.vehicles.vehicle import Vehicle, described
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -207,6 +205,10 @@ class Gears:
                 taken.append(pose)
                 chosen.append((pose, self._follows(self.parts[k:])))
         return chosen
+
+    def driver(self) -> str:
+        """Name the vehicle with its turning radius."""
+        return described(self.wheels.vehicle)
 
     def part_at(self, travel: Floats) -> Ints:
         """Return the part in which the robot is after some travel (n,)."""
