@@ -8,6 +8,7 @@ from pathlib import Path as FilePath
 from typing import Literal
 
 from cfree.arguments import checked
+from cfree.exact.number import Number
 from cfree.forbidden.boundary import Boundary
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
@@ -103,9 +104,12 @@ def film_path(
     seconds: float | None = None,
     fps: int = 25,
     size: tuple[int, int] | None = None,
+    wheelbase: Number | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> None:
     """Write a film of the robot along a path, its clearance, and the configuration space if its boundary is given.
+
+    A path of a vehicle has the colours of its gears instead of those of its clearance, and the robot has wheels.
 
     Parameters
     ----------
@@ -123,13 +127,15 @@ def film_path(
         Frames a second.
     size : (int, int), optional
         Width and height in pixels, even; by default 1280 x 720, for a GIF 640 x 360.
+    wheelbase : number, optional
+        Distance of the steered axle of the path's car; its front wheels are drawn if it is given.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
     Raises
     ------
     ValueError
-        If the path is not free, or an option makes no sense.
+        If the path is not free, or its vehicle cannot drive it, or an option makes no sense.
     UnsupportedError
         If the format is unknown, or PyAV is missing.
 
@@ -158,7 +164,7 @@ def film_path(
         seconds = GIF_SECONDS - sum(REST)
     if seconds is not None and not 0 < seconds <= MOST:
         raise ValueError(f"{seconds} seconds; give more than 0, and {MOST:g} at most")
-    write(path_frames(Track.of(path, scene), boundary, seconds, fps, size, progress), file, fps)
+    write(path_frames(Track.of(path, scene, wheelbase), boundary, seconds, fps, size, progress), file, fps)
 
 
 @checked

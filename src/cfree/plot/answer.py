@@ -173,7 +173,8 @@ def picture(
         return picture_of_stuck(answer, _scene_of(answer, scene), wheelbase)
     headline, details = "", ""
     if isinstance(answer, UndecidedError):
-        headline, details = "undecided: a path exists", f"about {answer.manoeuvres:,} motions; shown in any direction: "
+        headline = "undecided: a path exists"
+        details = f"it needs about {answer.manoeuvres:,} motions; here the robot moves in any direction"
         answer = _path_of(answer)
     scene = of_polygons(answer, _scene_of(answer, scene))
     if isinstance(answer, Separated):
@@ -183,8 +184,8 @@ def picture(
     draw_track(ax, track, preferences or NONE)
     if boundary is not None:
         _draw_track(_right(figure), track, boundary)
-    headline = headline or ("a free path" if track.gears is None else f"a path of {track.gears.driver()}")
-    headed(figure, scene, headline, details + statement(track))
+    headline = headline or ("a free path" if track.gears is None else f"a path for {track.gears.driver()}")
+    headed(figure, scene, headline, details or statement(track))
     return figure
 
 

@@ -40,7 +40,7 @@ VISIBLE = 0.05  # robot's radii: front wheels have the angle of the next part th
 NEAR = 3.0  # robot's radii: a picture shows axle points within this distance
 BELOW = 0.52  # inches from axes to the legend below them
 _DOT: dict[str, Any] = {"markersize": 5, "color": "white", "markeredgecolor": INK, "markeredgewidth": 1.2}
-_SPOT: dict[str, Any] = {"markersize": 11, "color": IN_PLACE, "markeredgecolor": "white", "markeredgewidth": 1.2}
+_SPOT: dict[str, Any] = {"markersize": 8, "color": IN_PLACE, "markeredgecolor": "white", "markeredgewidth": 1.2}
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,6 +215,17 @@ class Gears:
         ends = [self.travel.until[part.last + 1] for part in self.parts]
         return np.clip(np.searchsorted(ends, travel, side="right"), 0, max(0, len(ends) - 1))
 
+    def tracks_until(self, travel: float) -> list[Floats]:
+        """Return the tracks of the axle point up to some travel, each (n, 2)."""
+        if not self.parts:
+            return []
+        k = int(self.part_at(np.array([travel]))[0])
+        part, (motions, shares) = self.parts[k], self.travel.places([travel])
+        motion, share = min(int(motions[0]), part.last), float(shares[0])
+        if motion < part.first:
+            return self.tracks[:k]
+        return [*self.tracks[:k], self._track(part.first, motion + 1, share if motion == motions[0] else 1.0)]
+
     def colours(self, travel: Floats) -> Floats:
         """Return the colours (n, 4) of the gears after some travel (n,)."""
         from matplotlib.colors import to_rgba_array
@@ -245,12 +256,13 @@ class Gears:
     def _axle(self) -> list[float]:
         return [float(value) for value in self.wheels.vehicle.axle]
 
-    def _track(self, first: int, end: int) -> Floats:
-        """Return the track of the axle point from motion to motion."""
+    def _track(self, first: int, end: int, last: float = 1.0) -> Floats:
+        """Return the track of the axle point from motion to motion, of the last one up to a share."""
         points = []
-        for pose, motion in zip(self.path.poses[first:end], self.path.motions[first:end], strict=True):
-            shares = np.linspace(0, 1, 2 + int(abs(motion.turn) / FINE))
-            points.append(motion.sample(pose, shares).apply([self._axle])[:, 0])
+        for k in range(first, end):
+            motion = self.path.motions[k]
+            shares = np.linspace(0, last if k == end - 1 else 1.0, 2 + int(abs(motion.turn) / FINE))
+            points.append(motion.sample(self.path.poses[k], shares).apply([self._axle])[:, 0])
         return np.concatenate(points)
 
 
