@@ -48,14 +48,7 @@ class DrawnDriving:
         self.spots.set_data(*gears.spots[:turns].T)
         self.wheels.place(pose, gears.parts[part].curvature if gears.parts else 0.0)
 
-    def word(self, travel: float) -> tuple[str, str]:
-        """Return the present gear in a word, and its colour."""
-        if not self.gears.parts:
-            return "", "none"
-        colour, word = GEARS[self.gears.parts[int(self.gears.part_at(np.array([travel]))[0])].gear]
-        return word, colour
-
-    def hide(self) -> None:
-        """Hide all artists."""
+    def show(self, *, visible: bool) -> None:
+        """Show or hide all artists."""
         for artist in (*self.tracks, self.spots, self.dots, self.wheels.axles, self.wheels.shapes):
-            artist.set_visible(False)
+            artist.set_visible(visible)

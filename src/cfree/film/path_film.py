@@ -119,7 +119,7 @@ class PathStage:
         labels.avoid([shapely.LineString(xy)], LINE)
         labels.name_robot(track.scene, goal, "goal")
         self.words = [text for text in ax.texts if text.get_text()]
-        self.names = Names(ax, track.scene)
+        self.names = Names(ax, track.scene, robot=gears is None)
 
     def _draw_gauge(self, figure: Figure, place: Window) -> None:
         """Draw a bar of all clearances, and a pointer to the present one."""
@@ -157,7 +157,8 @@ class PathStage:
             self.trace.set_color(colours)
         else:
             self.driving.draw(travel, pose)
-            self.gear.set(text=self.driving.word(travel)[0], color=self.driving.word(travel)[1])
+            word, colour = self.driving.gears.word(travel)
+            self.gear.set(text=word, color=colour)
         past = [k for k in track.ghosts.tolist() if k < done]
         self.ghosts.set_paths(
             [path_of(q.apply(ring) for ring in rings_of(track.scene.robot)) for q in poses_of(track.rows[past])]

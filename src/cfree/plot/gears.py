@@ -215,6 +215,13 @@ class Gears:
         ends = [self.travel.until[part.last + 1] for part in self.parts]
         return np.clip(np.searchsorted(ends, travel, side="right"), 0, max(0, len(ends) - 1))
 
+    def word(self, travel: float) -> tuple[str, str]:
+        """Return the gear after some travel in a word, and its colour."""
+        if not self.parts:
+            return "", INK
+        colour, word = GEARS[self.parts[int(self.part_at(np.array([travel]))[0])].gear]
+        return word, colour
+
     def tracks_until(self, travel: float) -> list[Floats]:
         """Return the tracks of the axle point up to some travel, each (n, 2)."""
         if not self.parts:
