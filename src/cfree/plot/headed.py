@@ -19,14 +19,15 @@ def new_picture(window: Window, with_space: bool, *, below: float = 0.65) -> tup
 
     `below` is the room below the axes, in inches.
     """
+    room = 0.95 + below
     shape = (window[3] - window[1]) / (window[2] - window[0])
     if with_space:
-        height = float(np.clip(6.0 * shape, 4.2, 6.0)) + 0.95 + below
+        height = float(np.clip(6.0 * shape, 4.2, 6.0)) + room
         figure = new_figure((15, height))
-        return figure, figure.add_axes((0.045, below / height, 0.4, 1 - (0.95 + below) / height))
-    height = float(np.clip(6.6 * shape, 2.5, 8.5)) + 0.95 + below
+        return figure, figure.add_axes((0.045, below / height, 0.4, 1 - room / height))
+    height = float(np.clip(6.6 * shape, 2.5, 8.5)) + room
     figure = new_figure((8.4, height))
-    return figure, figure.add_axes((0.09, below / height, 0.78, 1 - (0.95 + below) / height))
+    return figure, figure.add_axes((0.09, below / height, 0.78, 1 - room / height))
 
 
 def headed(figure: Figure, scene: Scene, headline: str, details: str) -> None:
