@@ -15,17 +15,19 @@ from matplotlib.patches import PathPatch
 from PIL import Image
 
 import cfree
+from cfree.film.path_film import PathStage
 from cfree.palette import BARRIER, GHOST, INK, ROBOT, paler
 from cfree.paths.travel import Travel
 from cfree.plot.boundary import new_figure
 from cfree.plot.gears import Gears, Wheels, draw_axle_track, draw_stands, draw_vehicle, gear_handles
+from cfree.plot.path import Track
 from cfree.plot.workspace import draw_robot, draw_surroundings, path_of, rings_of, rings_of_geometry
 
 ROOT = Path(__file__).parents[1]
 SCENE, FOLDER = ROOT / "examples" / "scenes" / "parking_bay.json", ROOT / "docs" / "images"
 LARGER, WHEELBASE = Fraction("1.14"), Fraction("2.5")
 WINDOW = (-8.3, -0.3, 7.9, 9.5)
-ACROSS = 1600  # pixels
+SECONDS, SHARE = 10.0, 0.75  # of improvement; of the path at which the film's frame is
 TOUCHING = 0.03  # metres
 
 
@@ -72,12 +74,9 @@ def contacts(scene: cfree.Scene, pose: cfree.Pose) -> np.ndarray[Any, Any]:
     return np.array([line.coords[1] for line in near])
 
 
-def hero() -> Figure:
+def hero(scene: cfree.Scene, path: cfree.Path) -> Figure:
     """Return the car that parks, beside the car that cannot."""
-    scene = cfree.load_scene(SCENE)
     assert cfree.max_scale(scene).hi <= LARGER
-    path = cfree.plan(scene, improve=10.0)
-    assert isinstance(path, cfree.Path)
     larger = scaled(scene, LARGER)
     proof = cfree.plan(larger)
     assert isinstance(proof, cfree.Separated)
@@ -114,14 +113,43 @@ def hero() -> Figure:
     return figure
 
 
-def save(figure: Figure, file: str, width: int = ACROSS) -> None:
-    """Write a figure with few colours."""
+def held() -> cfree.Stuck:
+    """Return the proof that a car between two boxes cannot drive off."""
+    boxes = [[(2, -1), (3, -1), (3, 1), (2, 1)], [(-3, -1), (-2, -1), (-2, 1), (-3, 1)]]
+    car = [(-2, -1), (2, -1), (2, 1), (-2, 1)]
+    proof = cfree.plan(
+        cfree.Scene(car, boxes, start=(0, 0, 0), goal=(0, "3.5", 0), units="m", vehicle=cfree.Car(4, axle=(-1, 0)))
+    )
+    assert isinstance(proof, cfree.Stuck)
+    return proof
+
+
+def drawn(figure: Any) -> Image.Image:
+    """Return the picture of a figure."""
     data = BytesIO()
-    figure.savefig(data, dpi=2 * width / figure.get_figwidth())
-    image = Image.open(data).convert("RGB")
-    small = image.resize((width, round(image.height * width / image.width)), Image.Resampling.LANCZOS)
-    small.quantize(128, kmeans=2, dither=Image.Dither.NONE).save(FOLDER / file, optimize=True)
+    figure.savefig(data, dpi=250)
+    return Image.open(data)
+
+
+def save(image: Image.Image, file: str, width: int) -> None:
+    """Write a picture of this width with few colours."""
+    size = width, round(image.height * width / image.width)
+    small = image.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+    small.quantize(200, kmeans=2, dither=Image.Dither.NONE).save(FOLDER / file, optimize=True)
+
+
+def frame(scene: cfree.Scene, path: cfree.Path) -> Image.Image:
+    """Return a frame of the film of a path."""
+    track = Track.of(path, scene, WHEELBASE)
+    stage = PathStage(track, cfree.boundary(scene), (1280, 720))
+    return Image.fromarray(stage.draw(SHARE * track.travel.total, SHARE))
 
 
 if __name__ == "__main__":
-    save(hero(), "parking-bay.png")
+    scene = cfree.load_scene(SCENE)
+    path = cfree.plan(scene, improve=SECONDS)
+    assert isinstance(path, cfree.Path)
+    save(drawn(hero(scene, path)), "parking-bay.png", 1600)
+    save(drawn(cfree.plot.plot_path(path, scene, wheelbase=WHEELBASE).figure), "vehicle.png", 1100)
+    save(drawn(held().plot()), "stuck.png", 900)
+    save(frame(scene, path), "film-vehicle.png", 1280)
