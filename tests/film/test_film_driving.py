@@ -74,7 +74,9 @@ def test_front_wheels_turn_with_the_motion() -> None:
         rear = path.vertices[:5]
         shapes.append([edge[1] - edge[0] for edge in (rear, front)])
     (rear, front), (_, turned) = shapes
-    assert np.cross(rear, front) == pytest.approx(0, abs=1e-9) and abs(np.cross(shapes[1][0], turned)) > 1e-3
+    behind = shapes[1][0]
+    assert rear[0] * front[1] - rear[1] * front[0] == pytest.approx(0, abs=1e-9)
+    assert abs(behind[0] * turned[1] - behind[1] * turned[0]) > 1e-3
 
 
 def test_a_path_without_a_vehicle_has_no_wheels_in_its_film() -> None:
