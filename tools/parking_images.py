@@ -27,7 +27,7 @@ ROOT = Path(__file__).parents[1]
 SCENE, FOLDER = ROOT / "examples" / "scenes" / "parking_bay.json", ROOT / "docs" / "images"
 LARGER, WHEELBASE = Fraction("1.14"), Fraction("2.5")
 WINDOW = (-8.3, -0.3, 7.9, 9.5)
-SECONDS, SHARE = 10.0, 0.75  # of improvement; of the path at which the film's frame is
+SECONDS, SHARE = 30.0, 0.75  # of improvement; of the path at which the film's frame is
 TOUCHING = 0.03  # metres
 
 

@@ -19,7 +19,7 @@ import cfree
 
 scene = cfree.load_scene("examples/scenes/parking_bay.json")
 print(scene.vehicle)
-print(cfree.Car.with_wheelbase("2.5", "40deg", axle=("-1.25", 0)))
+print(f"{float(cfree.Car.with_wheelbase('2.5', '40deg').turning_radius):.3f} m")
 
 # %%
 # A path with gears

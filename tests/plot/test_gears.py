@@ -202,7 +202,7 @@ def test_the_contacts_of_a_stuck_vehicle_are_marked_with_what_it_touches() -> No
         (ax,) = figure.axes
         contacts = artists(ax)["contacts"].get_xydata()
         assert sorted(map(tuple, contacts.round(6))) == [(-2, 0), (2, 0)]
-        texts = [text.get_text() for text in ax.texts]
+        texts = [" ".join(text.get_text().split()) for text in ax.texts]
         assert {"touches obstacle 0", "touches obstacle 1", f"{at}: stuck"} <= {*texts}
         assert [text.get_text() for text in figure.texts][1] == proof.sentence()
         lines = artists(ax)["lines"].get_segments()
