@@ -25,7 +25,7 @@ from cfree.plot.workspace import draw_robot, draw_surroundings, path_of, rings_o
 
 ROOT = Path(__file__).parents[1]
 SCENE, FOLDER = ROOT / "examples" / "scenes" / "parking_bay.json", ROOT / "docs" / "images"
-LARGER, WHEELBASE = Fraction("1.14"), Fraction("2.5")
+LARGER = Fraction("1.14")
 WINDOW = (-8.3, -0.3, 7.9, 9.5)
 SECONDS, SHARE = 30.0, 0.75  # of improvement; of the path at which the film's frame is
 TOUCHING = 0.03  # metres
@@ -34,7 +34,10 @@ TOUCHING = 0.03  # metres
 def scaled(scene: cfree.Scene, factor: Fraction) -> cfree.Scene:
     """Return the scene with a larger robot."""
     robot = [[(factor * x, factor * y) for x, y in part.exact_vertices] for part in scene.robot]
-    return cfree.Scene(robot, scene.obstacles, workspace=scene.workspace, start=scene.start, goal=scene.goal)
+    its = scene.vehicle
+    car = cfree.Car(its.radii, [factor * x for x in its.axle], wheelbase=factor * its.wheelbase)
+    ends = {"start": scene.start, "goal": scene.goal}
+    return cfree.Scene(robot, scene.obstacles, workspace=scene.workspace, vehicle=car, **ends)
 
 
 def reached(scene: cfree.Scene, pose: cfree.Pose) -> tuple[Any, list[cfree.Pose]]:
@@ -83,7 +86,7 @@ def hero(scene: cfree.Scene, path: cfree.Path) -> Figure:
     assert proof.of == "closed"
     figure = new_figure((12, 4.5))
     left = panel(figure, (0.005, 0.085, 0.485, 0.8), scene)
-    gears = Gears.of(path, scene, Travel(path, scene), WHEELBASE)
+    gears = Gears.of(path, scene, Travel(path, scene))
     assert gears is not None
     draw_stands(left, scene, gears)
     draw_vehicle(left, scene, path.start, gears.wheels, gears.curvature("start"), faint=False)
@@ -94,7 +97,7 @@ def hero(scene: cfree.Scene, path: cfree.Path) -> Figure:
     right.add_patch(PathPatch(path_of(rings_of_geometry(region)), facecolor=paler(GHOST, 0.55), linewidth=0, zorder=1))
     wall = path_of(rings_of([scene.obstacles[k] for k in proof.obstacles if k >= 0]))
     right.add_patch(PathPatch(wall, facecolor=paler(BARRIER, 0.7), edgecolor=BARRIER, linewidth=1.8, zorder=2.5))
-    wheels = Wheels.of(larger, scene.vehicle, WHEELBASE * LARGER)
+    wheels = Wheels.of(larger, larger.vehicle)
     draw_vehicle(right, larger, proof.start, wheels, 0.0, faint=False)
     draw_robot(right, larger, proof.goal, faint=True, mark=False)
     for pose in turned:
@@ -140,7 +143,7 @@ def save(image: Image.Image, file: str, width: int) -> None:
 
 def frame(scene: cfree.Scene, path: cfree.Path) -> Image.Image:
     """Return a frame of the film of a path."""
-    track = Track.of(path, scene, WHEELBASE)
+    track = Track.of(path, scene)
     stage = PathStage(track, cfree.boundary(scene), (1280, 720))
     return Image.fromarray(stage.draw(SHARE * track.travel.total, SHARE))
 
@@ -150,6 +153,6 @@ if __name__ == "__main__":
     path = cfree.plan(scene, improve=SECONDS)
     assert isinstance(path, cfree.Path)
     save(drawn(hero(scene, path)), "parking-bay.png", 1600)
-    save(drawn(cfree.plot.plot_path(path, scene, wheelbase=WHEELBASE).figure), "vehicle.png", 1100)
+    save(drawn(cfree.plot.plot_path(path, scene).figure), "vehicle.png", 1100)
     save(drawn(held().plot()), "stuck.png", 900)
     save(frame(scene, path), "film-vehicle.png", 1280)

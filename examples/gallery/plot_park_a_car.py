@@ -15,7 +15,7 @@ import cfree
 # -----
 #
 # The middle of the rear axle is 1.25 m behind the middle of this car, and its turning radius is 3 m: both are in the
-# file of the scene, which is its own. ``cfree.Car.with_wheelbase`` takes the greatest steering angle instead.
+# file of the scene, with the distance of its axles. ``cfree.Car.with_wheelbase`` takes the greatest steering angle.
 
 scene = cfree.load_scene("examples/scenes/parking_bay.json")
 print(scene.vehicle)
@@ -35,10 +35,9 @@ for part in path.driving[:3]:
 print("free:", path.is_free(cfree.MotionChecker(scene)), "- drivable:", bool(cfree.is_drivable(path, scene.vehicle)))
 
 # %%
-# Blue is ahead, orange back; dots are changes of direction. With the distance of the axles the front wheels are drawn,
-# at the angle of the motion that follows.
+# Blue is ahead, orange back; dots are changes of direction. Front wheels have the angle of the motion that follows.
 
-figure = path.plot(scene, wheelbase="2.5")
+figure = path.plot(scene)
 
 # %%
 # In space the path changes its gear at sharp corners: there the car stands.

@@ -68,7 +68,7 @@ class Answer:
 
     __slots__ = ()
 
-    def plot(self, scene: Any = None, boundary: Any = None, *, preferences: Any = None, wheelbase: Any = None) -> Any:
+    def plot(self, scene: Any = None, boundary: Any = None, *, preferences: Any = None) -> Any:
         """Draw the answer with `cfree.plot.picture`, which says what is drawn; return the matplotlib figure.
 
         Parameters
@@ -79,10 +79,8 @@ class Answer:
             Of that scene: a path is then drawn in the configuration space as well.
         preferences : Preferences, optional
             Where a path does what these find dear is marked.
-        wheelbase : number, optional
-            Distance of the steered axle of a path's car: its front wheels are then drawn.
         """
-        return registered("figure")(self, scene, boundary, preferences=preferences, wheelbase=wheelbase)
+        return registered("figure")(self, scene, boundary, preferences=preferences)
 
 
 class Keeping:

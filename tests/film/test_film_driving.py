@@ -1,7 +1,6 @@
 """Films of driven paths: gears, changes of direction and wheels, frame by frame."""
 
 from pathlib import Path as FilePath
-from typing import Any
 
 import numpy as np
 import pytest
@@ -21,7 +20,7 @@ WORDS = {"forward": (AHEAD, "ahead"), "backward": (BACK, "back"), "turning": (IN
 BODY = [(-2, -1), (2, -1), (2, 1), (-2, 1)]
 WALL = Scene(BODY, [[(3, "3.25"), (5, "3.25"), (5, 5), (3, 5)]], units="m")
 CAR = Path(
-    Pose(0, 0), [Translation((6, 0)), Rotation((5, -3), "20deg")], vehicle=Car(2, axle=(-1, 0))
+    Pose(0, 0), [Translation((6, 0)), Rotation((5, -3), "20deg")], vehicle=Car(2, axle=(-1, 0), wheelbase=3)
 )  # fmt: skip
 DRIVE = Path(
     Pose(0, 0), [Translation((2, 0)), Rotation((1, 0), "-90deg"), Translation((0, -4)), Translation((0, 1))],
@@ -29,8 +28,8 @@ DRIVE = Path(
 )  # fmt: skip
 
 
-def stage_of(path: Path, scene: Scene = WALL, wheelbase: Any = None) -> PathStage:
-    return PathStage(Track.of(path, scene, wheelbase), None, SMALL)
+def stage_of(path: Path) -> PathStage:
+    return PathStage(Track.of(path, WALL), None, SMALL)
 
 
 @pytest.mark.parametrize("path", [CAR, DRIVE])
@@ -63,7 +62,7 @@ def test_dots_appear_when_the_direction_changes(path: Path) -> None:
 
 
 def test_front_wheels_turn_with_the_motion() -> None:
-    stage = stage_of(CAR, wheelbase=3)
+    stage = stage_of(CAR)
     assert stage.driving is not None
     shapes = []
     for travel in (1.0, stage.track.travel.total - 0.1):
@@ -86,7 +85,7 @@ def test_a_path_without_a_vehicle_has_no_wheels_in_its_film() -> None:
 
 
 def test_the_film_of_a_driven_path_is_read_back(tmp_path: FilePath) -> None:
-    cfree.film.film_path(DRIVE, WALL, tmp_path / "way.gif", seconds=1, fps=5, size=SMALL, wheelbase=2)
+    cfree.film.film_path(DRIVE, WALL, tmp_path / "way.gif", seconds=1, fps=5, size=SMALL)
     with Image.open(tmp_path / "way.gif") as film:
         assert film.size == SMALL and film.n_frames > 3
 

@@ -93,7 +93,7 @@ def test_wheels_stand_at_start_goal_and_changes_of_direction() -> None:
 
 def test_front_wheels_are_drawn_if_the_wheelbase_is_known_and_point_to_the_pole() -> None:
     scene = room(FORTH_AND_BACK)
-    bare, steering = (Wheels.of(scene, CAR, base) for base in (None, "2.5"))
+    bare, steering = (Wheels.of(scene, Car(2, axle=(-1, 0), wheelbase=base)) for base in (None, "2.5"))
     assert len(bare.rings(Pose(0, 0), 0.5)) == 2 and len(bare.axles(Pose(0, 0))) == 1
     for curvature in (0.5, -0.4, 0.05):
         rings = steering.rings(Pose(0, 0), curvature)
@@ -107,7 +107,7 @@ def test_front_wheels_are_drawn_if_the_wheelbase_is_known_and_point_to_the_pole(
 
 
 def test_front_wheels_have_the_angle_of_the_motion_that_follows() -> None:
-    gears = Track.of(FORTH_AND_BACK, room(FORTH_AND_BACK), "2.5").gears
+    gears = Track.of(FORTH_AND_BACK, room(FORTH_AND_BACK)).gears
     assert gears is not None
     assert gears.curvature("start") == FORTH_AND_BACK.driving[0].curvature
     assert gears.curvature("goal") == FORTH_AND_BACK.driving[-1].curvature
@@ -153,18 +153,10 @@ def test_a_path_of_no_motion_has_its_wheels() -> None:
     assert "wheels" in artists(ax) and "0 changes of direction" in ax.get_title()
 
 
-@pytest.mark.parametrize(
-    ("path", "wheelbase", "message"),
-    [
-        (Path(Pose(0, 0), [Translation((0, 1))], vehicle=CAR), None, "motion 0"),
-        (FORTH_AND_BACK, 0, "wheelbase 0: give a length above 0"),
-        (FORTH_AND_BACK, "-1/2", "wheelbase -1/2: give a length above 0"),
-        (Path(Pose(0, 0), [Translation((0, 1))]), 2, "wheelbase: the path has no vehicle; leave it out"),
-    ],
-)
-def test_undrivable_paths_and_wrong_wheelbases_are_refused(path: Path, wheelbase: Any, message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        plot_path(path, room(path), wheelbase=wheelbase)
+def test_a_path_that_its_vehicle_cannot_drive_is_refused() -> None:
+    path = Path(Pose(0, 0), [Translation((0, 1))], vehicle=CAR)
+    with pytest.raises(ValueError, match="motion 0"):
+        plot_path(path, room(path))
 
 
 def test_the_picture_names_vehicle_and_changes_of_direction() -> None:

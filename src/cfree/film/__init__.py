@@ -8,7 +8,6 @@ from pathlib import Path as FilePath
 from typing import Literal
 
 from cfree.arguments import checked
-from cfree.exact.number import Number
 from cfree.forbidden.boundary import Boundary
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
@@ -104,7 +103,6 @@ def film_path(
     seconds: float | None = None,
     fps: int = 25,
     size: tuple[int, int] | None = None,
-    wheelbase: Number | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> None:
     """Write a film of the robot along a path, its clearance, and the configuration space if its boundary is given.
@@ -127,8 +125,6 @@ def film_path(
         Frames a second.
     size : (int, int), optional
         Width and height in pixels, even; by default 1280 x 720, for a GIF 640 x 360.
-    wheelbase : number, optional
-        Distance of the steered axle of the path's car; its front wheels are drawn if it is given.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
@@ -164,7 +160,7 @@ def film_path(
         seconds = GIF_SECONDS - sum(REST)
     if seconds is not None and not 0 < seconds <= MOST:
         raise ValueError(f"{seconds} seconds; give more than 0, and {MOST:g} at most")
-    write(path_frames(Track.of(path, scene, wheelbase), boundary, seconds, fps, size, progress), file, fps)
+    write(path_frames(Track.of(path, scene), boundary, seconds, fps, size, progress), file, fps)
 
 
 @checked

@@ -287,7 +287,7 @@ class _Director:
         if path is None:
             return None
         moments, link, cut = self._linked(lambda count: self._along(path, count), n)
-        gears = None if driven is None else Gears.of(driven, scene, Travel(driven, scene), None)
+        gears = None if driven is None else Gears.of(driven, scene, Travel(driven, scene))
         name = "through the free space" if gears is None else f"for a {_NAMES[gears.wheels.vehicle.kind]}"
         shot = Shot("path", f"A path {name}", _FORMULAS["path"], moments, gears=gears)
         return replace(shot, ghost=0.08, link=link, cut=cut, goal=moments[-1].pose)

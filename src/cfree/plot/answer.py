@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.errors import UndecidedError
-from cfree.exact.number import Number
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.forbidden.kinds import COLOURS, PatchKind
@@ -111,7 +110,6 @@ def picture(
     boundary: Boundary | None = None,
     *,
     preferences: Preferences | None = None,
-    wheelbase: Number | None = None,
 ) -> Figure:
     """Draw an answer in the workspace and, beside it, in the configuration space; or a scene, or the shapes of a file.
 
@@ -129,8 +127,6 @@ def picture(
         The boundary of that scene; if None, a path is drawn in the workspace alone. A separation has its own surface.
     preferences : Preferences, optional
         Motions penalised by these preferences are marked.
-    wheelbase : number, optional
-        Distance of a car's steered axle from the other one; see `plot_path`.
 
     Returns
     -------
@@ -170,7 +166,7 @@ def picture(
     if isinstance(answer, AllSeparated):
         answer = answer.proofs[0]
     if isinstance(answer, Stuck):
-        return picture_of_stuck(answer, _scene_of(answer, scene), wheelbase)
+        return picture_of_stuck(answer, _scene_of(answer, scene))
     headline, details = "", ""
     if isinstance(answer, UndecidedError):
         headline = "undecided: a path exists"
@@ -179,7 +175,7 @@ def picture(
     scene = of_polygons(answer, _scene_of(answer, scene))
     if isinstance(answer, Separated):
         return _picture_of_separation(answer, scene)
-    track = Track.of(answer, scene, wheelbase)
+    track = Track.of(answer, scene)
     figure, ax = new_picture(track.window, boundary is not None, below=0.65 if track.gears is None else 1.0)
     draw_track(ax, track, preferences or NONE)
     if boundary is not None:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, Poses
 from cfree.palette import AHEAD, BACK, GREY, IN_PLACE, INK
 from cfree.paths.driven import Driven, Gear
@@ -56,35 +55,30 @@ class Wheels:
         Length of a wheel.
     front : float
         The foremost point of the robot.
-    wheelbase : float or None
-        Distance of the steered axle; None if it is unknown, and then not drawn.
+
+    A car with a wheelbase has a steered axle as well.
     """
 
     vehicle: Vehicle
     half: float
     size: float
     front: float
-    wheelbase: float | None
 
     @classmethod
-    def of(cls, scene: Scene, vehicle: Vehicle, wheelbase: Number | None = None) -> Wheels:
-        """Return wheels that fit below the robot of a scene.
-
-        Raises
-        ------
-        ValueError
-            If the wheelbase is 0 or less.
-        """
-        length = None if wheelbase is None else float(to_fraction(wheelbase))
-        if length is not None and length <= 0:
-            raise ValueError(f"wheelbase {wheelbase}: give a length above 0")
+    def of(cls, scene: Scene, vehicle: Vehicle) -> Wheels:
+        """Return wheels that fit below the robot of a scene."""
         own = vehicle.frame.inverse()
         corners = np.concatenate([own.apply(part.vertices) for part in scene.robot])
         (back, right), (front, left) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
         size = WHEEL * (front - back)
         beside = min(left, -right) if right < 0 < left else (left - right) / 2
         size = min(size, 1.5 * beside)
-        return cls(vehicle, TRACK * beside - TYRE * size / 2, size, front, length)
+        return cls(vehicle, TRACK * beside - TYRE * size / 2, size, front)
+
+    @property
+    def wheelbase(self) -> float | None:
+        """Distance of the steered axle from the other one, if it is known."""
+        return None if self.vehicle.wheelbase is None else float(self.vehicle.wheelbase)
 
     def axles(self, pose: Pose) -> Floats:
         """Return the ends of each axle, (axles, 2, 2), in a pose of the robot."""
@@ -153,19 +147,15 @@ class Gears:
     wheels: Wheels
 
     @classmethod
-    def of(cls, path: Path, scene: Scene, travel: Travel, wheelbase: Number | None) -> Gears | None:
+    def of(cls, path: Path, scene: Scene, travel: Travel) -> Gears | None:
         """Return the gears of a path; None if it has no vehicle.
 
         Raises
         ------
         ValueError
-            If the vehicle cannot drive the path, or the wheelbase is wrong or without a vehicle.
+            If the vehicle cannot drive the path.
         """
-        if path.vehicle is None:
-            if wheelbase is not None:
-                raise ValueError("wheelbase: the path has no vehicle; leave it out")
-            return None
-        return cls(path, scene, travel, Wheels.of(scene, path.vehicle, wheelbase))
+        return None if path.vehicle is None else cls(path, scene, travel, Wheels.of(scene, path.vehicle))
 
     @cached_property
     def parts(self) -> tuple[Driven, ...]:

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from cfree.arguments import checked
 from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Translation
-from cfree.exact.number import Number
 from cfree.exact.pose import Pose, Poses
 from cfree.palette import BARRIER, MARK, ROBOT, SEQUENTIAL
 from cfree.paths.clearance import Clearance, distances_beside, least_clearance, rounded_down
@@ -78,8 +77,7 @@ class Track:
     gears: Gears | None
 
     @classmethod
-    def of(cls, path: Path, scene: Scene, wheelbase: Number | None = None) -> Track:
-        """Sample a path; `wheelbase` is the distance of the front wheels of its vehicle, drawn if it is given."""
+    def of(cls, path: Path, scene: Scene) -> Track:
         from matplotlib import colormaps
         from matplotlib.cm import ScalarMappable
         from matplotlib.colors import Normalize
@@ -96,7 +94,7 @@ class Track:
         # clearances beyond the robot's own size need no different colours
         most = min(farthest, 2 * distances.radius) if farthest > SAME * distances.radius else distances.radius
         colours = ScalarMappable(Normalize(0.0, most), colormaps[SEQUENTIAL])
-        gears = Gears.of(path, scene, travel, wheelbase)
+        gears = Gears.of(path, scene, travel)
         swept = edges.reshape(-1, 2)
         window = _window(scene, swept if gears is None else np.concatenate((swept, gears.near(rows))))
         return cls(path, scene, travel, steps, rows, distance, least, closest, window, most, colours, gears)
@@ -126,14 +124,7 @@ class Track:
 
 
 @checked
-def plot_path(
-    path: Path,
-    scene: Scene,
-    ax: Axes | None = None,
-    *,
-    preferences: Preferences | None = None,
-    wheelbase: Number | None = None,
-) -> Axes:
+def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: Preferences | None = None) -> Axes:
     """Draw a path in the workspace, coloured by clearance; a path of a vehicle by gear.
 
     Parameters
@@ -144,9 +135,6 @@ def plot_path(
     ax : matplotlib axes, optional
     preferences : Preferences, optional
         Motions penalised by these preferences are marked.
-    wheelbase : number, optional
-        Distance of a car's steered axle from the other one. If it is given, front wheels are drawn at the angle of the
-        motion that follows.
 
     Returns
     -------
@@ -154,7 +142,8 @@ def plot_path(
         They show start and goal, ghosts of the robot at even steps of its farthest point, and the reference point's
         trace. The place of least clearance is marked, with the obstacles that limit it: those within twice that
         distance. A path of a vehicle has the track of its axle point instead, a colour for each gear and a dot at each
-        change of direction, and the robot with its wheels there, at six of them at most.
+        change of direction, and the robot with its wheels there, at six of them at most. The front wheels of a car
+        with a wheelbase have the angle of the motion that follows.
 
     Raises
     ------
@@ -177,7 +166,7 @@ def plot_path(
     >>> ax.get_title()
     '2 motions, length 7.14 m, turning 90°, clearance 0.926 m (≥ 0.924 proved)'
     """
-    track = Track.of(path, of_polygons(path, scene), wheelbase)
+    track = Track.of(path, of_polygons(path, scene))
     if ax is None:
         x0, y0, x1, y1 = track.window
         height = float(np.clip(1.3 + 6.2 * (y1 - y0) / (x1 - x0), 3, 9))

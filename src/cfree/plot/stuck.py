@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from numpy.typing import NDArray
 
-from cfree.exact.number import Number
 from cfree.exact.pose import Pose
 from cfree.palette import BARRIER, ROBOT, paler
 from cfree.planning.stuck import Stuck
@@ -36,7 +35,7 @@ TOUCHING = 1e-7  # robot's radii: a picture shows less as a contact
 RING = 5.0  # typographic points: radius of the mark of a contact
 
 
-def picture_of_stuck(answer: Stuck, scene: Scene, wheelbase: Number | None) -> Figure:
+def picture_of_stuck(answer: Stuck, scene: Scene) -> Figure:
     """Draw start and goal of a vehicle, its contacts where it is stuck, and the poses that it reaches along them."""
     scene = of_polygons(answer, scene)
     ends = {"start": answer.start, "goal": answer.goal}
@@ -46,7 +45,7 @@ def picture_of_stuck(answer: Stuck, scene: Scene, wheelbase: Number | None) -> F
     touched = [shown.obstacles[k] for k in answer.obstacles if k >= 0]
     style: Any = {"edgecolor": BARRIER, "linewidth": 1.6, "zorder": 2.5}
     ax.add_patch(PathPatch(path_of(rings_of(touched)), facecolor=paler(BARRIER, 0.7), label="touched", **style))
-    wheels = Wheels.of(scene, answer.vehicle, wheelbase)
+    wheels = Wheels.of(scene, answer.vehicle)
     rings = rings_of(shown.robot)
     others = [path_of(pose.apply(ring) for ring in rings) for pose in answer.rail if pose != answer.pose]
     ghosts = PathCollection(others, facecolors="none", edgecolors=ROBOT, linewidths=0.9, zorder=2.8, label="reached")
