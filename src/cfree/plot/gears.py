@@ -37,6 +37,7 @@ TRACK = 0.82  # distance of the wheels' outsides in widths of the robot
 SHOWN, APART = 6, 0.5  # changes of direction at which the robot is drawn, and their least distance in robot radii
 VISIBLE = 0.05  # robot's radii: front wheels have the angle of the next part that is longer
 NEAR = 3.0  # robot's radii: a picture shows axle points within this distance
+MANY = 40  # changes of direction from which on their dots are smaller
 BELOW = 0.52  # inches from axes to the legend below them
 _DOT: dict[str, Any] = {"markersize": 5, "color": "white", "markeredgecolor": INK, "markeredgewidth": 1.2}
 _SPOT: dict[str, Any] = {"markersize": 8, "color": IN_PLACE, "markeredgecolor": "white", "markeredgewidth": 1.2}
@@ -187,14 +188,14 @@ class Gears:
     @cached_property
     def stands(self) -> list[tuple[Pose, float]]:
         """Poses at changes of direction, some way from each other, with the curvature that follows."""
-        radius, chosen = robot_radius(self.scene), list[tuple[Pose, float]]()
-        taken = [self.path.start, self.path.goal]
-        for k in self.changes:
-            pose = self.path.poses[self.parts[k].first]
-            if len(chosen) < SHOWN and all(_apart(pose, other, radius) > APART * radius for other in taken):
-                taken.append(pose)
-                chosen.append((pose, self._follows(self.parts[k:])))
-        return chosen
+        radius, chosen = robot_radius(self.scene), list[int]()
+        poses = [self.path.poses[self.parts[k].first] for k in self.changes]
+        ends = self.path.start, self.path.goal
+        apart = np.array([min(_apart(pose, end, radius) for end in ends) for pose in poses])
+        while len(chosen) < SHOWN and apart.max(initial=0.0) > APART * radius:  # the farthest from all others is next
+            chosen.append(int(apart.argmax()))
+            apart = np.minimum(apart, [_apart(pose, poses[chosen[-1]], radius) for pose in poses])
+        return [(poses[k], self._follows(self.parts[self.changes[k] :])) for k in sorted(chosen)]
 
     def driver(self) -> str:
         """Name the vehicle with its turning radius."""
@@ -287,7 +288,8 @@ def draw_axle_track(ax: Any, gears: Gears) -> None:
 def draw_marks(ax: Any, gears: Gears) -> tuple[Any, Any]:
     """Draw turns in place and changes of direction; return the two lines of markers."""
     (spots,) = ax.plot(*gears.spots.T, "o", zorder=4.6, label=GEARS["turning"][1], **_SPOT)
-    (dots,) = ax.plot(*gears.dots.T, "o", zorder=4.8, label=CHANGE, **_DOT)
+    size = {} if len(gears.dots) <= MANY else {"markersize": 3.2, "markeredgewidth": 0.7}
+    (dots,) = ax.plot(*gears.dots.T, "o", zorder=4.8, label=CHANGE, **_DOT | size)
     return spots, dots
 
 
