@@ -8,10 +8,12 @@ import re
 import shlex
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
+import cfree
 from public import NAMES
 
 ROOT = Path(__file__).parents[1]
@@ -43,6 +45,23 @@ def test_the_job_of_the_readme_runs_as_it_is_written(tmp_path: Path) -> None:
     written = {file.name for file in tmp_path.iterdir() if file.is_file()}
     assert written == {"office.json", "answer.json", "answer.png", "poses.csv"}
     assert (tmp_path / "poses.csv").read_text().startswith("x,y,theta,t\n0.7,0.6,0.0,0.0\n")
+
+
+@pytest.mark.slow
+def test_the_car_of_the_readme_parks_and_the_larger_one_of_its_picture_cannot() -> None:
+    text = " ".join((ROOT / "README.md").read_text().split())
+    (percent,) = {*re.findall(r"the same car, (\d+) % larger", text)}
+    factor = 1 + Fraction(int(percent), 100)
+    scene = cfree.load_scene(ROOT / "examples" / "scenes" / "parking_bay.json")
+    largest = cfree.max_scale(scene)
+    assert factor - Fraction(1, 100) < largest.lo and largest.hi <= factor
+    path = cfree.plan(scene, improve=0)
+    assert isinstance(path, cfree.Path) and cfree.is_drivable(path, cfree.Car(3, axle=(Fraction(-5, 4), 0)))
+    robot = [[(factor * x, factor * y) for x, y in part.exact_vertices] for part in scene.robot]
+    larger = cfree.Scene(robot, scene.obstacles, workspace=scene.workspace, start=scene.start, goal=scene.goal)
+    assert cfree.is_free(larger, larger.start) and cfree.is_free(larger, larger.goal)  # it fits the lane and the bay
+    proof = cfree.plan(larger)
+    assert isinstance(proof, cfree.Separated) and proof.of == "closed"
 
 
 def test_the_readme_is_read_in_a_minute_in_the_words_of_the_field() -> None:

@@ -17,6 +17,7 @@ FRAME = "#0072b2"  # the robot's local frame, angles
 PATH = "#9326e0"
 BARRIER = "#96290f"  # separating surfaces, and obstacles that limit a clearance
 MARK = "#d6008f"  # highlights: exact fits, violations of preferences
+AHEAD, BACK, IN_PLACE = "#1a4fd6", "#e69f00", "#d65db1"  # gears of a vehicle; turns in place
 LOST, GUESSED = "#e60000", "#f5a300"  # drawn in a file: not read, or read by a guess
 FREE, FORBIDDEN = "#d6e6f5", "#dcdfe5"
 

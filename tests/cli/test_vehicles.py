@@ -78,6 +78,22 @@ def test_too_many_manoeuvres_end_with_3(tmp_path: Path) -> None:
     assert result.stderr.startswith("error: a path of a car with a turning radius of 1e+12 exists, as start and goal")
 
 
+def test_answers_of_vehicles_have_pictures_and_a_proof_of_existence_as_well(tmp_path: Path) -> None:
+    picture = tmp_path / "drawn.svg"
+    for radius, changes, code, words in (
+        ("1", {}, 0, ("ahead", "a path for a car with a turning radius of 1")),
+        ("4", {"obstacles": HELD, "start": [0, 0, 0], "goal": [0, 3, 0]}, 1, ("stuck: no motion leaves its start",)),
+        ("1e12", {}, 3, ("undecided: a path exists",)),
+    ):
+        options = "--vehicle", "car", "--turning-radius", radius, "--improve", "0", "--picture", str(picture)
+        result = run(tmp_path, *options, **changes)
+        assert result.exit_code == code, result.output
+        text = " ".join(picture.read_text().split())
+        assert all(word in text for word in words)
+        assert "picture" in result.output
+        picture.unlink()
+
+
 CAR = ["--vehicle", "car", "--turning-radius", "2", "--axle", "0,1/2", "--improve", "0"]
 LIMITS = ["--speed", "0.5", "--acceleration", "0.2", "--steer-rate", "20deg", "--wheelbase", "1.5"]
 

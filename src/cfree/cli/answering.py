@@ -19,6 +19,7 @@ from cfree.scene.naming import all_placed
 
 if TYPE_CHECKING:
     from cfree.analysis.blockers import Blocker
+    from cfree.errors import IncompleteError
     from cfree.exact.pose import Pose
     from cfree.formats.answers.answer_file import Form
     from cfree.paths.path import Path as Motions
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from cfree.planning.goals import AllSeparated
     from cfree.planning.planner import Planner
     from cfree.planning.proof import Proof
+    from cfree.scene.scene import Scene
     from cfree.vehicles.vehicle import Vehicle
 
 
@@ -168,6 +170,7 @@ class Answering:
             answers = [free.marked(answer) if free else answer for answer in answers]
             return cls(planner, start, goal if is_one else None, files, *answers)
         except IncompleteError as error:
+            _draw_undecided(error, planner.scene, files.get("picture"))
             fail(str(error), INCOMPLETE)
         except ForbiddenPoseError as error:
             is_folder = isinstance(planner, FolderPlanner)  # it moves no pose
@@ -351,6 +354,18 @@ class Answering:
     def _leave_out(self, name: str, file: Path, why: str) -> None:
         self.files.pop(name, None)
         print(printable(f"{file} is not written: {why}"), file=sys.stderr)
+
+
+def _draw_undecided(error: IncompleteError, scene: Scene, file: str | None) -> None:
+    """Draw the path that proves that a vehicle has one, if there is such a path, and a picture is wanted."""
+    from cfree.errors import UndecidedError
+    from cfree.plot.answer import picture
+    from cfree.plot.boundary import save_figure
+
+    if file is not None and isinstance(error, UndecidedError) and error.path is not None:
+        with bar("picture"):
+            save_figure(picture(error, scene), file)
+        print(printable(f"picture {file}"), file=sys.stderr)
 
 
 def _gained(before: dict[str, Any], now: dict[str, Any]) -> dict[str, float]:

@@ -107,6 +107,8 @@ def film_path(
 ) -> None:
     """Write a film of the robot along a path, its clearance, and the configuration space if its boundary is given.
 
+    A path of a vehicle has the colours of its gears instead of those of its clearance, and the robot has wheels.
+
     Parameters
     ----------
     path : Path
@@ -129,7 +131,7 @@ def film_path(
     Raises
     ------
     ValueError
-        If the path is not free, or an option makes no sense.
+        If the path is not free, or its vehicle cannot drive it, or an option makes no sense.
     UnsupportedError
         If the format is unknown, or PyAV is missing.
 

@@ -21,6 +21,7 @@ from cfree.film.space import Space
 from cfree.forbidden.patch import Contact
 from cfree.palette import EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, FREE, GREY, HELIX, INK, RIM, VERTEX_EDGE
 from cfree.plot.boundary import extent, roomy, with_unit
+from cfree.plot.gears import Gears
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -57,6 +58,8 @@ class View:
         The pose the robot moves to, drawn as an outline.
     stays : (parts,) bool
         True for parts that have been swept: these are visible above the plane as well.
+    driven : (Gears, float), optional
+        The path that a vehicle drives, and the robot's travel on it.
     """
 
     title: str
@@ -68,6 +71,7 @@ class View:
     lines: Sequence[tuple[str, Floats]]
     goal: Pose | None
     stays: NDArray[np.bool_]
+    driven: tuple[Gears, float] | None = None
 
 
 def new_frame(size: tuple[int, int]) -> tuple[Figure, float]:
@@ -129,10 +133,11 @@ class Stage:
         """Draw the frame as (height, width, 3) bytes."""
         pose, contact = view.recent[-1].pose, view.recent[-1].contact
         cut = self.boundary.slice(pose.theta)
-        self.plane.draw(view.recent, cut, view.lines[-1], view.goal)
+        self.plane.draw(view.recent, cut, view.lines[-1], view.goal, view.driven)
         self.space.draw(pose, cut, view.azimuth, view.shown, view.ghost, view.lines, view.stays)
         self.title.set_text(view.title)
-        self.note.set_text(view.note)
+        word, colour = (view.note, GREY) if view.driven is None else view.driven[0].word(view.driven[1])
+        self.note.set(text=word, color=colour)
         self.caption.set_text(caption(contact))
         self.dot.set_color(RIM if contact is None else TOUCH[contact.kind])
         self.pose.set_text(numbers(pose))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.collision.motion import rotations
+from cfree.errors import IncompleteError
 from cfree.exact.pose import Pose, Poses
 from cfree.free.largest_disc import largest_disc
 from cfree.free.space import FreeSpace, free_space
@@ -55,6 +56,16 @@ class FreeMotions:
         if self._space.common_cell(start, goal) is None:
             return None
         answer = self._planner.plan(start, goal)
+        return answer if isinstance(answer, Path) else None
+
+    def driven(self, start: Pose, goal: Pose) -> Path | None:
+        """Return a path of the scene's vehicle, or None if it has none, or none is found."""
+        if self._scene.vehicle is None:
+            return None
+        try:
+            answer = Planner(self._scene, self._space, vehicle=self._scene.vehicle).plan(start, goal)
+        except IncompleteError:
+            return None
         return answer if isinstance(answer, Path) else None
 
     def full_turn(self) -> Path | None:

@@ -8,6 +8,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from cfree.film.camera import AZIMUTHS
@@ -181,21 +182,34 @@ def views(stage: Stage, shots: Sequence[Shot], fps: int) -> Iterator[tuple[View,
     frame = 0
     for shot in shots:
         line = np.array([(float(q.x), float(q.y), math.degrees(q.theta)) for q in (m.pose for m in shot.moments)])
+        travels = shot.travels()
         for k in range(len(shot.moments)):
             shown = _more_shown(shown, stage.space.angles, shot, k, line[:, 2])
             # the free path to a shot is drawn while it lasts
-            lines = [*old_lines, (shot.colour, line[0 if k < shot.link else shot.link : k + 1])]
+            first = 0 if k < shot.link else shot.link
+            driven = None if shot.gears is None or k < shot.link else (shot.gears, travels[k - shot.link])
+            lines = [*old_lines, *_lines(shot, line[first : k + 1], None if driven is None else travels)]
             if shot.swept is not None:
                 stays[list(shot.swept.parts)] = True
             state = float(azimuth[frame]), shown, float(ghost[frame])
             recent = shot.moments[max(0, k - round(TRAIL * fps)) : k + 1]
-            view = View(shot.title, shot.note, recent, *state, lines, shot.goal, stays)
+            view = View(shot.title, shot.note, recent, *state, lines, shot.goal, stays, driven)
             yield view, shot.cut and k == 0
             frame += 1
         if shot.kind in KEPT:
             old_lines = [*old_lines, (shot.colour, line[shot.link :])]
         if shot.kind == "pillar":
             old_lines = []
+
+
+def _lines(shot: Shot, line: Floats, travels: Sequence[float] | None) -> list[tuple[str, Floats]]:
+    """Return the line of a motion so far: in one colour, or in those of a vehicle's gears."""
+    if travels is None or shot.gears is None:
+        return [(shot.colour, line)]
+    colours = [to_hex(colour) for colour in shot.gears.colours(np.array(travels[: len(line)]))]
+    cuts = [k for k in range(1, len(line)) if colours[k] != colours[k - 1]]
+    ends = zip([0, *cuts], [*cuts, len(line) - 1], strict=True)
+    return [(colours[first], line[first : last + 1]) for first, last in ends]
 
 
 def _more_shown(shown: Floats, angles: Floats, shot: Shot, k: int, degrees: Floats) -> Floats:

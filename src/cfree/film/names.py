@@ -29,9 +29,11 @@ class Names:
     ----------
     ax : matplotlib axes
     scene : Scene
+    robot : bool
+        False if the robot shall have no name.
     """
 
-    def __init__(self, ax: Any, scene: Scene) -> None:
+    def __init__(self, ax: Any, scene: Scene, *, robot: bool = True) -> None:
         ax.apply_aspect()
         pixels = float(ax.transData.transform((1.0, 0.0))[0] - ax.transData.transform((0.0, 0.0))[0])
         needed = ROOM * SIZE * ax.figure.dpi / 72 / pixels
@@ -48,7 +50,7 @@ class Names:
         dot = shapely.Point(0, 0).buffer(0.5 * needed)  # the reference point: the name is beside it
         discs = [_disc(part.to_shapely().difference(dot)) for part in scene.robot]
         self._centre, radius = max(discs, key=lambda disc: disc[1])
-        self._robot = ax.text(0, 0, "$A$", zorder=5.5, **style) if radius > 0.8 * needed else None
+        self._robot = ax.text(0, 0, "$A$", zorder=5.5, **style) if robot and radius > 0.8 * needed else None
 
     def draw(self, pose: Pose, others: Iterable[Any]) -> None:
         """Write the robot's name inside the robot, and hide all names that other texts cover."""

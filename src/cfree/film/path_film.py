@@ -17,11 +17,13 @@ from numpy.typing import NDArray
 
 from cfree.collision.distance import EdgeDistances
 from cfree.film.camera import Camera
-from cfree.film.frame import MONO, axis_names, image_of, new_frame, numbers
+from cfree.film.driving import DrawnDriving
+from cfree.film.frame import MONO, ROOMY, axis_names, image_of, new_frame, numbers
 from cfree.film.names import Names
 from cfree.film.space import Space
-from cfree.palette import BARRIER, GREY, INK, RIM, ROBOT
+from cfree.palette import BARRIER, FAINT, GREY, INK, RIM, ROBOT
 from cfree.plot.boundary import extent, plain, set_window
+from cfree.plot.gears import draw_vehicle, gear_handles
 from cfree.plot.labels import BODY, LINE, Labels
 from cfree.plot.path import Track, poses_of, quantity, statement
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
@@ -74,11 +76,20 @@ class PathStage:
             self._draw_gauge(figure, (0.3 / width, 0.36 / height, min(0.28, 2.6 / width), 0.15 / height))
         text: Any = {"va": "center", "color": INK}
         figure.text(0.2 / width, 1 - 0.3 / height, _title(scene), fontsize=16, weight="bold", **text)
-        figure.text(0.2 / width, 1 - 0.63 / height, statement(track), fontsize=11, **text | {"color": GREY})
+        small = 11 if track.gears is None or width > ROOMY else 9.5
+        figure.text(0.2 / width, 1 - 0.63 / height, statement(track), fontsize=small, **text | {"color": GREY})
+        self.gear = figure.text(0.3 / width, 0.75 / height, "", fontsize=12, weight="bold", va="center")
+        if track.gears is not None:
+            figure.legend(
+                handles=gear_handles(track.gears), loc="center right", ncols=4, frameon=False, fontsize=10,
+                bbox_to_anchor=(1 - 0.1 / width, 1 - 0.3 / height), handlelength=1.4, columnspacing=1.2,
+                handletextpad=0.5, borderaxespad=0,
+            )  # fmt: skip
         self.pose = figure.text(1 - 0.2 / width, 0.25 / height, "", fontsize=10.5, ha="right", family=MONO, **text)
         lines = track.rows * (1, 1, 180 / math.pi)
         self.line = np.column_stack((lines[:, :2], lines[:, 2] % 360))
         self.shade = _shades(track)
+        self.colours = track.at_steps()
         self.distances = EdgeDistances(scene)
 
     def _draw_plane(self, figure: Figure, place: Window) -> None:
@@ -86,30 +97,40 @@ class PathStage:
         track = self.track
         ax: Any = figure.add_axes(place)
         draw_surroundings(ax, track.scene)
-        draw_robot(ax, track.scene, track.path.goal, faint=True)
-        ax.plot(*track.rows[:, :2].T, color=RIM, linewidth=1.0, linestyle=(0, (4, 3)), zorder=3.5)
+        gears, goal = track.gears, track.path.goal
+        if gears is None:
+            draw_robot(ax, track.scene, goal, faint=True)
+        else:
+            draw_vehicle(ax, track.scene, goal, gears.wheels, gears.curvature("goal"), faint=True)
+        xy = track.rows[:, :2] if gears is None else gears.axle(track.rows)
+        ax.plot(*xy.T, color=RIM, linewidth=1.0, linestyle=(0, (4, 3)), zorder=3.5)
         self.ghosts = ax.add_collection(PathCollection([], linewidths=0.7, zorder=2), autolim=False)
         self.trace = ax.add_collection(LineCollection([], linewidths=2.4, capstyle="round", zorder=4), autolim=False)
         self.body = ax.add_patch(PathPatch(path_of([]), facecolor=ROBOT, alpha=0.8, linewidth=0, zorder=5))
         self.rim = ax.add_patch(PathPatch(path_of([]), fill=False, edgecolor=INK, linewidth=0.8, zorder=5.1))
         (self.origin,) = ax.plot([], [], "o", ms=5, color=INK, mec="white", mew=1.2, zorder=6)
+        self.driving = None if gears is None else DrawnDriving(ax, gears)
+        self.origin.set_visible(gears is None)
         (self.gap,) = ax.plot([], [], "o-", ms=3.5, lw=1.8, color=BARRIER, zorder=7)
         set_window(ax, track.window, track.scene.units)
         ax.tick_params(length=3, labelsize=9)
         labels = Labels(ax, track.scene)
-        labels.avoid_robot(track.scene, [track.path.goal], BODY)
-        labels.avoid([shapely.LineString(track.rows[:, :2])], LINE)
-        labels.name_robot(track.scene, track.path.goal, "goal")
+        labels.avoid_robot(track.scene, [goal], BODY)
+        labels.avoid([shapely.LineString(xy)], LINE)
+        labels.name_robot(track.scene, goal, "goal")
         self.words = [text for text in ax.texts if text.get_text()]
-        self.names = Names(ax, track.scene)
+        self.names = Names(ax, track.scene, robot=gears is None)
 
     def _draw_gauge(self, figure: Figure, place: Window) -> None:
         """Draw a bar of all clearances, and a pointer to the present one."""
         track = self.track
         most = track.most
         ax: Any = figure.add_axes(place)
-        ax.imshow(np.linspace(0, 1, 256)[None], aspect="auto", cmap=track.colours.cmap, extent=(0, most, 0, 1))
-        ax.set(yticks=[], xlim=(0, most))
+        if track.gears is None:
+            ax.imshow(np.linspace(0, 1, 256)[None], aspect="auto", cmap=track.colours.cmap, extent=(0, most, 0, 1))
+        else:  # colours are those of gears
+            ax.set_facecolor(FAINT)
+        ax.set(yticks=[], xlim=(0, most), ylim=(0, 1))
         ax.xaxis.set_major_locator(MaxNLocator(4))
         ax.tick_params(length=2, labelsize=8.5)
         assert track.least is not None
@@ -129,10 +150,15 @@ class PathStage:
         self.rim.set_path(outline)
         self.origin.set_data(row[:, 0], row[:, 1])
         done = int(np.searchsorted(track.steps, travel, side="right"))
-        ends = np.concatenate((track.rows[:done, :2], row[:, :2]))
-        self.trace.set_segments(list(np.stack((ends[:-1], ends[1:]), axis=1)))
-        colours = track.colour(track.distance[:done])
-        self.trace.set_color(colours)
+        colours = self.colours[:done]
+        if self.driving is None:
+            ends = np.concatenate((track.rows[:done, :2], row[:, :2]))
+            self.trace.set_segments(list(np.stack((ends[:-1], ends[1:]), axis=1)))
+            self.trace.set_color(colours)
+        else:
+            self.driving.draw(travel, pose)
+            word, colour = self.driving.gears.word(travel)
+            self.gear.set(text=word, color=colour)
         past = [k for k in track.ghosts.tolist() if k < done]
         self.ghosts.set_paths(
             [path_of(q.apply(ring) for ring in rings_of(track.scene.robot)) for q in poses_of(track.rows[past])]
@@ -201,6 +227,8 @@ def _title(scene: Scene) -> str:
 
 def _shades(track: Track) -> list[str]:
     """Return a colour for each row, from a small set."""
+    if track.gears is not None:
+        return [to_hex(colour) for colour in track.at_steps()]
     most = track.most
     steps = np.floor(np.nan_to_num(track.distance) / most * SHADES + 0.5) / SHADES * most
     return [to_hex(colour) for colour in track.colour(steps)]

@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
 from cfree.film.contact_motions import Moment, shape_of
+from cfree.film.driving import DrawnDriving
 from cfree.film.names import Names
 from cfree.forbidden.patch import Contact, Place
 from cfree.palette import EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, OBSTACLE, OBSTACLE_RIM, ROBOT, VERTEX_EDGE
 from cfree.plot.boundary import space_numbers
+from cfree.plot.gears import Gears
 from cfree.plot.workspace import Window, path_of, rings_of, rings_of_geometry
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import robot_radius
@@ -66,6 +68,7 @@ class Plane:
         self, figure: Figure, place: Window, scene: Scene, window: Window, names: tuple[str, str], trail: float
     ) -> None:
         self.scene, self._age = scene, trail
+        self._driving: DrawnDriving | None = None
         ax: Any = figure.add_axes(place)
         x0, y0, x1, y1 = window
         self._reach = NAMES * (x1 - x0), 0.3 * robot_radius(scene)
@@ -102,7 +105,10 @@ class Plane:
         ]
         self.shapes = Names(ax, scene)
 
-    def draw(self, recent: Sequence[Moment], cut: Slice, line: tuple[str, Floats], goal: Pose | None) -> None:
+    def draw(
+        self, recent: Sequence[Moment], cut: Slice, line: tuple[str, Floats], goal: Pose | None,
+        driven: tuple[Gears, float] | None,
+    ) -> None:  # fmt: skip
         """Draw everything for one frame; see `cfree.film.frame.View`."""
         moment = recent[-1]
         pose = moment.pose
@@ -117,7 +123,20 @@ class Plane:
         self._draw_touched(recent)
         self.origin.set_data([float(pose.x)], [float(pose.y)])
         self._draw_contact(moment)
+        self._draw_driven(pose, driven)
         self.shapes.draw(pose, self.names)
+
+    def _draw_driven(self, pose: Pose, driven: tuple[Gears, float] | None) -> None:
+        """Draw wheels and gears in place of the reference point and its trail, while a vehicle drives."""
+        for artist in (self.trail, self.origin):
+            artist.set_visible(driven is None)
+        if driven is not None:
+            gears, travel = driven
+            if self._driving is None:
+                self._driving = DrawnDriving(self.body.axes, gears)
+            self._driving.draw(travel, pose)
+        if self._driving is not None:
+            self._driving.show(visible=driven is not None)
 
     def _fresh(self, count: int, faintest: float) -> list[float]:
         """Return opacities of the parts of a line through `count` places: they fade with their age."""

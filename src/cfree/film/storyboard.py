@@ -29,7 +29,9 @@ from cfree.film.free_motions import FreeMotions
 from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.palette import HELIX, PATH, VIEW
 from cfree.paths.path import Path
+from cfree.paths.travel import Travel
 from cfree.plot.boundary import extent
+from cfree.plot.gears import Gears
 from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
@@ -77,6 +79,8 @@ class Shot:
         Colour of the motion's line in the configuration space.
     goal : Pose, optional
         The pose the robot moves to.
+    gears : Gears, optional
+        The path that a vehicle drives from `link` on.
     """
 
     kind: str
@@ -91,6 +95,12 @@ class Shot:
     ghost: float = 1.0
     colour: str = PATH
     goal: Pose | None = None
+    gears: Gears | None = None
+
+    def travels(self) -> list[float]:
+        """Return the robot's travel on the path that a vehicle drives, for each moment from `link` on."""
+        count = len(self.moments) - self.link
+        return [] if self.gears is None else (self.gears.travel.total * np.array(eased(0, 1, count))).tolist()
 
 
 def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBOARDS["paper"]) -> list[Shot]:
@@ -270,13 +280,16 @@ class _Director:
         start = self.here or self._rest() if scene.start is None else Moment(scene.start)
         if start is None:
             return None
-        path = None if scene.goal is None else self.free.path(start.pose, scene.goal)
+        driven = None if scene.goal is None else self.free.driven(start.pose, scene.goal)
+        path = driven or (None if scene.goal is None else self.free.path(start.pose, scene.goal))
         if path is None and (goal := self.free.farthest(start.pose)) is not None:
             path = self.free.path(start.pose, goal)
         if path is None:
             return None
         moments, link, cut = self._linked(lambda count: self._along(path, count), n)
-        shot = Shot("path", "A path through the free space", _FORMULAS["path"], moments)
+        gears = None if driven is None else Gears.of(driven, scene, Travel(driven, scene))
+        name = "through the free space" if gears is None else f"for a {_NAMES[gears.wheels.vehicle.kind]}"
+        shot = Shot("path", f"A path {name}", _FORMULAS["path"], moments, gears=gears)
         return replace(shot, ghost=0.08, link=link, cut=cut, goal=moments[-1].pose)
 
     # tools of the shots
@@ -345,6 +358,9 @@ _FORMULAS = {
     "pillar": "v-e and e-v patches meet in v-v helices and e-e lines",
     "path": "everything above the current orientation is transparent",
 }
+
+
+_NAMES = {"car": "car", "differential": "differential drive"}
 
 
 def _xy(pose: Pose) -> tuple[float, float]:

@@ -31,6 +31,8 @@ class Travel:
     ----------
     total : float
         Travel of the whole path.
+    until : (motions + 1,) float64
+        Travel before each motion, and at the end.
 
     Examples
     --------
@@ -49,16 +51,16 @@ class Travel:
         self._motions, self._poses = path.motions, path.poses
         lengths = [motion.reach(pose, robot) for pose, motion in zip(path.poses, path.motions, strict=False)]
         turns = [motion.turn for motion in path.motions]
-        self._until = np.cumsum([0.0, *lengths])
+        self.until = np.cumsum([0.0, *lengths])
         self._theta = path.start.theta + np.cumsum([0.0, *turns])
-        self.total = float(self._until[-1])
+        self.total = float(self.until[-1])
 
     def places(self, travel: ArrayLike) -> tuple[Ints, Floats]:
         """Return motions (n,), and the completed share of each (n,), after some travel; there must be motions."""
         s = np.asarray(travel, dtype=np.float64)
-        motion = np.clip(np.searchsorted(self._until, s, side="right") - 1, 0, len(self._motions) - 1)
-        length = np.diff(self._until)[motion]
-        return motion, np.clip((s - self._until[motion]) / np.where(length > 0, length, 1.0), 0.0, 1.0)
+        motion = np.clip(np.searchsorted(self.until, s, side="right") - 1, 0, len(self._motions) - 1)
+        length = np.diff(self.until)[motion]
+        return motion, np.clip((s - self.until[motion]) / np.where(length > 0, length, 1.0), 0.0, 1.0)
 
     def at(self, travel: ArrayLike) -> Floats:
         """Return rows x, y, theta, (n, 3), after some travel (n,); theta continues from the start's, not wrapped."""

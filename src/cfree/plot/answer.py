@@ -13,6 +13,7 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
+from cfree.errors import UndecidedError
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.forbidden.kinds import COLOURS, PatchKind
@@ -26,23 +27,23 @@ from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.unreachable import Unreachable
 from cfree.plot.boundary import (
-    around,
     new_figure,
     new_space,
     plain,
     plot_workspace,
-    roomy,
     set_ticks,
     set_window,
     with_unit,
 )
 from cfree.plot.depth_sort import Painting
+from cfree.plot.headed import headed, new_picture, window_of
 from cfree.plot.labels import BODY, Labels, name_in_space
 from cfree.plot.looks import looks, of_polygons, smooth
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
 from cfree.plot.reading import plot_shapes, with_record
 from cfree.plot.strips import strips
+from cfree.plot.stuck import picture_of_stuck
 from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
@@ -106,7 +107,7 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
 
 @checked
 def picture(
-    answer: Path | Proof | AllSeparated | Scene | Shapes,
+    answer: Path | Proof | AllSeparated | UndecidedError | Scene | Shapes,
     scene: Scene | None = None,
     boundary: Boundary | None = None,
     *,
@@ -116,9 +117,10 @@ def picture(
 
     Parameters
     ----------
-    answer : Path, Separated, Stuck, Unreachable, AllSeparated, Scene or Shapes
-        The first of several proofs is drawn; of a vehicle alone, the scene with its start and goal. A scene is
-        drawn as by `plot_workspace`, round shapes with many edges.
+    answer : Path, Separated, Stuck, Unreachable, AllSeparated, UndecidedError, Scene or Shapes
+        The first of several proofs is drawn. The contacts of a vehicle that is stuck are marked, and all poses that it
+        reaches. Of an `UndecidedError` its path is drawn, which proves that a vehicle has one. A scene is drawn as by
+        `plot_workspace`, round shapes with many edges.
         Over a scene or shapes the record of reading is drawn: lost lines red, guessed outlines hatched in orange,
         joined gaps as dots.
     scene : Scene, optional
@@ -135,7 +137,8 @@ def picture(
     Raises
     ------
     ValueError
-        If a path is not free, or the scene is missing, or a scene is given for a scene.
+        If a path is not free, or its vehicle cannot drive it; if the scene is missing, or given for a scene; if an
+        error has no path.
 
     See Also
     --------
@@ -164,18 +167,32 @@ def picture(
         return drawn
     if isinstance(answer, AllSeparated):
         answer = answer.proofs[0]
-    if isinstance(answer, Stuck | Unreachable):
+    if isinstance(answer, Unreachable):
         return picture(with_ends(_scene_of(answer, scene), answer.start, answer.goal))
+    if isinstance(answer, Stuck):
+        return picture_of_stuck(answer, _scene_of(answer, scene))
+    headline, details = "", ""
+    if isinstance(answer, UndecidedError):
+        headline = "undecided: a path exists"
+        details = f"it needs about {answer.manoeuvres:,} motions; here the robot moves in any direction"
+        answer = _path_of(answer)
     scene = of_polygons(answer, _scene_of(answer, scene))
     if isinstance(answer, Separated):
         return _picture_of_separation(answer, scene)
     track = Track.of(answer, scene)
-    figure, ax = _new_picture(track.window, boundary is not None)
+    figure, ax = new_picture(track.window, boundary is not None, below=0.65 if track.gears is None else 1.0)
     draw_track(ax, track, preferences or NONE)
     if boundary is not None:
         _draw_track(_right(figure), track, boundary)
-    _head(figure, scene, "a free path", statement(track))
+    headline = headline or ("a free path" if track.gears is None else f"a path for {track.gears.driver()}")
+    headed(figure, scene, headline, details or statement(track))
     return figure
+
+
+def _path_of(error: UndecidedError) -> Path:
+    if not isinstance(error.path, Path):
+        raise ValueError(f"answer: {error}; there is no path to draw")
+    return error.path
 
 
 def _scene_of(answer: Path | Proof, scene: Scene | None) -> Scene:
@@ -187,8 +204,8 @@ def _scene_of(answer: Path | Proof, scene: Scene | None) -> Scene:
 
 def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     """Draw start, goal and the blocking obstacles; beside them the separating surface."""
-    window, shown = _window(answer, scene), looks(answer, scene)
-    figure, ax = _new_picture(window, len(answer.pieces) > 0)
+    window, shown = window_of(scene, [answer.start, answer.goal]), looks(answer, scene)
+    figure, ax = new_picture(window, len(answer.pieces) > 0)
     draw_surroundings(ax, shown)
     _draw_barrier(ax, shown, answer.obstacles)
     ends = {"start": answer.start, "goal": answer.goal}
@@ -209,7 +226,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     if len(named) > WIDEST:
         named = listed([numbered(scene, k) for k in answer.obstacles], ", ")
     blocking = f"separated by {plain(named)}" if named else "the one or the other touches, and fits exactly"
-    _head(figure, scene, f"no {without} from start to goal", blocking)
+    headed(figure, scene, f"no {without} from start to goal", blocking)
     return figure
 
 
@@ -259,17 +276,6 @@ def _features_of(shape: ShapeFeatures, owners: NDArray[np.int32]) -> NDArray[np.
 # the plane
 
 
-def _window(answer: Separated, scene: Scene) -> Window:
-    """Return the rectangle around everything in the scene."""
-    robots = np.concatenate([q.apply(part.vertices) for q in (answer.start, answer.goal) for part in scene.robot])
-    boxes: list[Window] = [(*robots.min(axis=0).tolist(), *robots.max(axis=0).tolist())]
-    boxes += [body.bounds for body in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
-    if scene.bounds is not None:
-        x0, y0, x1, y1 = map(float, scene.bounds)
-        boxes.append((x0, y0, x1, y1))
-    return roomy(around(boxes))
-
-
 def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
     """Draw the blocking obstacles of a separating surface, and its bounds and workspace."""
     from matplotlib.patches import PathPatch, Rectangle
@@ -317,7 +323,7 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     opacity = np.concatenate((np.where(fading > 0.5, 1.0, fading), np.ones(len(line.corners))))
     _draw_patches(ax, boundary, window, degrees, joined([near, line]), opacity)
     names = {"v-e patch": PALE.vertex_edge, "e-v patch": PALE.edge_vertex}
-    middle = track.colour(np.array([track.most / 2]))[0]
+    middle = track.colour(np.array([track.most / 2]))[0] if track.gears is None else track.at_steps()[0]
     _legend(ax, names, [("path, coloured as beside", middle, "-"), ("hidden", middle, (0, (2, 1.5)))])
     shadow = np.full(len(rows), degrees[0])
     ax.plot(*rows[:, :2].T, shadow, color=GREY, linewidth=1.2, zorder=0.5, label="reference point")
@@ -395,7 +401,7 @@ def _range(degrees: Floats) -> Range:
 
 def _line(track: Track, rows: Floats) -> Pieces:
     """Return the path, coloured by clearance, with a white rim, and dashes that nothing hides."""
-    rgb = track.colour((track.distance[1:] + track.distance[:-1]) / 2)[:, :3]
+    rgb = track.between_steps()[:, :3]
     rim = of_line(rows, "white", 5.0)
     line, above = (replace(of_line(rows, INK, width, sort), rgb=rgb) for width, sort in ((3.0, OVER), (1.8, ON_TOP)))
     line.corners[:-1, 1:3] = line.corners[1:, 1:3]  # parts overlap to avoid seams
@@ -412,24 +418,5 @@ def _space(ax: Axes3D | None) -> Any:
     return ax
 
 
-def _new_picture(window: Window, with_space: bool) -> tuple[Figure, Any]:
-    """Make a figure with room for a headline, and its axes of the workspace, alone or at the left."""
-    shape = (window[3] - window[1]) / (window[2] - window[0])
-    if with_space:
-        height = float(np.clip(6.0 * shape, 4.2, 6.0)) + 1.6
-        figure = new_figure((15, height))
-        return figure, figure.add_axes((0.045, 0.65 / height, 0.4, 1 - 1.6 / height))
-    height = float(np.clip(6.6 * shape, 2.5, 8.5)) + 1.6
-    figure = new_figure((8.4, height))
-    return figure, figure.add_axes((0.09, 0.65 / height, 0.78, 1 - 1.6 / height))
-
-
 def _right(figure: Figure) -> Any:
     return _space(new_space(figure, (0.48, 0.09, 0.5, 0.79)))
-
-
-def _head(figure: Figure, scene: Scene, headline: str, details: str) -> None:
-    title = f"{plain(scene.name)}: {headline}" if scene.name else headline
-    height = float(figure.get_size_inches()[1])
-    figure.text(0.5, 1 - 0.32 / height, title, ha="center", va="center", weight="bold", fontsize=14)
-    figure.text(0.5, 1 - 0.64 / height, details, ha="center", va="center", fontsize=11)

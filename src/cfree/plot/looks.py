@@ -5,12 +5,13 @@ from __future__ import annotations
 from cfree.errors import UnsupportedError
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
+from cfree.planning.stuck import Stuck
 from cfree.scene.scene import Scene, largest_of
 
 EDGES = 4000  # one part of so many of the largest shape's size is invisible
 
 
-def of_polygons(answer: Path | Separated, scene: Scene) -> Scene:
+def of_polygons(answer: Path | Separated | Stuck, scene: Scene) -> Scene:
     """Return the scene of polygons that an answer is about; of a path among true shapes, polygons that look round.
 
     Raises
@@ -27,7 +28,7 @@ def of_polygons(answer: Path | Separated, scene: Scene) -> Scene:
     return answer.scene
 
 
-def looks(answer: Path | Separated, scene: Scene) -> Scene:
+def looks(answer: Path | Separated | Stuck, scene: Scene) -> Scene:
     """Return the same scene with its round shapes, if the answer is for round shapes."""
     if answer.curved is None:
         return scene

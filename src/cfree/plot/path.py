@@ -1,9 +1,10 @@
-"""Pictures of a path in the workspace: ghosts of the robot, coloured by clearance, and the least clearance."""
+"""Pictures of a path in the workspace: ghosts of the robot, coloured by clearance or gear, and the least clearance."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import SAME, Travel, ghosts
 from cfree.plot.boundary import around, new_axes, plain, roomy, set_window, with_unit
+from cfree.plot.gears import Gears, draw_axle_track, draw_legend, draw_stands, draw_vehicle
 from cfree.plot.labels import BODY, GHOST, LINE, Labels
 from cfree.plot.looks import looks, of_polygons
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
@@ -31,6 +33,7 @@ from cfree.words import counted
 Floats = NDArray[np.float64]
 
 TRACE = 600
+WIDE = 64  # characters of a line of the title
 RING = 5.5  # typographic points: radius of the mark where the clearance is least
 NEAR = 2.0  # obstacles within this multiple of the least clearance limit it
 
@@ -56,6 +59,8 @@ class Track:
         End of the scale of colours.
     colours : ScalarMappable
         Map of distances to colours.
+    gears : Gears, optional
+        The path as its vehicle drives it.
     """
 
     path: Path
@@ -69,6 +74,7 @@ class Track:
     window: Window
     most: float
     colours: ScalarMappable
+    gears: Gears | None
 
     @classmethod
     def of(cls, path: Path, scene: Scene) -> Track:
@@ -88,7 +94,10 @@ class Track:
         # clearances beyond the robot's own size need no different colours
         most = min(farthest, 2 * distances.radius) if farthest > SAME * distances.radius else distances.radius
         colours = ScalarMappable(Normalize(0.0, most), colormaps[SEQUENTIAL])
-        return cls(path, scene, travel, steps, rows, distance, least, closest, _window(scene, edges), most, colours)
+        gears = Gears.of(path, scene, travel)
+        swept = edges.reshape(-1, 2)
+        window = _window(scene, swept if gears is None else np.concatenate((swept, gears.near(rows))))
+        return cls(path, scene, travel, steps, rows, distance, least, closest, window, most, colours, gears)
 
     def colour(self, distance: Floats) -> Floats:
         """Return colours (n, 4) of distances; one colour if there is no obstacle."""
@@ -98,6 +107,16 @@ class Track:
             return np.tile(to_rgba(ROBOT), (len(distance), 1))
         return np.asarray(self.colours.to_rgba(distance))
 
+    def at_steps(self) -> Floats:
+        """Return the colours (TRACE, 4) of all rows: of their gears, or of their clearances."""
+        return self.colour(self.distance) if self.gears is None else self.gears.colours(self.steps)
+
+    def between_steps(self) -> Floats:
+        """Return the colours (TRACE - 1, 4) of the lines from row to row."""
+        if self.gears is not None:
+            return self.gears.colours((self.steps[1:] + self.steps[:-1]) / 2)
+        return self.colour((self.distance[1:] + self.distance[:-1]) / 2)
+
     @property
     def ghosts(self) -> NDArray[np.int64]:
         """Return the rows between start and goal at which the robot is drawn."""
@@ -106,7 +125,7 @@ class Track:
 
 @checked
 def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: Preferences | None = None) -> Axes:
-    """Draw a path in the workspace, coloured by clearance.
+    """Draw a path in the workspace, coloured by clearance; a path of a vehicle by gear.
 
     Parameters
     ----------
@@ -122,12 +141,14 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: 
     matplotlib axes
         They show start and goal, ghosts of the robot at even steps of its farthest point, and the reference point's
         trace. The place of least clearance is marked, with the obstacles that limit it: those within twice that
-        distance.
+        distance. A path of a vehicle has the track of its axle point instead, a colour for each gear and a dot at each
+        change of direction, and the robot with its wheels there, at six of them at most. The front wheels of a car
+        with a wheelbase have the angle of the motion that follows.
 
     Raises
     ------
     ValueError
-        If the path is not free.
+        If the path is not free, or its vehicle cannot drive it.
 
     Notes
     -----
@@ -148,9 +169,11 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: 
     track = Track.of(path, of_polygons(path, scene))
     if ax is None:
         x0, y0, x1, y1 = track.window
-        ax = new_axes((8, float(np.clip(1.3 + 6.2 * (y1 - y0) / (x1 - x0), 3, 9))), (0.09, 0.1, 0.78, 0.83))
+        height = float(np.clip(1.3 + 6.2 * (y1 - y0) / (x1 - x0), 3, 9))
+        place = (0.09, 0.1, 0.78, 0.83) if track.gears is None else (0.09, 1 / height, 0.88, 1 - 1.6 / height)
+        ax = new_axes((8, height), place)
     draw_track(ax, track, preferences or NONE)
-    ax.set_title(statement(track))
+    ax.set_title(statement(track) if track.gears is None else fill(statement(track), WIDE))
     return ax
 
 
@@ -160,29 +183,36 @@ def draw_track(ax: Any, track: Track, preferences: Preferences) -> Labels:
     from matplotlib.collections import LineCollection, PathCollection
 
     track = replace(track, scene=looks(track.path, track.scene))
-    scene, path = track.scene, track.path
+    scene, path, gears = track.scene, track.path, track.gears
     draw_surroundings(ax, scene)
     rings = rings_of(scene.robot)
     ghost_rows = track.ghosts
-    colours = track.colour(track.distance[ghost_rows])
+    colours = track.at_steps()[ghost_rows]
     shapes = [path_of(pose.apply(ring) for ring in rings) for pose in poses_of(track.rows[ghost_rows])]
     fill, rim = colours.copy(), colours.copy()
-    fill[:, 3], rim[:, 3] = 0.22, 0.9
+    fill[:, 3], rim[:, 3] = (0.22, 0.9) if gears is None else (0.07, 0.4)
     ax.add_collection(
         PathCollection(shapes, facecolors=fill, edgecolors=rim, linewidths=0.8, zorder=2, label="ghosts"), autolim=False
     )
-    xy = track.rows[:, :2]
-    middle = (track.distance[1:] + track.distance[:-1]) / 2
-    ends = np.stack((xy[:-1], xy[1:]), axis=1)
-    for colour, width in (("white", 3.6), (track.colour(middle), 2.0)):
-        line = LineCollection(list(ends), colors=colour, linewidths=width, capstyle="round", zorder=4)
-        ax.add_collection(line, autolim=False)
-    ax.collections[-1].set_label("trace")
+    xy = track.rows[:, :2] if gears is None else gears.axle(track.rows)
+    if gears is None:
+        ends = np.stack((xy[:-1], xy[1:]), axis=1)
+        for colour, width in (("white", 3.6), (track.between_steps(), 2.0)):
+            line = LineCollection(list(ends), colors=colour, linewidths=width, capstyle="round", zorder=4)
+            ax.add_collection(line, autolim=False)
+        ax.collections[-1].set_label("trace")
+    else:
+        draw_stands(ax, scene, gears)
+        draw_axle_track(ax, gears)
+        draw_legend(ax, gears)
     rests = {"start": path.start, "goal": path.goal}
     for name, pose in rests.items():
-        draw_robot(ax, scene, pose, faint=name == "goal")
+        if gears is None:
+            draw_robot(ax, scene, pose, faint=name == "goal")
+        else:
+            draw_vehicle(ax, scene, pose, gears.wheels, gears.curvature(name), faint=name == "goal")
     set_window(ax, track.window, scene.units)
-    if track.least is not None:
+    if track.least is not None and gears is None:
         _draw_scale(ax, track)
     labels = Labels(ax, scene)
     labels.avoid_robot(scene, poses_of(track.rows[ghost_rows]), GHOST)
@@ -227,6 +257,8 @@ def statement(track: Track) -> str:
     count = len(path.motions)
     parts = [counted(count, "motion"), f"length {quantity(path.length, units)}"]
     parts.append(f"turning {quantity(math.degrees(path.turning), '')}°")
+    if track.gears is not None:
+        parts.append(counted(path.cusps, "change") + " of direction")
     if track.least is not None:
         parts.append(f"clearance {quantity(track.least.found, units)} (≥ {rounded_down(track.least.least, 3)} proved)")
     return ", ".join(parts)
@@ -264,9 +296,8 @@ def _draw_least(ax: Any, track: Track, labels: Labels) -> None:
     labels.put(quantity(least.found, scene.units), middle, ring=RING, color=BARRIER, weight="bold")
 
 
-def _window(scene: Scene, placed: Floats) -> Window:
-    """Return the part of the scene's rectangle that is near the path."""
-    swept = placed.reshape(-1, 2)
+def _window(scene: Scene, swept: Floats) -> Window:
+    """Return the part of the scene's rectangle that is near points (n, 2) of the path."""
     near = np.concatenate((swept.min(axis=0), swept.max(axis=0)))
     x0, y0, x1, y1 = near.tolist()
     bodies = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]

@@ -42,8 +42,8 @@ def draw_surroundings(ax: Axes, scene: Scene, *, frame: bool = True) -> list[Win
     return boxes
 
 
-def draw_robot(ax: Axes, scene: Scene, pose: Pose, *, faint: bool) -> Window:
-    """Draw the robot in a pose, its reference point and its first axis; return the rectangle it fills."""
+def draw_robot(ax: Axes, scene: Scene, pose: Pose, *, faint: bool, mark: bool = True) -> Window:
+    """Draw the robot in a pose; with `mark` its reference point and its first axis. Return the rectangle it fills."""
     from matplotlib.patches import PathPatch
 
     rings = [pose.apply(ring) for ring in rings_of(scene.robot)]
@@ -51,7 +51,8 @@ def draw_robot(ax: Axes, scene: Scene, pose: Pose, *, faint: bool) -> Window:
     shape = path_of(rings)
     ax.add_patch(PathPatch(shape, facecolor=fill, alpha=0.85, linewidth=0, zorder=3))
     ax.add_patch(PathPatch(shape, fill=False, edgecolor=ROBOT, linewidth=1.2, linestyle=style, zorder=3))
-    _mark(ax, pose, rings)
+    if mark:
+        _mark(ax, pose, rings)
     points = np.concatenate(rings)
     return (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
 

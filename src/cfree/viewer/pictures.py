@@ -27,6 +27,7 @@ from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.unreachable import Unreachable
+from cfree.plot.gears import GEARS, Gears
 from cfree.plot.labels import BODY, CORNERS, LINE, MAY, WALL
 from cfree.plot.looks import EDGES, smooth
 from cfree.plot.workspace import roomiest
@@ -124,8 +125,9 @@ def _workspace(
     marked: Sequence[int],
     caption: str,
     rows: Floats | None = None,
+    gears: Gears | None = None,
 ) -> str:
-    """Draw the plane with the robot at its start and goals, and along rows (n, 3) of x, y and theta."""
+    """Draw the plane with the robot at its start and goals, and along rows (n, 3) of x, y and theta, by its gears."""
     robot = _rings(scene.robot)
     poses = [(pose, "start") for pose in starts if pose is not None]
     poses += [(pose, "goal") for pose in goals if isinstance(pose, Pose)]
@@ -144,7 +146,7 @@ def _workspace(
     if scene.bounds is not None:
         panel.shapes([_rectangle(scene.bounds)], BARRIER_LINE if BOUNDS in marked else OUTLINE)
     if rows is not None:
-        _draw_way(panel, scene, robot, rows)
+        _draw_way(panel, scene, robot, rows, gears)
     panel.shapes(aside, ROBOT)
     for rings, pose, name in reversed(placed):
         panel.shapes(rings, ROBOT if name == "start" else END)
@@ -168,13 +170,20 @@ def _aside(robot: list[Floats], seen: list[Floats]) -> list[Floats]:
     return [ring + away for ring in robot]
 
 
-def _draw_way(panel: Panel, scene: Scene, robot: list[Floats], rows: Floats) -> None:
-    """Draw the robot at even steps of its path, and the trace of its reference point."""
+def _draw_way(panel: Panel, scene: Scene, robot: list[Floats], rows: Floats, gears: Gears | None) -> None:
+    """Draw the robot at even steps of its path, and the trace of its reference point, or of a vehicle's axle point."""
     for x, y, theta in rows[ghosts(rows, scene)].tolist():
         pose = Pose(x, y, theta)
         panel.shapes([pose.apply(ring) for ring in robot], GHOST)
-    panel.line(rows[:, :2], TRACE)
-    panel.room.keep([shapely.LineString(panel.pixels(rows[:, :2]))], LINE)
+    trace = rows[:, :2] if gears is None else gears.axle(rows)
+    if gears is None:
+        panel.line(trace, TRACE)
+    else:
+        for part, track in zip(gears.parts, gears.tracks, strict=True):
+            panel.line(track, f'stroke="{GEARS[part.gear][0]}" stroke-width="28" stroke-linecap="round"')
+        for dot in gears.dots:
+            panel.dot(dot, 3, POINT)
+    panel.room.keep([shapely.LineString(panel.pixels(trace))], LINE)
 
 
 def _path(path: Path) -> str:
@@ -190,7 +199,7 @@ def _path(path: Path) -> str:
         return drawing([panel], WIDTH, HEIGHT, caption)
     travel = Travel(path, scene)
     rows = travel.at(np.linspace(0, travel.total, 600))
-    return _workspace(scene, [path.start], [path.goal], (), caption, rows)
+    return _workspace(scene, [path.start], [path.goal], (), caption, rows, Gears.of(path, scene, travel))
 
 
 def _apart(proof: Proof | AllSeparated) -> str | None:
