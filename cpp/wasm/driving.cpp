@@ -10,7 +10,7 @@ namespace cfree {
 
 namespace {
 
-constexpr long long words = 20'000;              // tried along one path
+constexpr long long words = 20'000, few_words = 3000;  // tried along one path, and along one that begins or ends in contact
 constexpr double shares[] = {0.5, 0};            // of the path's distance that is kept
 constexpr double most_kept = 0.05, back = 1.5;   // of the robot's length; cost of going back
 constexpr double sideways = 10, turning = 3;     // costs of a path that is easily driven
@@ -85,10 +85,10 @@ void shorten(Drive& drive, int attempts) {
 }
 
 // Words along the path that keep the greatest share of its distance; or the share of the path that is reached, and the poses there.
-std::optional<Drive> followed(const Wheels& wheels, const Poses& guide, std::pair<double, std::size_t>& reached) {
+std::optional<Drive> followed(const Wheels& wheels, const Poses& guide, long long most, std::pair<double, std::size_t>& reached) {
     for (const double share : shares) {
         const auto by = wheels.along(guide, share);
-        Followed found = by->follow(words);
+        Followed found = by->follow(most);
         if (found.is_whole) return Drive{by, by->shortening(std::move(found.legs), 0)};
         reached = std::max(reached, std::pair{found.share, by->poses(found.legs).size()});
     }
@@ -100,16 +100,15 @@ std::optional<Drive> followed(const Wheels& wheels, const Poses& guide, std::pai
 DrivenWay driven(const World& world, const GivenVehicle& vehicle, const Poses& way, int attempts) {
     using enum DrivenWay::Verdict;
     const Wheels wheels{world, vehicle, length_of(world, vehicle)};
-    if (!wheels.has_room({way.front()})) return {start_touches};
-    if (!wheels.has_room({way.back()})) return {goal_touches};
     if (way.front() == way.back()) return {path, {way.front()}};
+    const bool begins = !wheels.has_room({way.front()}), ends = !wheels.has_room({way.back()}), touches = begins || ends;
     const Poses roomy = balanced(world, way, {world.radius});
-    if (!wheels.has_room(roomy)) return {world.known->barrier(way.front(), way.back(), {}) ? contacts : narrow};
+    if (!touches && !wheels.has_room(roomy)) return {world.known->barrier(way.front(), way.back(), {}) ? contacts : narrow};
     std::vector<Drive> drives;
     std::pair<double, std::size_t> reached{};
     for (const bool is_easy : {false, true}) {
         const Poses guide = is_easy ? balanced(world, roomy, {world.radius, sideways, 1, turning}) : roomy;
-        if (auto drive = followed(wheels, guide, reached)) drives.push_back(std::move(*drive));
+        if (auto drive = followed(wheels, guide, touches ? few_words : words, reached)) drives.push_back(std::move(*drive));
         if (!drives.empty() && drives.front().path.cusps() <= few_cusps) break;
     }
     if (!vehicle.reverses)
@@ -117,6 +116,7 @@ DrivenWay driven(const World& world, const GivenVehicle& vehicle, const Poses& w
             const auto by = wheels.along(roomy, 0);
             if (auto legs = by->search_forward(seed, search_poses)) drives.push_back({by, by->shortening(std::move(*legs), seed)});
         }
+    if (drives.empty() && touches) return {begins ? start_touches : goal_touches};
     if (drives.empty()) {
         const auto& [share, poses] = reached;
         return vehicle.reverses ? DrivenWay{manoeuvres, {}, share > 0 ? std::ceil(static_cast<double>(poses) / share) : 0} : DrivenWay{forward};

@@ -6,8 +6,8 @@
 namespace cfree {
 
 struct DrivenWay {
-    // Why there is no way here: an end touches something; the robot gets there along contacts only, or through passages too
-    // narrow for doubles; it takes too many manoeuvres; a vehicle without reverse gear was not joined.
+    // Why there is no way here: an end touches something, and no few words lead from it; the robot gets there along contacts
+    // only, or through passages too narrow for doubles; too many manoeuvres; none was found without reverse gear.
     enum class Verdict { path, start_touches, goal_touches, contacts, narrow, manoeuvres, forward };
     Verdict verdict;
     Poses way = {};

@@ -51,15 +51,18 @@ export class Driving {
     return $("drive").querySelectorAll<HTMLInputElement>("input[name=moves]");
   }
   private switch_to(kind: Moves): void {
+    if (!this.session.scene) return this.switches.forEach((input) => (input.checked = input.value === "any"));
     this.session.drive({ ...this.session.vehicle, kind }, true);
   }
   // The next way to move.
   next(): void {
+    if (!this.session.scene) return;
     this.switch_to(MOVES[(MOVES.indexOf(this.session.vehicle.kind) + 1) % MOVES.length]!);
   }
 
   // Take a number that was typed; one that is none is marked, and the vehicle stays as it is.
   private typed(input: HTMLInputElement): void {
+    if (!this.session.scene) return;
     const { vehicle } = this.session;
     const parts = input.value.split(/[\s,;]+/).filter(Boolean);
     const is_axle = input.id !== "radius";
@@ -159,6 +162,7 @@ export class Driving {
     else made("circle", handle, { r: is_point ? 5 : 4.5 });
     made("title", handle).textContent = TITLES[name];
     handle.addEventListener("pointerdown", (event) => this.grab(event, name));
+    for (const shows of ["pointerenter", "focus"]) handle.addEventListener(shows, () => this.look()); // values upright
     handle.addEventListener("keydown", (event) => this.key(event, name));
     return handle;
   }

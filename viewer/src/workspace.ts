@@ -40,7 +40,7 @@ export function outline(xy: ArrayLike<number>, ring: ArrayLike<number>, first = 
   return d;
 }
 
-const GEARS = ["back", "in-place", "ahead"] as const;
+const GEARS = { 1: "ahead", 0: "in-place", "-1": "back" } as const;
 // A frame as an SVG transformation.
 export const frame = ({ x, y, theta }: Seen) => `translate(${x} ${y}) rotate(${(theta * 180) / Math.PI})`;
 
@@ -211,7 +211,6 @@ export class Workspace {
       `matrix(${1 / more} 0 0 ${-1 / more} ${-this.box.x / more} ${height + this.box.y / more})`,
     );
     for (const who of Object.keys(this.bodies) as Who[]) this.place(who, this.at[who]);
-    this.look_at_cusps();
     for (const look of this.on_look) look();
   }
 
@@ -286,16 +285,12 @@ export class Workspace {
     }
     if (!track) return void made("path", this.layers.trace, { d });
     const line = (points: number[]) => points.map((c, k) => `${k % 2 ? " " : k ? "L" : "M"}${c}`).join("");
-    for (const { gear, points } of track.pieces)
-      made("path", this.layers.trace, { d: line(points), class: GEARS[(gear + 1) as 0 | 1 | 2] });
-    for (const { x, y } of track.cusps) {
-      const dot = made("circle", this.layers.trace, { class: "cusp", cx: x, cy: y });
-      made("title", dot).textContent = "change of direction";
+    for (const gear of [1, -1, 0] as const) {
+      const pieces = track.pieces.filter((piece) => piece.gear === gear).map(({ points }) => line(points));
+      if (pieces.length) made("path", this.layers.trace, { d: pieces.join(""), class: GEARS[gear] });
     }
-    this.look_at_cusps();
-  }
-  private look_at_cusps(): void {
-    for (const dot of this.layers.trace.querySelectorAll(".cusp")) dot.setAttribute("r", String(4 * this.pixel));
+    const dots = track.cusps.map(({ x, y }) => `M${x} ${y}h0`).join(""); // round ends of no length
+    for (const part of ["cusps rim", "cusps"]) made("path", this.layers.trace, { d: dots, class: part });
   }
 
   // Draw the wheels of a vehicle on the robot, given its axle in the robot's frame.
