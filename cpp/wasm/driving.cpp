@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cfree/support/elementary.hpp"
 
@@ -11,10 +12,10 @@ namespace cfree {
 namespace {
 
 constexpr long long words = 20'000, few_words = 3000;  // tried along one path, and along one that begins or ends in contact
-constexpr double shares[] = {0.5, 0};            // of the path's distance that is kept
-constexpr double most_kept = 0.05, back = 1.5;   // of the robot's length; cost of going back
+constexpr double shares[] = {0.5, 0.25, 0.125, 0};  // of the path's distance that is kept
+constexpr double most_kept = 0.05, stop = 0.25, back = 1.5;  // of the robot's length, as a cusp costs; factor of going back
 constexpr double sideways = 10, turning = 3;     // costs of a path that is easily driven
-constexpr int few_cusps = 1, block = 50, idle = 300;
+constexpr int few_cusps = 1, block = 50, idle = 400;
 constexpr int checks = 50, most_poses = 300, dear = 3;  // of balanced paths
 constexpr int searches = 3, search_poses = 8000;        // without reverse gear
 
@@ -61,8 +62,13 @@ struct Wheels {
     const GivenVehicle& vehicle;
     const double length;
 
+    // Costs of a path of the robot that is easily driven.
+    Costs easy() const {
+        const Place axle{nearest(vehicle.x.n, vehicle.x.d), nearest(vehicle.y.n, vehicle.y.d), std::remainder(vehicle.heading.theta(), 2 * std::numbers::pi)};
+        return {world.radius, sideways, 1, turning, axle};
+    }
     std::shared_ptr<Driving> along(const Poses& way, double share) const {
-        const DrivingWishes wishes{back, length, world.radius, length, world.radius, share, most_kept * length};
+        const DrivingWishes wishes{back, length, stop * length, world.radius, length, world.radius, share, most_kept * length};
         return std::make_shared<Driving>(world.known, vehicle, ends_of(way), wishes);
     }
     // True if the robot keeps a distance all along, and its reference point is within the bounds.
@@ -107,7 +113,7 @@ DrivenWay driven(const World& world, const GivenVehicle& vehicle, const Poses& w
     std::vector<Drive> drives;
     std::pair<double, std::size_t> reached{};
     for (const bool is_easy : {false, true}) {
-        const Poses guide = is_easy ? balanced(world, roomy, {world.radius, sideways, 1, turning}) : roomy;
+        const Poses guide = is_easy ? balanced(world, roomy, wheels.easy()) : roomy;
         if (auto drive = followed(wheels, guide, touches ? few_words : words, reached)) drives.push_back(std::move(*drive));
         if (!drives.empty() && drives.front().path.cusps() <= few_cusps) break;
     }
