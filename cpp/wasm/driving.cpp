@@ -17,6 +17,7 @@ constexpr double most_kept = 0.05, stop = 0.25, back = 1.5;  // of the robot's l
 constexpr double sideways = 10, turning = 3;     // costs of a path that is easily driven
 constexpr int few_cusps = 1, block = 50, idle = 400;
 constexpr int checks = 50, most_poses = 300, dear = 3;  // of balanced paths
+constexpr std::uint64_t seeds = 2;                      // random numbers for each path that is followed
 constexpr int searches = 3, search_poses = 8000;        // without reverse gear
 
 bool is_free(const World& world, const Poses& way) {
@@ -90,12 +91,17 @@ void shorten(Drive& drive, int attempts) {
     for (; attempts > 0 && drive.path.without_gain() <= idle; attempts -= block) drive.path.run(std::min(block, attempts));
 }
 
-// Words along the path that keep the greatest share of its distance; or the share of the path that is reached, and the poses there.
-std::optional<Drive> followed(const Wheels& wheels, const Poses& guide, long long most, std::pair<double, std::size_t>& reached) {
+// Words along the path that keep the greatest share of its distance, to be shortened with several random numbers; or none, with
+// the share of the path that is reached, and the poses there.
+std::vector<Drive> followed(const Wheels& wheels, const Poses& guide, long long most, std::pair<double, std::size_t>& reached) {
     for (const double share : shares) {
         const auto by = wheels.along(guide, share);
         Followed found = by->follow(most);
-        if (found.is_whole) return Drive{by, by->shortening(std::move(found.legs), 0)};
+        if (found.is_whole) {
+            std::vector<Drive> drives;
+            for (std::uint64_t seed = 0; seed < seeds; ++seed) drives.push_back({by, by->shortening(found.legs, seed)});
+            return drives;
+        }
         reached = std::max(reached, std::pair{found.share, by->poses(found.legs).size()});
     }
     return {};
@@ -114,7 +120,7 @@ DrivenWay driven(const World& world, const GivenVehicle& vehicle, const Poses& w
     std::pair<double, std::size_t> reached{};
     for (const bool is_easy : {false, true}) {
         const Poses guide = is_easy ? balanced(world, roomy, wheels.easy()) : roomy;
-        if (auto drive = followed(wheels, guide, touches ? few_words : words, reached)) drives.push_back(std::move(*drive));
+        for (Drive& drive : followed(wheels, guide, touches ? few_words : words, reached)) drives.push_back(std::move(drive));
         if (!drives.empty() && drives.front().path.cusps() <= few_cusps) break;
     }
     if (!vehicle.reverses)
