@@ -76,6 +76,13 @@ std::string head(const World& world, const char* kind, const RationalPose& start
            decimals(goal.place()) + ",\n \"exact\": {\"start\": " + exact(start) + ", \"goal\": " + exact(goal) + "}";
 }
 
+std::string vehicle_text(const GivenVehicle& vehicle) {
+    const std::string axle = "\"axle\": " + exact(vehicle.x, vehicle.y) + ", \"heading\": {\"tau\": " + tau_of(vehicle.heading) + "}";
+    if (vehicle.turns_in_place) return "{\"type\": \"differential\", " + axle + "}";
+    return "{\"type\": \"car\", \"turning_radius\": " + exact(vehicle.left, vehicle.right) + ", " + axle +
+           (vehicle.reverses ? "}" : ", \"gears\": \"forward\"}");
+}
+
 std::string pair_text(Index a, Index b) { return '[' + std::to_string(a) + ", " + std::to_string(b) + ']'; }
 std::string contact_text(const SceneFeatures& features, const Feature& f) {
     const auto i = static_cast<std::size_t>(f.robot), j = static_cast<std::size_t>(f.obstacle);
@@ -220,7 +227,8 @@ void write_answer(const World& world, Reply& reply) {
         const auto [slide, is_back] = slide_between(answer.slides, way[k - 1], way[k]);
         motions.push_back(slide ? motion(world.features, is_back ? reversed(*slide) : *slide, theta) : motion(way[k - 1], way[k], theta));
     }
-    reply.text("answer", head(world, "path", way.front(), way.back()) + ",\n \"decimals\": \"approximate\",\n \"motions\": " +
+    reply.text("answer", head(world, "path", way.front(), way.back()) +
+                             (answer.vehicle ? ",\n \"vehicle\": " + vehicle_text(*answer.vehicle) : "") + ",\n \"decimals\": \"approximate\",\n \"motions\": " +
                              listed(motions, [](const std::string& text) { return "\n  " + text; }, ",") + "}\n");
 }
 

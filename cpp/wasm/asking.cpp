@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cfree/support/elementary.hpp"
+#include "driving.hpp"
 #include "shown.hpp"
 
 namespace cfree {
@@ -114,6 +115,29 @@ void show_path(const World& world, const Poses& way, const std::vector<ContactSl
     reply.add("length", length), reply.add("turning", turning), reply.add("motions", static_cast<double>(way.size()) - 1);
 }
 
+// Gears of the motions.
+void show_gears(const World& world, const GivenVehicle& vehicle, const Poses& way, Reply& reply) {
+    const std::vector<Index> gears = gears_of(world, vehicle, way);
+    int cusps = 0, last = 0;
+    for (const Index gear : gears)
+        if (gear != 0) cusps += gear == -last, last = gear;
+    reply.add("gear", gears), reply.add("cusps", static_cast<double>(cusps));
+}
+
+const char* words_of(DrivenWay::Verdict verdict) {
+    using enum DrivenWay::Verdict;
+    switch (verdict) {
+        case path: return "path";
+        case start_touches: return "start touches";
+        case goal_touches: return "goal touches";
+        case contacts: return "contacts";
+        case narrow: return "narrow";
+        case manoeuvres: return "manoeuvres";
+        case forward: return "forward";
+    }
+    return "unclear";
+}
+
 void show_proof(const World& world, const Separation& proof, Reply& reply) {
     const SharedBoundary& boundary = proof.surface.boundary;
     const auto glued = glue_part(boundary, std::vector<char>(boundary->trapezoids.size(), 1), proof.surface.faces);
@@ -158,7 +182,7 @@ void ask_stop(const World& world, const RationalPose& from, const RationalPose& 
     reply.add("share", nearest(u.n, u.d));
 }
 
-void ask_walk(World& world, std::string_view lines, Reply& reply) {
+void ask_walk(World& world, std::string_view lines, const std::optional<GivenVehicle>& vehicle, Reply& reply) {
     Poses way;
     for (std::size_t at = 0; at < lines.size();) {
         const auto end = std::min(lines.find('\n', at), lines.size());
@@ -169,10 +193,12 @@ void ask_walk(World& world, std::string_view lines, Reply& reply) {
     if (way.empty() || !FreeMotions(*world.scene, *world.checker, none).join(way)) throw std::invalid_argument("the path given is not free");
     reply.text("verdict", "path");
     show_path(world, way, {}, reply);
-    world.answer = {way.front(), way.back(), way, {}};
+    if (vehicle) show_gears(world, *vehicle, way, reply);
+    world.answer = {way.front(), way.back(), way, {}, vehicle};
 }
 
-void ask_way(World& world, const RationalPose& start, const RationalPose& goal, Reply& reply) {
+void ask_way(World& world, const RationalPose& start, const RationalPose& goal, const std::optional<GivenVehicle>& vehicle, int attempts,
+             Reply& reply) {
     world.answer.reset();
     for (const auto& [pose, name] : {std::pair{&start, "start"}, {&goal, "goal"}})
         if (const auto pair = overlap(world, *pose)) {
@@ -184,17 +210,28 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
     const auto answer = world.planner->plan(first, last, alone);
     if (const auto* proof = std::get_if<Separation>(&answer)) {
         reply.text("verdict", "apart");
-        world.answer = {start, goal, *proof, {}};
+        world.answer = {start, goal, *proof, {}, {}};
         return show_proof(world, *proof, reply);
     }
     if (!std::holds_alternative<Poses>(answer)) return reply.text("verdict", "unclear");
     const Poses& found = std::get<Poses>(answer);
+    if (vehicle) {
+        const DrivenWay driving = driven(world, *vehicle, found, attempts);
+        reply.text("verdict", words_of(driving.verdict));
+        if (driving.verdict == DrivenWay::Verdict::manoeuvres) reply.add("manoeuvres", driving.manoeuvres);
+        if (driving.verdict != DrivenWay::Verdict::path) return;
+        check(world, driving.way, {});
+        show_path(world, driving.way, {}, reply);
+        show_gears(world, *vehicle, driving.way, reply);
+        world.answer = {start, goal, driving.way, {}, vehicle};
+        return;
+    }
     const auto slides = world.planner->slides->along(found);
     reply.text("verdict", "path");
     const Poses way = found.size() > 2 && slides.empty() ? shortened(world, found) : found;
     check(world, way, slides);
     show_path(world, way, slides, reply);
-    world.answer = {start, goal, way, slides};
+    world.answer = {start, goal, way, slides, {}};
 }
 
 }  // namespace cfree

@@ -8,10 +8,11 @@ namespace cfree {
 
 // Free or not; if free its cells and the contacts that touch, else what overlaps.
 void ask_pose(const World& world, const RationalPose& pose, Reply& reply);
-// A path, or the closed surface that separates the two.
-void ask_way(World& world, const RationalPose& start, const RationalPose& goal, Reply& reply);
+// A path, or the closed surface that separates the two. Without a vehicle the robot moves in any direction;
+// the path of a vehicle is shortened by so many attempts.
+void ask_way(World& world, const RationalPose& start, const RationalPose& goal, const std::optional<GivenVehicle>& vehicle, int attempts, Reply& reply);
 // A path given by its poses, a line each; every motion is checked.
-void ask_walk(World& world, std::string_view lines, Reply& reply);
+void ask_walk(World& world, std::string_view lines, const std::optional<GivenVehicle>& vehicle, Reply& reply);
 // Length of the free part of a translation.
 void ask_stop(const World& world, const RationalPose& from, const RationalPose& to, Reply& reply);
 

@@ -39,6 +39,11 @@ cfree::World& given() {
     return *world;
 }
 
+// None from an empty text.
+std::optional<cfree::GivenVehicle> driver(const char* vehicle) {
+    return *vehicle ? std::optional(cfree::vehicle_of(vehicle)) : std::nullopt;
+}
+
 }  // namespace
 
 extern "C" {
@@ -66,11 +71,11 @@ EMSCRIPTEN_KEEPALIVE int slice(double theta) {
 EMSCRIPTEN_KEEPALIVE int pose(const char* words) {
     return answer([&] { cfree::ask_pose(given(), cfree::pose_of(words), reply); });
 }
-EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal) {
-    return answer([&] { cfree::ask_way(given(), cfree::pose_of(start), cfree::pose_of(goal), reply); });
+EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal, const char* vehicle, int attempts) {
+    return answer([&] { cfree::ask_way(given(), cfree::pose_of(start), cfree::pose_of(goal), driver(vehicle), attempts, reply); });
 }
-EMSCRIPTEN_KEEPALIVE int walk(const char* poses) {
-    return answer([&] { cfree::ask_walk(given(), poses, reply); });
+EMSCRIPTEN_KEEPALIVE int walk(const char* poses, const char* vehicle) {
+    return answer([&] { cfree::ask_walk(given(), poses, driver(vehicle), reply); });
 }
 EMSCRIPTEN_KEEPALIVE int written() {
     return answer([] { cfree::write_answer(given(), reply); });

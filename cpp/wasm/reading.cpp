@@ -53,6 +53,19 @@ std::shared_ptr<const Polygon> polygon_of(Words& words, const std::string& name)
     throw std::invalid_argument(name + ": " + error.what());
 }
 
+RationalPose pose_of(Words& words) {
+    RationalPose pose;
+    pose.x = words.number(), pose.y = words.number();
+    if (words.word() == "inf") {
+        words.next();
+        pose.half = {0, 1};
+        return pose;
+    }
+    const Ratio tau = words.number();
+    pose.half = {tau.d, tau.n};
+    return pose;
+}
+
 }  // namespace
 
 SceneShapes shapes_of(std::string_view text) {
@@ -78,15 +91,23 @@ SceneShapes shapes_of(std::string_view text) {
 
 RationalPose pose_of(std::string_view text) {
     Words words(text);
-    RationalPose pose;
-    pose.x = words.number(), pose.y = words.number();
-    if (words.word() == "inf") {
-        pose.half = {0, 1};
-        return pose;
+    return pose_of(words);
+}
+
+GivenVehicle vehicle_of(std::string_view text) {
+    Words words(text);
+    const auto kind = words.word();
+    if (kind != "car" && kind != "differential") throw std::invalid_argument("no vehicle: " + std::string(kind.substr(0, 60)));
+    words.next();
+    GivenVehicle vehicle{kind == "differential", true, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {}};
+    if (!vehicle.turns_in_place) {
+        vehicle.left = words.number(), vehicle.right = words.number();
+        if (!(Ratio{0, 1} < vehicle.left && Ratio{0, 1} < vehicle.right)) throw std::invalid_argument("turning radius: give a length above 0");
     }
-    const Ratio tau = words.number();
-    pose.half = {tau.d, tau.n};
-    return pose;
+    const RationalPose axle = pose_of(words);
+    vehicle.x = axle.x, vehicle.y = axle.y, vehicle.heading = axle.half;
+    vehicle.reverses = words.word() != "forward";
+    return vehicle;
 }
 
 std::string words_of(const RationalPose& pose) {

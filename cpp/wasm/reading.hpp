@@ -4,6 +4,7 @@
 #pragma once
 #include <string_view>
 
+#include "cfree/planning/driving.hpp"
 #include "cfree/planning/rational_pose.hpp"
 #include "cfree/scene/features.hpp"
 
@@ -14,6 +15,8 @@ SceneShapes shapes_of(std::string_view words);
 // "x y tau", tau a rational or "inf".
 RationalPose pose_of(std::string_view words);
 std::string words_of(const RationalPose& pose);
+// "car left right x y tau both", or "forward" at the end: least radii, axle point, heading; "differential x y tau".
+GivenVehicle vehicle_of(std::string_view words);
 // Half of an angle in radians, within 2^-20 or, if fine, about a double's rounding; right angles are exact.
 HalfAngle half_angle_of(double theta, bool fine);
 

@@ -8,6 +8,7 @@
 #include "cfree/forbidden/slice.hpp"
 #include "cfree/free/free_space.hpp"
 #include "cfree/planning/contact_slide.hpp"
+#include "cfree/planning/driving.hpp"
 #include "cfree/planning/planner.hpp"
 #include "cfree/scene/features.hpp"
 
@@ -35,6 +36,7 @@ public:
         RationalPose start, goal;
         std::variant<Poses, Separation> found;
         std::vector<ContactSlide> slides;
+        std::optional<GivenVehicle> vehicle;  // that drives the path
     };
     std::optional<Answer> answer;  // the last one
     std::vector<double> volumes;  // volumes of cells, once they are needed

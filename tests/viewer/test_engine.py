@@ -79,8 +79,7 @@ def test_boundary_and_cells_have_the_same_bytes(path: Path) -> None:
 def test_paths_of_the_page_are_free(name: str) -> None:
     scene = cfree.load_scene(SCENES / f"{name}.json")
     assert scene.start is not None and isinstance(scene.goal, Pose)
-    ends = [" ".join([str(q.x), str(q.y), "inf" if q.tau is None else str(q.tau)]) for q in (scene.start, scene.goal)]
-    _, answer = asked(["open", scene_text(scene)], ["plan", *ends])
+    _, answer = asked(["open", scene_text(scene)], ["plan", said(scene.start), said(scene.goal), "", 0])
     expected = cfree.plan(scene)
     assert (answer["verdict"] == "path") == isinstance(expected, cfree.Path)
     if answer["verdict"] == "path":
@@ -88,6 +87,56 @@ def test_paths_of_the_page_are_free(name: str) -> None:
         motions = [cfree.motion_between(a, b) for a, b in pairwise(poses)]
         path = cfree.Path(poses[0], motions)
         assert (path.start, path.goal) == (scene.start, scene.goal) and path.is_free(cfree.MotionChecker(scene))
+
+
+def said(pose: Pose) -> str:
+    return f"{pose.x} {pose.y} {'inf' if pose.tau is None else pose.tau}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["benchmr_parking1", "comb_hook", "degenerate_island", "degenerate_workspace"])
+def test_paths_of_vehicles_are_free_and_driven(name: str) -> None:
+    scene = cfree.load_scene(SCENES / f"{name}.json")
+    assert scene.start is not None and isinstance(scene.goal, Pose)
+    vehicles = {
+        "car 3 4 -1/2 0.1 0 both": cfree.Car((3, 4), axle=("-1/2", "0.1")),
+        "car 1 1 0.2 0 1 both": cfree.Car(1, axle=("0.2", 0), heading="90deg"),
+        "differential 0 1/3 inf": cfree.DifferentialDrive(axle=(0, "1/3"), heading="180deg"),
+    }
+    calls = [["plan", said(scene.start), said(scene.goal), words, 100] for words in vehicles]
+    _, *answers = asked(["open", scene_text(scene)], *calls)
+    for vehicle, answer in zip(vehicles.values(), answers, strict=True):
+        assert answer["verdict"] == "path", answer
+        poses = [Pose(x, y, {"tau": tau}) for x, y, tau in map(str.split, answer["poses"].splitlines())]
+        motions = [cfree.motion_between(a, b) for a, b in pairwise(poses)]
+        path = cfree.Path(poses[0], motions, scene=scene, vehicle=vehicle)
+        assert (path.start, path.goal) == (scene.start, scene.goal) and path.is_free(cfree.MotionChecker(scene))
+        assert cfree.is_drivable(path, vehicle)
+        assert answer["cusps"]["values"] == [path.cusps]
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "poses", "why"),
+    [
+        ("car 2 3 0 0 0 both", "0 0 0|1 0 0", ""),
+        ("car 2 3 0 0 0 both", "0 0 0|2 2 1", ""),  # a quarter of the circle of radius 2 to the left
+        ("car 201/100 1 0 0 0 both", "0 0 0|2 2 1", "turns too narrowly"),
+        ("car 1 2 0 0 0 both", "0 0 0|2 -2 -1", ""),
+        ("car 1 201/100 0 0 0 both", "0 0 0|2 -2 -1", "turns too narrowly"),
+        ("car 1 1 0 0 0 forward", "0 0 0|-1 0 0", "goes backward"),
+        ("car 1 1 0 0 0 both", "0 0 0|1 1e-30 0", "moves the axle point sideways"),
+        ("car 1 1 0 0 1 both", "0 0 0|1 0 0", "moves the axle point sideways"),
+        ("car 1 1 0 0 0 both", "0 0 0|0 0 1", "turns in place"),
+        ("differential 0 0 0", "0 0 0|0 0 1", ""),
+        ("differential 1 0 0", "0 0 0|0 0 1", "moves the axle point sideways"),
+        ("car 0 1 0 0 0 both", "0 0 0|1 0 0", "give a length above 0"),
+        ("boat 0 1 0", "0 0 0|1 0 0", "no vehicle: boat"),
+    ],
+)
+def test_given_motions_that_no_vehicle_does_are_refused_exactly(vehicle: str, poses: str, why: str) -> None:
+    scene = cfree.Scene([(-1, -1), (1, -1), (1, 1), (-1, 1)], bounds=(-99, -99, 99, 99))
+    _, answer = asked(["open", scene_text(scene)], ["walk", poses.replace("|", "\n"), vehicle])
+    assert why in answer.get("fault", "") if why else "gear" in answer, answer
 
 
 @pytest.mark.slow
@@ -98,8 +147,7 @@ def test_written_paths_slide_along_two_contacts(ends: tuple[Pose, Pose], tmp_pat
         [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)],
     )
     scene = cfree.Scene(square, [], workspace=junction)
-    said = [f"{q.x} {q.y} {q.tau}" for q in ends]
-    _, _, written = asked(["open", scene_text(scene)], ["plan", *said], ["written"])
+    _, _, written = asked(["open", scene_text(scene)], ["plan", *map(said, ends), "", 0], ["written"])
     (tmp_path / "answer.json").write_text(
         written["answer"].replace("{sha256}", hashlib.sha256(written["scene"].encode()).hexdigest())
     )

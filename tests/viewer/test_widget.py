@@ -86,6 +86,23 @@ def test_path_of_the_page_is_believed_only_if_it_is_free() -> None:
     assert len(widget.answer.motions) > 1 and widget.answer.is_free(cfree.MotionChecker(widget.scene))
 
 
+def test_vehicle_of_the_page_drives_in_python() -> None:
+    car = cfree.Car(1, axle=("1/2", 0))
+    widget = cfree.widget(
+        cfree.Scene(ROBOT, [WALL], workspace=ROOM, start=("1.5", "1.5", 0), goal=("6.5", 2, 0), vehicle=car)
+    )
+    assert widget.vehicle == widget.scene.vehicle == widget.answer.vehicle == car
+    record = {"type": "car", "turning_radius": ["2", "5/2"], "axle": ["0", "0.1"], "heading": {"tau": "1"}}
+    widget.set_state({"vehicle": record})
+    assert widget.vehicle == cfree.Car((2, "5/2"), axle=(0, "0.1"), heading="90deg") == widget.answer.vehicle
+    widget.set_state({"poses": "3/2 3/2 0\n3/2 15/2 0\n13/2 15/2 0\n13/2 2 0"})
+    assert widget.answer.is_free(cfree.MotionChecker(widget.scene)) and len(widget.answer.motions) != 3  # sideways
+    widget.set_state({"vehicle": None})
+    assert widget.answer.vehicle is widget.scene.vehicle is None and len(widget.answer.motions) == 3
+    widget.vehicle = cfree.DifferentialDrive()
+    assert widget.get_state(["vehicle"])["vehicle"] == {"type": "differential", "axle": ["0", "0"]}
+
+
 def test_another_scene_is_shown() -> None:
     widget, other = cfree.widget(scene_of()), scene_of([(4, 0), (5, 0), (5, 9), (4, 9)])
     widget.scene = other
@@ -136,7 +153,7 @@ class Cell:
         self.faults: list[str] = []
         self.page.on("console", lambda message: self.faults.append(message.text) if message.type == "error" else None)
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
-        state = self.widget.get_state(["page", "source", "robot", "start", "goal", "poses", "height"])
+        state = self.widget.get_state(["page", "source", "robot", "start", "goal", "vehicle", "poses", "height"])
         self.page.evaluate(MODEL, [self.widget._esm, state])
         self.frame = self.page.frame_locator("iframe")
 
@@ -191,6 +208,21 @@ def test_wheel_is_left_to_the_notebook_until_the_cell_is_clicked_in(cell: Cell) 
     assert after_wheel() == before
     cell.frame.locator("#workspace h2").click(position={"x": 2, "y": 2}, force=True)
     assert after_wheel() != before
+
+
+@pytest.mark.slow
+def test_ways_to_move_are_switched_on_both_sides(cell: Cell) -> None:
+    cell.frame.locator("#way").filter(has_text="A motion exists").wait_for()
+    cell.frame.locator("#drive label:has([value=differential])").click()
+    cell.frame.locator("#way").filter(has_text="A machine that turns in place drives there").wait_for()
+    cell.heard("vehicle")
+    assert isinstance(cell.widget.vehicle, cfree.DifferentialDrive)
+    record = {"type": "car", "turning_radius": "1", "axle": ["1/2", "1/3"]}
+    cell.page.evaluate("([name, value]) => model.set(name, value)", ["vehicle", record])
+    cell.frame.locator("#way").filter(has_text="A car drives there").wait_for()
+    assert cell.frame.locator("#axle-y").input_value() == "1/3"
+    cell.page.evaluate("([name, value]) => model.set(name, value)", ["vehicle", None])
+    cell.frame.locator("#way").filter(has_text="A motion exists").wait_for()
 
 
 @pytest.mark.slow

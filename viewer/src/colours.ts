@@ -10,6 +10,9 @@ export interface Palette {
   ink: string;
   faint: string;
   path: string;
+  ahead: string;
+  back: string;
+  in_place: string;
   good: string;
   bad: string;
   accent: string;

@@ -33,7 +33,7 @@ export class Editor {
   constructor(private readonly workspace: Workspace) {
     this.frame = made("g", workspace.layers.edit, { class: "handles" });
     const { svg, layers } = workspace;
-    workspace.on_look = () => this.look();
+    workspace.on_look.push(() => this.look());
     layers.obstacles.addEventListener("pointerdown", (event) => this.grab(event));
     layers.obstacles.addEventListener("keydown", (event) => this.key(event));
     layers.floor.addEventListener("pointerdown", (event) => {

@@ -3,19 +3,26 @@ import { string } from "./engine";
 import { $ } from "./page";
 import type { Session } from "./session";
 import type { PoseText } from "./state";
+import { record_of, words_of, type Vehicle } from "./vehicle";
+import { read_vehicle } from "./words";
 
 export interface Given {
   scene: string;
   robot?: PoseText;
   start?: PoseText;
   goal?: PoseText;
+  vehicle?: unknown; // as in files; null for a robot that moves in any direction, although the file has a vehicle
   poses?: string;
 }
 
-export async function show_given(session: Session, { scene, poses, ...ends }: Given): Promise<void> {
-  if (session.scene && scene === session.now.source) await session.change(ends);
-  else await session.open(scene, ends);
-  if (poses) session.show_way(await (await session.planner.of(scene)).call("walk", poses));
+export async function show_given(session: Session, { scene, poses, vehicle, ...ends }: Given): Promise<void> {
+  const drives: Partial<Vehicle> | undefined = vehicle === null ? { kind: "any" } : read_vehicle(vehicle);
+  const first = { ...ends, ...(drives && { vehicle: drives }) };
+  if (session.scene && scene === session.now.source) await session.change(first);
+  else await session.open(scene, first);
+  if (!poses) return;
+  const driver = session.now.vehicle;
+  session.show_way(await (await session.planner.of(scene)).call("walk", poses, words_of(driver)), driver);
 }
 
 // Ignore the wheel in a frame without focus: a user who scrolls past does not want to zoom.
@@ -34,7 +41,8 @@ export function be_hosted(session: Session): void {
   session.on_seen = () => {
     const { source: scene, robot, start, goal } = session.now;
     const poses = session.path ? string(session.last_way!, "poses") : "";
-    window.parent.postMessage({ cfree: "seen", seen: { scene, robot, start, goal, poses } }, "*");
+    const vehicle = record_of(session.now.vehicle) ?? null;
+    window.parent.postMessage({ cfree: "seen", seen: { scene, robot, start, goal, vehicle, poses } }, "*");
   };
   window.parent.postMessage({ cfree: "ready" }, "*");
 }

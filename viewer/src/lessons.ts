@@ -1,4 +1,4 @@
-// Seven steps through the paper: each has a text, a scene, and something to drag.
+// Eight steps, through the paper and to a car: each has a text, a scene, and something to drag.
 import { $ } from "./page";
 import type { Editor } from "./editor";
 import type { Session } from "./session";

@@ -1,6 +1,7 @@
 // The page: buttons, keys, files and links.
 import type { ColourBy } from "./colours";
 import { LEGENDS } from "./colours";
+import { Driving } from "./driving";
 import { integers, string, value } from "./engine";
 import { Editor } from "./editor";
 import { be_hosted, show_given, spare_the_wheel, type Given } from "./host";
@@ -30,6 +31,7 @@ const session = new Session(workspace, space);
 const player = new Player(session);
 const editor = new Editor(workspace);
 session.editor = editor;
+const driving = new Driving(workspace, session);
 const lessons = new Lessons(session, editor, in_gallery);
 editor.on_change = (source, done) => void session.edited({ source, done });
 editor.on_cancel = () => void session.edited("back");
@@ -158,7 +160,10 @@ document.addEventListener("drop", (event) => {
   document.body.classList.remove("dropping");
   void open_file(event.dataTransfer?.files[0]);
 });
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => space?.repaint(palette()));
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  space?.repaint(palette());
+  session.show_path();
+});
 
 document.addEventListener("keydown", (event) => {
   if (event.key === "Escape") return editor.cancel() ? undefined : session.stop();
@@ -204,6 +209,7 @@ document.addEventListener("keydown", (event) => {
     p: () => space?.pick_middle(),
     e: actions["edit-shapes"]!,
     n: actions.draw!,
+    m: () => driving.next(),
     1: () => colour(0),
     2: () => colour(1),
     3: () => colour(2),

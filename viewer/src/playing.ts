@@ -1,6 +1,7 @@
 // The robot on its path.
 import { $, say } from "./page";
 import type { Session } from "./session";
+import { frame_of, placed, steering } from "./vehicle";
 
 export class Player {
   private frame = 0;
@@ -13,6 +14,16 @@ export class Player {
     cancelAnimationFrame(this.frame);
     this.frame = 0;
     $("play").textContent = "▶ Play";
+  }
+
+  // Turn the front wheels as on the way from one sample to the next.
+  private steer(k: number, next: number): void {
+    const { path, gears, driver, wheels, workspace } = this.session;
+    if (!path || !gears || !driver || !wheels) return;
+    const axle_at = (i: number) =>
+      placed(frame_of(driver), { x: path[3 * i]!, y: path[3 * i + 1]!, theta: path[3 * i + 2]! });
+    const angle = steering(axle_at(k), axle_at(next), wheels.wheelbase);
+    if (angle !== undefined) workspace.steer(angle);
   }
 
   toggle(): void {
@@ -37,6 +48,7 @@ export class Player {
       const c = (i: number) => samples[3 * k + i]! * (1 - u) + samples[3 * next + i]! * u;
       session.seen.robot = { x: c(0), y: c(1), theta: c(2) };
       session.workspace.place("robot", session.seen.robot, "good");
+      this.steer(k, next);
       session.space?.place(session.seen.robot, true);
       session.set_slider(c(2));
       void session.ask_slice();

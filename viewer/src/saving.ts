@@ -2,15 +2,20 @@
 import { string } from "./engine";
 import { $, download, fault, say } from "./page";
 import type { Session } from "./session";
-import { Shapes, pose_json } from "./shapes";
+import { Shapes, json_of, pose_json } from "./shapes";
 import { model_of } from "./model";
+import { record_of } from "./vehicle";
 
 const name_of = (session: Session, end: string) => `${(session.file.name || "scene").replace(/[^-\w]+/g, "_")}${end}`;
 
 export function save_scene(session: Session): void {
-  const { source, start, goal } = session.now;
+  const { source, start, goal, vehicle } = session.now;
   const text = Shapes.of(source)
-    .ending({ ...(start && { start: pose_json(start) }), ...(goal && { goal: pose_json(goal) }) })
+    .ending({
+      ...(start && { start: pose_json(start) }),
+      ...(goal && { goal: pose_json(goal) }),
+      vehicle: record_of(vehicle, json_of),
+    })
     .text();
   download(name_of(session, ".json"), text, "application/json");
 }
@@ -33,6 +38,7 @@ function workspace_svg(): SVGSVGElement {
   const copy = shown.cloneNode(true) as SVGSVGElement;
   const originals = shown.querySelectorAll("*");
   const copies = copy.querySelectorAll("*");
+  const handles = copy.querySelectorAll(".drive");
   const looks = [
     "fill",
     "fill-opacity",
@@ -54,6 +60,7 @@ function workspace_svg(): SVGSVGElement {
     for (const name of looks) into.style.setProperty(name, look.getPropertyValue(name));
     for (const name of ["class", "tabindex", "role", "aria-label", "aria-roledescription"]) into.removeAttribute(name);
   });
+  for (const handle of handles) handle.remove();
   copy.querySelectorAll("[style*='display: none']").forEach((element) => element.remove());
   const { width, height } = shown.getBoundingClientRect();
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");

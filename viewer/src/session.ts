@@ -6,12 +6,15 @@ import { digits, number } from "./shapes";
 import { wrapped, type Space } from "./space";
 import { History, fragment, from_words, words, type PoseText, type State } from "./state";
 import { degrees, pose_verdict, way_verdict } from "./verdict";
+import { frame_of, track_of, usual, words_of, type Gear, type Vehicle, type Wheels } from "./vehicle";
 import type { FilePose, SceneText } from "./words";
 import type { Drag, Seen, Who, Workspace } from "./workspace";
 
 const PATIENCE = 300; // ms that a boundary may take before the next edit ends it
 const COARSE = 9000;
 const FINE = 60_000; // triangles
+const QUICK = 300;
+const LONG = 3000; // attempts to shorten a vehicle's path, during a drag and after it
 
 export const seen_of = (pose: PoseText): Seen => ({
   x: number(pose.x),
@@ -37,6 +40,9 @@ function box_of(read: Columns): Box {
   return box;
 }
 
+// What is to be seen first, in place of what the file says; a vehicle may lack some of its numbers.
+export type Opening = Omit<Partial<State>, "vehicle"> & { vehicle?: Partial<Vehicle> };
+
 export class Session {
   readonly quick = new Engine(); // reads scenes, checks poses: answers at once
   readonly builder = new Engine((share) => {
@@ -50,11 +56,15 @@ export class Session {
   is_built = false; // of the scene as it is now
   private opened = 0;
   path: Float64Array | undefined;
+  gears: Gear[] | undefined; // of each sample of the path, if a vehicle drives it
+  wheels: Wheels | undefined; // as drawn
+  driver: Vehicle | undefined; // whose answer is shown
   last_way: Columns | undefined;
   editor?: Editor;
   stop_playing = () => {};
   on_opened = () => {};
   on_seen = () => {};
+  on_vehicle = () => {};
 
   constructor(
     readonly workspace: Workspace,
@@ -69,7 +79,7 @@ export class Session {
   }
 
   // Open a file's text: read and show it, and compute its boundary while paths are searched.
-  async open(source: string, of?: Partial<State>): Promise<void> {
+  async open(source: string, of?: Opening): Promise<void> {
     const { ready } = document.body.dataset;
     this.stop_playing();
     this.is_ready(undefined);
@@ -81,10 +91,12 @@ export class Session {
       const box = box_of(read);
       const middle = (k: 0 | 1) => ((box[k] + box[k + 2]!) / 2).toFixed(2);
       const robot = of?.robot ?? start ?? { x: middle(0), y: middle(1), tau: "0" };
+      const vehicle = of?.vehicle ?? file.vehicle;
       const state: State = {
         source,
         opened: ++this.opened,
         robot,
+        ...(vehicle && { vehicle: { ...usual(doubles(read, "robot.xy")), ...vehicle } }),
         ...(start && { start }),
         ...(goal && { goal }),
         ...(of?.gallery && { gallery: of.gallery }),
@@ -137,6 +149,7 @@ export class Session {
     for (const who of ["start", "goal"] as const) this.place(who);
     this.set_slider(this.seen.robot!.theta);
     this.editor?.show(now.source);
+    this.on_vehicle();
     this.on_opened();
     void this.ask_robot(now.robot);
     void this.ask_way();
@@ -256,8 +269,8 @@ export class Session {
   }
 
   private is_waiting = false; // for a way
-  async ask_way(): Promise<void> {
-    const { start, goal, source } = this.now;
+  async ask_way(is_last = true): Promise<void> {
+    const { start, goal, source, vehicle } = this.now;
     if (!start || !goal)
       return say("way", { tone: "plain", text: start || goal ? "" : "No start and goal in this scene." });
     $("way").classList.add("old");
@@ -268,8 +281,9 @@ export class Session {
     }, 400);
     try {
       const planner = await this.planner.of(source);
-      const answer = await planner.newest("plan", words(start), words(goal));
-      if (source === this.now.source) this.show_way(answer);
+      const attempts = is_last ? LONG : QUICK;
+      const answer = await planner.newest("plan", words(start), words(goal), words_of(vehicle), attempts);
+      if (source === this.now.source) this.show_way(answer, vehicle);
     } catch (error) {
       if (!(error instanceof Cancelled)) {
         this.show_way(undefined);
@@ -282,11 +296,16 @@ export class Session {
     }
   }
 
-  show_way(answer: Columns | undefined): void {
+  show_way(answer: Columns | undefined, vehicle = this.driver): void {
     this.last_way = answer;
+    this.driver = vehicle;
     const verdict = answer && string(answer, "verdict");
     this.path = verdict === "path" ? doubles(answer!, "samples") : undefined;
-    if (answer) say("way", way_verdict(answer, this.file.names, this.file.units));
+    this.gears =
+      this.path && answer?.gear
+        ? [...integers(answer, "motion")].map((k) => (integers(answer, "gear")[k] ?? 0) as Gear)
+        : undefined;
+    if (answer) say("way", way_verdict(answer, this.file.names, this.file.units, vehicle));
     this.show_path();
     this.space?.show_barrier(verdict === "apart" ? answer : undefined);
     $<HTMLButtonElement>("play").disabled = !this.path;
@@ -298,8 +317,9 @@ export class Session {
       $<HTMLSelectElement>("colour").value === "clearance"
         ? this.last_way && doubles(this.last_way, "clearance")
         : undefined;
-    this.workspace.show_path(shown);
-    this.space?.show_path(shown, by_clearance);
+    const gears = shown && this.gears;
+    this.workspace.show_path(shown, gears && this.driver && track_of(shown, gears, frame_of(this.driver)));
+    this.space?.show_path(shown, by_clearance, gears);
   }
 
   private drags: (Drag | "back")[] = []; // still to be followed
@@ -335,7 +355,7 @@ export class Session {
       this.seen[drag.who] = seen_of(wanted);
       this.place(drag.who);
       this.keep({ ...this.now, [drag.who]: wanted }, drag.done);
-      return this.ask_way();
+      return this.ask_way(drag.done);
     }
     const is_free = await this.ask_robot(wanted);
     let reached = wanted;
@@ -354,6 +374,17 @@ export class Session {
       void this.ask_slice();
     }
     this.keep({ ...this.now, robot: reached }, drag.done);
+  }
+
+  // The vehicle that is shown, or was before the robot moved in any direction, or a guess.
+  get vehicle(): Vehicle {
+    return this.now.vehicle ?? { ...usual(doubles(this.scene!, "robot.xy")), kind: "any" };
+  }
+  drive(vehicle: Vehicle, done: boolean): void {
+    this.stop_playing();
+    this.keep({ ...this.now, vehicle }, done);
+    this.on_vehicle();
+    void this.ask_way(done);
   }
 
   // Take an edited text. A text that is no scene is refused, and the last valid scene stays.
@@ -430,9 +461,9 @@ export class Session {
   async redo(): Promise<void> {
     return this.restore(() => this.history.redo());
   }
-  async change(of: Partial<State>): Promise<void> {
+  async change({ vehicle, ...of }: Opening): Promise<void> {
     return this.restore(() => {
-      this.history.push({ ...this.now, ...of });
+      this.history.push({ ...this.now, ...of, ...(vehicle && { vehicle: { ...this.vehicle, ...vehicle } }) });
       return this.now;
     });
   }
@@ -457,6 +488,7 @@ export class Session {
       };
       for (const who of ["start", "goal"] as const) this.place(who);
       this.set_slider(this.seen.robot!.theta);
+      this.on_vehicle();
       void this.ask_robot(state.robot);
       void this.ask_slice();
       void this.ask_way();

@@ -14,7 +14,7 @@ type Json = unknown;
 type Fields = Record<string, Json>;
 
 const text_of = (c: Json): string => (c instanceof LosslessNumber ? c.value : String(c));
-const json_of = (c: string): Json => (/^-?\d+(\.\d+)?([eE][-+]?\d+)?$/.test(c) ? new LosslessNumber(c) : c);
+export const json_of = (c: string): Json => (/^-?\d+(\.\d+)?([eE][-+]?\d+)?$/.test(c) ? new LosslessNumber(c) : c);
 const rings_of = (polygon: Fields): Rings =>
   [polygon.outer, ...((polygon.holes as Json[] | undefined) ?? [])].map((ring) =>
     (ring as Json[][]).map(([x, y]) => [text_of(x), text_of(y)]),
@@ -88,8 +88,8 @@ export class Shapes {
     return new Shapes({ ...fields, [kind === "robot" ? "robot" : "obstacles"]: polygons });
   }
 
-  // Start and goal in place of those in the file.
-  ending(ends: { start?: Json; goal?: Json }): Shapes {
+  // Start and goal in place of those in the file, and the vehicle; undefined is none.
+  ending(ends: { start?: Json; goal?: Json; vehicle?: Json }): Shapes {
     const { goals: _, ...fields } = this.fields;
     return new Shapes({ ...fields, ...ends });
   }

@@ -33,6 +33,7 @@ import { type Columns, bytes, doubles, integers } from "./engine";
 import type { Shown } from "./model";
 import { DepthOrder } from "./depth";
 import { FRAGMENT, VERTEX } from "./shaders";
+import type { Gear } from "./vehicle";
 
 const LOW = -Math.PI / 2;
 const HIGH = (3 * Math.PI) / 2;
@@ -485,51 +486,51 @@ export class Space {
     this.set_theta(this.theta);
   }
 
-  // Show a path, coloured by its clearance as a share of the largest, if that is given.
-  show_path(samples: Float64Array | undefined, clearance?: Float64Array): void {
+  // Show a path, coloured by its clearance as a share of the largest, or by its gears, if these are given.
+  show_path(samples: Float64Array | undefined, clearance?: Float64Array, gears?: Gear[]): void {
     this.clear(this.parts.path);
-    const parts: Vector3[][] = [[]];
-    const shares: number[][] = [[]];
+    const parts: { points: Vector3[]; colours: Color[] }[] = [{ points: [], colours: [] }];
     const most = clearance?.reduce((a, b) => Math.max(a, b), 0) || 1;
+    const { path, ahead, back, in_place } = this.palette;
+    const plain = new Color(path);
+    const of_gear = [back, in_place, ahead].map((of) => new Color(of));
     for (let k = 0; samples && k < samples.length; k += 3) {
       const theta = wrapped(samples[k + 2]!);
       const at = this.put(samples[k]!, samples[k + 1]!, theta);
-      const part = parts.at(-1)!;
-      const share = (clearance?.[k / 3] ?? 0) / most;
-      if (part.length && Math.abs(part.at(-1)!.z - at.z) > Math.PI * this.rise) {
-        parts.push([at]);
-        shares.push([share]);
-      } else if (!part.length || part.at(-1)!.distanceTo(at) > 1e-6 * this.view.size) {
-        part.push(at);
-        shares.at(-1)!.push(share);
+      const { points, colours } = parts.at(-1)!;
+      const colour = clearance
+        ? on_scale(clearance[k / 3]! / most)
+        : gears
+          ? of_gear[gears[Math.min(k / 3, gears.length - 1)]! + 1]!
+          : plain;
+      if (points.length && Math.abs(points.at(-1)!.z - at.z) > Math.PI * this.rise)
+        parts.push({ points: [at], colours: [colour] });
+      else if (!points.length || points.at(-1)!.distanceTo(at) > 1e-6 * this.view.size) {
+        points.push(at);
+        colours.push(colour);
       }
     }
-    parts.forEach((part, k) => {
-      if (part.length < 2) return;
-      const along = Math.min(3 * part.length, 1500);
+    for (const { points, colours } of parts) {
+      if (points.length < 2) continue;
+      const along = Math.min(3 * points.length, 1500);
       const around = 8;
-      const of = shares[k]!;
-      const tube = new TubeGeometry(
-        new CatmullRomCurve3(part, false, "centripetal"),
-        along,
-        0.006 * this.view.size,
-        around,
-      );
-      const look = { color: clearance ? "#ffffff" : this.palette.path, vertexColors: !!clearance };
-      if (clearance) {
-        const colours = new Float32Array(3 * (along + 1) * (around + 1));
-        for (let i = 0; i <= along; ++i)
-          for (let j = 0; j <= around; ++j)
-            on_scale(of[Math.round((i / along) * (of.length - 1))]!).toArray(colours, 3 * (i * (around + 1) + j));
-        tube.setAttribute("color", new BufferAttribute(colours, 3));
-      }
+      const curve = new CatmullRomCurve3(points, false, "centripetal");
+      const tube = new TubeGeometry(curve, along, 0.006 * this.view.size, around);
+      const each = new Float32Array(3 * (along + 1) * (around + 1));
+      const colour_at = (share: number) =>
+        // of the length
+        colours[Math.ceil(curve.getUtoTmapping(share, share * curve.getLength()) * (colours.length - 1))]!;
+      for (let i = 0; i <= along; ++i)
+        for (let j = 0; j <= around; ++j) colour_at(i / along).toArray(each, 3 * (i * (around + 1) + j));
+      tube.setAttribute("color", new BufferAttribute(each, 3));
+      const look = { vertexColors: true };
       const through = new Mesh(
         tube,
         new MeshBasicMaterial({ ...look, transparent: true, opacity: 0.4, depthTest: false }),
       );
       through.renderOrder = 6;
       this.parts.path.add(new Mesh(tube, new MeshBasicMaterial(look)), through);
-    });
+    }
     this.ask();
   }
 

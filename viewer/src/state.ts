@@ -1,4 +1,6 @@
 // The state of a page as texts that the core reads exactly: for undo, redo and links.
+import { is_vehicle, type Vehicle } from "./vehicle";
+
 export interface PoseText {
   x: string;
   y: string;
@@ -12,6 +14,7 @@ export interface State {
   robot: PoseText;
   start?: PoseText;
   goal?: PoseText;
+  vehicle?: Vehicle;
 }
 
 export const words = (pose: PoseText) => `${pose.x} ${pose.y} ${pose.tau}`;
@@ -90,7 +93,10 @@ export async function from_fragment(
   const is_pose = (pose: unknown) =>
     pose === undefined ||
     Object.values(pose as object).every((c) => typeof c === "string" && /^[-+.\d/eEinf]+$/.test(c));
-  return typeof state.source === "string" && state.robot && [state.robot, state.start, state.goal].every(is_pose)
+  return typeof state.source === "string" &&
+    state.robot &&
+    [state.robot, state.start, state.goal].every(is_pose) &&
+    (state.vehicle === undefined || is_vehicle(state.vehicle))
     ? state
     : undefined;
 }

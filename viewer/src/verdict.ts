@@ -1,5 +1,6 @@
 // Answers of the core in words.
 import { type Columns, bytes, doubles, integers, string, value } from "./engine";
+import type { Vehicle } from "./vehicle";
 
 export const degrees = (theta: number) => `${((theta * 180) / Math.PI).toFixed(1).replace(/\.0$/, "")}°`;
 export type Tone = "good" | "touch" | "bad" | "proof" | "plain";
@@ -52,32 +53,66 @@ function blocking(owners: number[], names: string[]): string {
   return are_plain ? `obstacle${owners.length > 1 ? "s" : ""} ${joined}` : joined;
 }
 
-export function way_verdict(columns: Columns, names: string[], units: string): Verdict {
+// The machine in a sentence, with its article.
+const machine = (vehicle: Vehicle | undefined): string =>
+  vehicle?.kind === "car"
+    ? `a car${vehicle.gears === "forward" ? " without reverse gear" : ""}`
+    : "a machine that turns in place";
+const many = (count: number, what: string) => `${count.toLocaleString("en")} ${what}${count === 1 ? "" : "s"}`;
+
+function path_words(columns: Columns, units: string, vehicle: Vehicle | undefined): string {
+  const pieces = value(columns, "motions");
+  const length = `length ${value(columns, "length").toPrecision(3)}${units ? ` ${units}` : ""}`;
+  if (columns.gear) {
+    const cusps = value(columns, "cusps");
+    const changes = `${many(cusps, "change")} of direction`;
+    const text = `${machine(vehicle)} drives there: ${many(pieces, "motion")}, ${changes}, ${length}; proved free.`;
+    return text[0]!.toUpperCase() + text.slice(1);
+  }
+  const turning = (doubles(columns, "turning")[0]! * 180) / Math.PI;
+  return `A motion exists: ${pieces} ${pieces === 1 ? "piece" : "pieces"}, ${length}, turning ${turning.toFixed(0)} degrees; proved free.`;
+}
+
+// Answers about vehicles that are neither a path nor a proof.
+function open_words(verdict: string, columns: Columns, vehicle: Vehicle | undefined): string | undefined {
+  const it = machine(vehicle);
+  const touches = /^(start|goal) touches$/.exec(verdict);
+  if (touches)
+    return `${touches[1] === "start" ? "Start" : "Goal"}: the robot touches something. The page does not decide this for ${it}; use \`cfree plan\`.`;
+  if (verdict === "contacts")
+    return `A motion exists, but along contacts only. The page does not decide this for ${it}; use \`cfree plan\`.`;
+  if (verdict === "narrow") return `A way of ${it} exists; the page cannot write it down: its passages are too narrow.`;
+  if (verdict === "forward")
+    return "A way exists with a reverse gear; none without one was found here: `cfree plan` may decide it.";
+  if (verdict !== "manoeuvres") return undefined;
+  const needed = value(columns, "manoeuvres");
+  return `A way exists; ${it} needs ${needed > 0 ? `about ${needed.toLocaleString("en")}` : "too many"} manoeuvres.`;
+}
+
+export function way_verdict(columns: Columns, names: string[], units: string, vehicle?: Vehicle): Verdict {
   const verdict = string(columns, "verdict");
   if (verdict.endsWith("forbidden"))
     return {
       tone: "bad",
       text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot overlaps ${obstacle_name(names, integers(columns, "pair")[1]!)}.`,
     };
-  if (verdict === "path") {
-    const pieces = value(columns, "motions");
-    const turning = (doubles(columns, "turning")[0]! * 180) / Math.PI;
-    return {
-      tone: "good",
-      text: `A motion exists: ${pieces} ${pieces === 1 ? "piece" : "pieces"}, length ${value(columns, "length").toPrecision(3)}${units ? ` ${units}` : ""}, turning ${turning.toFixed(0)} degrees; proved free.`,
-    };
-  }
+  if (verdict === "path") return { tone: "good", text: path_words(columns, units, vehicle) };
   if (verdict === "apart") {
     const owners = [...integers(columns, "obstacles")];
+    // the proof holds for every vehicle
+    const it = vehicle?.kind === "differential" ? machine(vehicle) : "a car, whatever its turning radius";
     return {
       tone: "proof",
       text:
         value(columns, "closed") === 1
-          ? `No motion, not even touching: separated by ${blocking(owners, names)}.`
-          : `No motion with clearance: separated by ${blocking(owners, names)}; no path that touches was found.`,
+          ? `No motion, not even touching: separated by ${blocking(owners, names)}. Nor can ${it}.`
+          : `No motion with clearance: separated by ${blocking(owners, names)}; no path that touches was found. Nor can ${it}, with clearance.`,
     };
   }
-  return { tone: "plain", text: "Undecided here: `cfree plan` decides it." };
+  return {
+    tone: "plain",
+    text: open_words(verdict, columns, vehicle) ?? "Undecided here: `cfree plan` decides it.",
+  };
 }
 
 // "Cell 5: volume 1.24, caged: obstacles alone enclose it; the robot cannot turn round in it."

@@ -1,5 +1,6 @@
 // Scene files as words for the core: every number stays the text that it is in the file.
 import { LosslessNumber, parse } from "lossless-json";
+import { is_number, is_radius, type Vehicle } from "./vehicle";
 
 export const MOST_BYTES = 16 << 20;
 export const MOST_DEPTH = 64;
@@ -20,7 +21,10 @@ export interface SceneText {
   words: string;
   start?: FilePose;
   goal?: FilePose;
+  vehicle?: FileVehicle;
 }
+// A differential drive has no radii.
+export type FileVehicle = Omit<Vehicle, "left" | "right"> & Partial<Vehicle>;
 
 type Json = unknown;
 const fail = (place: string, wanted: string, got: Json): never => {
@@ -83,21 +87,69 @@ function pose(value: Json, place: string): FilePose | undefined {
   if (parts.length !== 3 && parts.length !== 2) fail(place, "x, y and an angle", value);
   const [x, y] = [number(parts[0], `${place}[0]`), number(parts[1], `${place}[1]`)];
   if (parts.length === 2) return { x, y }; // a place with any angle
-  const angle = parts[2];
-  if (angle && typeof angle === "object" && !(angle instanceof LosslessNumber)) {
-    const tau = fields(angle, `${place}[2]`).tau;
-    return { x, y, tau: tau === null || tau === "inf" || tau === "-inf" ? "inf" : number(tau, `${place}[2].tau`) };
+  return { x, y, ...angle(parts[2], `${place}[2]`) };
+}
+
+function angle(value: Json, place: string): { tau: string } | { theta: number } {
+  if (value && typeof value === "object" && !(value instanceof LosslessNumber)) {
+    const tau = fields(value, place).tau;
+    return { tau: tau === null || tau === "inf" || tau === "-inf" ? "inf" : number(tau, `${place}.tau`) };
   }
-  const degrees = typeof angle === "string" ? /^\s*([-+.\deE]+)\s*(?:deg|°)\s*$/.exec(angle) : null;
-  const radians = typeof angle === "string" ? /^\s*([-+.\deE]+)\s*rad\s*$/.exec(angle) : null;
+  const degrees = typeof value === "string" ? /^\s*([-+.\deE]+)\s*(?:deg|°)\s*$/.exec(value) : null;
+  const radians = typeof value === "string" ? /^\s*([-+.\deE]+)\s*rad\s*$/.exec(value) : null;
   const theta = degrees
     ? (Number(degrees[1]) * Math.PI) / 180
     : radians
       ? Number(radians[1])
-      : Number(number(angle, `${place}[2]`));
-  if (typeof angle === "string" && !degrees && !radians && Math.abs(theta) > 2 * Math.PI)
-    throw new Error(`${place}[2]: ${angle} is more than a whole turn in radians; write ${angle}deg or ${angle}rad`);
-  return Number.isFinite(theta) ? { x, y, theta } : fail(`${place}[2]`, "an angle", angle);
+      : Number(number(value, place));
+  if (typeof value === "string" && !degrees && !radians && Math.abs(theta) > 2 * Math.PI)
+    throw new Error(`${place}: ${value} is more than a whole turn in radians; write ${value}deg or ${value}rad`);
+  return Number.isFinite(theta) ? { theta } : fail(place, "an angle", value);
+}
+
+// As in files, and in what Python sends.
+export function read_vehicle(value: Json, place = "vehicle"): FileVehicle | undefined {
+  if (value === undefined || value === null) return undefined;
+  const of = fields(value, place);
+  const kind =
+    of.type === "car" || of.type === "differential"
+      ? of.type
+      : fail(`${place}.type`, '"car" or "differential"', of.type);
+  const keys = kind === "car" ? "type turning_radius axle heading gears" : "type axle heading";
+  const unknown = Object.keys(of).find((key) => !keys.split(" ").includes(key));
+  if (unknown !== undefined)
+    throw new Error(
+      `${place}: unknown key "${plain(unknown)}"; those of this vehicle are ${keys.replaceAll(" ", ", ")}`,
+    );
+  const exact = (c: Json, where: string) => {
+    const text = number(c, where);
+    return is_number(text) ? text : fail(where, 'a number or "p/q"', c);
+  };
+  const pair = (c: Json, where: string): [string, string] => {
+    const parts = list(c, where);
+    if (parts.length !== 2) fail(where, "two numbers", c);
+    return [exact(parts[0], `${where}[0]`), exact(parts[1], `${where}[1]`)];
+  };
+  const [x, y] = of.axle === undefined ? ["0", "0"] : pair(of.axle, `${place}.axle`);
+  const heading = of.heading === undefined ? { tau: "0" } : angle(of.heading, `${place}.heading`);
+  const right_angles = "theta" in heading ? (2 * heading.theta) / Math.PI : 0;
+  if (Math.abs(right_angles - Math.round(right_angles)) > 1e-12)
+    throw new Error(`${place}.heading: give a multiple of 90deg, or {"tau": "p/q"}, the tangent of its half`);
+  const tau = "tau" in heading ? heading.tau : ["0", "1", "inf", "-1"][((Math.round(right_angles) % 4) + 4) % 4]!;
+  if (tau !== "inf" && !is_number(tau)) fail(`${place}.heading.tau`, 'a number or "p/q"', tau);
+  if (kind === "differential") return { kind, x, y, tau, gears: "both" };
+  const radius = of.turning_radius;
+  const [left, right] = Array.isArray(radius)
+    ? pair(radius, `${place}.turning_radius`)
+    : [exact(radius, `${place}.turning_radius`), exact(radius, `${place}.turning_radius`)];
+  if (!is_radius(left) || !is_radius(right)) fail(`${place}.turning_radius`, "a length above 0", radius);
+  const gears =
+    of.gears === undefined || of.gears === "both"
+      ? "both"
+      : of.gears === "forward"
+        ? "forward"
+        : fail(`${place}.gears`, '"both" or "forward"', of.gears);
+  return { kind, left, right, x, y, tau, gears };
 }
 
 const RECORD = ["reading", "changed", "dropped"];
@@ -167,5 +219,6 @@ export function read_scene(source: string): SceneText {
     words: joined,
     start: pose(of.start, "start"),
     goal: of.goals === undefined ? pose(of.goal, "goal") : pose(list(of.goals, "goals")[0], "goals[0]"),
+    vehicle: read_vehicle(of.vehicle),
   };
 }

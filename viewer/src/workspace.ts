@@ -1,5 +1,6 @@
 // The left view: robot, obstacles, start and goal as SVG; handles that are dragged, or moved by keys.
 import { type Columns, bytes, doubles, integers } from "./engine";
+import type { Track, Wheels } from "./vehicle";
 import { FINGER, Pointers, type Pinch, type Place } from "./pointers";
 
 export type Who = "robot" | "start" | "goal";
@@ -39,12 +40,16 @@ export function outline(xy: ArrayLike<number>, ring: ArrayLike<number>, first = 
   return d;
 }
 
+const GEARS = { 1: "ahead", 0: "in-place", "-1": "back" } as const;
+// A frame as an SVG transformation.
+export const frame = ({ x, y, theta }: Seen) => `translate(${x} ${y}) rotate(${(theta * 180) / Math.PI})`;
+
 export class Workspace {
   readonly svg: SVGSVGElement;
   readonly pointers: Pointers;
   private readonly world: SVGGElement;
   readonly layers: Record<
-    "floor" | "slice" | "obstacles" | "sweep" | "trace" | "ghosts" | "robot" | "marks" | "edit",
+    "floor" | "slice" | "obstacles" | "sweep" | "trace" | "ghosts" | "robot" | "drive" | "marks" | "edit",
     SVGGElement
   >;
   private readonly bodies: Record<Who, SVGGElement>;
@@ -55,7 +60,7 @@ export class Workspace {
   private whole = this.box;
   on_drag: (drag: Drag) => void = () => {};
   on_cancel = () => {}; // the drag
-  on_look = () => {};
+  readonly on_look: (() => void)[] = [];
   on_click: (at: { x: number; y: number }) => void = () => {};
 
   constructor(host: HTMLElement) {
@@ -80,6 +85,7 @@ export class Workspace {
       trace: layer("trace"),
       ghosts: layer("ghosts"),
       robot: layer("robot-layer"),
+      drive: layer("drive"),
       marks: layer("marks"),
       edit: layer("edit"),
     };
@@ -103,6 +109,7 @@ export class Workspace {
       "aria-label": who,
     });
     made("path", group, { class: "shape" });
+    if (who === "robot") made("g", group, { class: "wheels" });
     made("line", group, { class: "arm" });
     made("circle", group, { class: "point" });
     made("circle", group, { class: "knob" });
@@ -179,6 +186,10 @@ export class Workspace {
   get shown(): { x: number; y: number; w: number; h: number } {
     return this.box;
   }
+  // The robot's radius about its reference point.
+  get reach(): number {
+    return this.radius;
+  }
   get robot(): Seen | undefined {
     return this.at.robot;
   }
@@ -200,7 +211,7 @@ export class Workspace {
       `matrix(${1 / more} 0 0 ${-1 / more} ${-this.box.x / more} ${height + this.box.y / more})`,
     );
     for (const who of Object.keys(this.bodies) as Who[]) this.place(who, this.at[who]);
-    this.on_look();
+    for (const look of this.on_look) look();
   }
 
   place(who: Who, at: Seen | undefined, tone = ""): void {
@@ -212,7 +223,8 @@ export class Workspace {
     const px = this.pixel;
     if (who === "robot")
       this.svg.querySelector("#hatch")!.setAttribute("patternTransform", `rotate(${45 - turn}) scale(${px})`);
-    group.setAttribute("transform", `translate(${at.x} ${at.y}) rotate(${turn})`);
+    group.setAttribute("transform", frame(at));
+    if (who === "robot") this.layers.drive.setAttribute("transform", frame(at));
     if (tone) group.dataset.tone = tone;
     group.setAttribute(
       "aria-label",
@@ -249,7 +261,8 @@ export class Workspace {
     d.forEach((of, k) => made("path", layer, { d: of, class: ["vertex-edge", "edge-vertex", "at-bounds"][k]! }));
   }
 
-  show_path(samples: Float64Array | undefined): void {
+  // Show the robot along a path, and the track of its reference point, or that of a vehicle's axle.
+  show_path(samples: Float64Array | undefined, track?: Track): void {
     this.layers.sweep.replaceChildren();
     this.layers.trace.replaceChildren();
     if (!samples?.length) return;
@@ -267,10 +280,37 @@ export class Workspace {
       last = way;
       made("path", this.layers.sweep, {
         d: this.shape,
-        transform: `translate(${x} ${y}) rotate(${(theta * 180) / Math.PI})`,
+        transform: frame({ x, y, theta }),
       });
     }
-    made("path", this.layers.trace, { d });
+    if (!track) return void made("path", this.layers.trace, { d });
+    const line = (points: number[]) => points.map((c, k) => `${k % 2 ? " " : k ? "L" : "M"}${c}`).join("");
+    for (const gear of [1, -1, 0] as const) {
+      const pieces = track.pieces.filter((piece) => piece.gear === gear).map(({ points }) => line(points));
+      if (pieces.length) made("path", this.layers.trace, { d: pieces.join(""), class: GEARS[gear] });
+    }
+    const dots = track.cusps.map(({ x, y }) => `M${x} ${y}h0`).join(""); // round ends of no length
+    for (const part of ["cusps rim", "cusps"]) made("path", this.layers.trace, { d: dots, class: part });
+  }
+
+  // Draw the wheels of a vehicle on the robot, given its axle in the robot's frame.
+  show_wheels(wheels: Wheels | undefined, axle: Seen): void {
+    const group = this.bodies.robot.querySelector(".wheels")!;
+    group.replaceChildren();
+    if (!wheels) return;
+    const { half_track, wheelbase, length, width } = wheels;
+    group.setAttribute("transform", frame(axle));
+    made("line", group, { x1: 0, y1: -half_track, x2: 0, y2: half_track });
+    for (const x of wheelbase > 0 ? [0, wheelbase] : [0])
+      for (const y of [-half_track, half_track]) {
+        const turned = made("g", group, { class: x > 0 ? "front" : "rear", transform: `translate(${x} ${y})` });
+        made("rect", turned, { x: -length / 2, y: -width / 2, width: length, height: width, rx: width / 4 });
+      }
+  }
+  // Turn the front wheels, in radians.
+  steer(angle: number): void {
+    for (const wheel of this.bodies.robot.querySelectorAll(".front rect"))
+      wheel.setAttribute("transform", `rotate(${(angle * 180) / Math.PI})`);
   }
 
   // Features of a contact: on the robot where it is, and on the obstacle.
@@ -284,9 +324,7 @@ export class Workspace {
       if (x0 === x1 && y0 === y1) made("circle", parent, { cx: x0, cy: y0, r: 5 * this.pixel });
       else made("line", parent, { x1: x0, y1: y0, x2: x1, y2: y1 });
     };
-    const moved = made("g", this.layers.marks, {
-      transform: `translate(${at.x} ${at.y}) rotate(${(at.theta * 180) / Math.PI})`,
-    });
+    const moved = made("g", this.layers.marks, { transform: frame(at) });
     for (let k = 0; 4 * k < robot.length; ++k) {
       mark(this.layers.marks, obstacle, k);
       mark(moved, robot, k);

@@ -50,3 +50,11 @@ test("a link that would be too long is none, and foreign fragments are no states
   const bad = await fragment(state("{}", { start: { ...POSE, x: "<b>" } }));
   assert.equal(await from_fragment(bad, nothing), undefined);
 });
+
+test("a link keeps the vehicle, and how the robot moves; a vehicle that is none makes no state", async () => {
+  const vehicle = { kind: "any", left: "4", right: "4", x: "-1.3", y: "1/9", tau: "0", gears: "both" };
+  const read = async (of) => from_fragment(await fragment(state("{}", { vehicle: of })), nothing);
+  for (const kind of ["any", "car", "differential"])
+    assert.deepEqual((await read({ ...vehicle, kind })).vehicle, { ...vehicle, kind });
+  assert.equal(await read({ ...vehicle, left: "0" }), undefined);
+});

@@ -64,16 +64,44 @@ test("a way is a motion, a proof, or undecided", () => {
   );
   const apart = (closed, owners, names) =>
     way_verdict({ verdict: "apart", obstacles: Int32Array.from(owners), ...numbers({ closed }) }, names, "").text;
-  assert.equal(apart(1, [0, 1, 2], []), "No motion, not even touching: separated by obstacles 0, 1 and 2.");
-  assert.equal(apart(1, [3], []), "No motion, not even touching: separated by obstacle 3.");
+  assert.equal(
+    apart(1, [0, 1, 2], []),
+    "No motion, not even touching: separated by obstacles 0, 1 and 2. Nor can a car, whatever its turning radius.",
+  );
+  assert.match(apart(1, [3], []), /^No motion, not even touching: separated by obstacle 3\. Nor can a car/);
   assert.equal(
     apart(0, [0, -1], NAMES),
-    "No motion with clearance: separated by obstacle 0 (kite) and the bounds; no path that touches was found.",
+    "No motion with clearance: separated by obstacle 0 (kite) and the bounds; no path that touches was found. Nor can a car, whatever its turning radius, with clearance.",
   );
-  assert.match(apart(1, [0, 1, 2, 3, 4, 5], []), /obstacles 0, 1, 2, 3 and 2 more\.$/);
+  assert.match(apart(1, [0, 1, 2, 3, 4, 5], []), /obstacles 0, 1, 2, 3 and 2 more\./);
   assert.equal(way_verdict({ verdict: "open" }, NAMES, "").tone, "plain");
   const start = way_verdict({ verdict: "start forbidden", pair: Int32Array.of(0, 1) }, NAMES, "");
   assert.equal(start.text, "Start: the robot overlaps obstacle 1.");
+});
+
+test("a vehicle drives there, cannot either, or needs many manoeuvres", () => {
+  const car = { kind: "car", gears: "both" };
+  const drive = { kind: "differential", gears: "both" };
+  const said = (verdict, more = {}, vehicle = car) => way_verdict({ verdict, ...more }, NAMES, "m", vehicle).text;
+  const path = { gear: Int32Array.of(1, -1, 1), ...numbers({ motions: 3, cusps: 2, length: 13.06, turning: 1 }) };
+  assert.equal(
+    said("path", path),
+    "A car drives there: 3 motions, 2 changes of direction, length 13.1 m; proved free.",
+  );
+  const one = { gear: Int32Array.of(1), ...numbers({ motions: 1, cusps: 1, length: 1, turning: 1 }) };
+  assert.match(
+    said("path", one, drive),
+    /^A machine that turns in place drives there: 1 motion, 1 change of direction,/,
+  );
+  assert.match(said("path", one, { ...car, gears: "forward" }), /^A car without reverse gear drives there/);
+  const apart = { obstacles: Int32Array.of(1), ...numbers({ closed: 1 }) };
+  assert.match(said("apart", apart), /separated by obstacle 1\. Nor can a car, whatever its turning radius\.$/);
+  assert.match(said("apart", apart, drive), /Nor can a machine that turns in place\.$/);
+  assert.equal(said("manoeuvres", numbers({ manoeuvres: 1908 })), "A way exists; a car needs about 1,908 manoeuvres.");
+  assert.match(said("manoeuvres", numbers({ manoeuvres: 0 })), /needs too many manoeuvres/);
+  assert.match(said("start touches"), /^Start: the robot touches something\. .* for a car; use `cfree plan`\.$/);
+  assert.match(said("goal touches", {}, drive), /^Goal: .* for a machine that turns in place;/);
+  for (const verdict of ["contacts", "narrow", "forward"]) assert.ok(!said(verdict).startsWith("Undecided"), verdict);
 });
 
 test("cells and picked patches are told in words", () => {

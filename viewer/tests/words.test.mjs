@@ -34,7 +34,6 @@ test("angles are numbers, degrees, radians or tangents of half the angle", () =>
   assert.deepEqual(start('{"tau": "2/3"}'), { x: "1", y: "1/3", tau: "2/3" });
   for (const infinite of ["null", '"inf"', '"-inf"']) assert.equal(start(`{"tau": ${infinite}}`).tau, "inf");
   assert.deepEqual(scene('"goal": [1, 2]').goal, { x: "1", y: "2" });
-  assert.deepEqual(scene('"vehicle": {"type": "differential"}'), scene());
   assert.deepEqual(scene('"goals": [[3, 4], [5, 6]]').goal, { x: "3", y: "4" });
 });
 
@@ -64,4 +63,29 @@ test("files are refused that are too large or nested too deep, before they are p
 test("names lose what turns the direction of writing, and are cut", () => {
   assert.equal(plain("a\u202eb\u0000c"), "abc");
   assert.equal(plain("x".repeat(90)), `${"x".repeat(79)}…`);
+});
+
+test("a vehicle is read exactly", () => {
+  const vehicle = (fields) => scene(`"vehicle": {${fields}}`).vehicle;
+  const car = { kind: "car", left: "4.0", right: "4.0", x: "-1.30", y: "1/9", tau: "0", gears: "both" };
+  assert.deepEqual(vehicle('"type": "car", "turning_radius": 4.0, "axle": [-1.30, "1/9"]'), car);
+  const other = '"type": "car", "turning_radius": [4, "9/2"], "heading": "-90deg", "gears": "forward"';
+  assert.deepEqual(vehicle(other), { ...car, left: "4", right: "9/2", x: "0", y: "0", tau: "-1", gears: "forward" });
+  const drive = { kind: "differential", x: "0", y: "0", tau: "20/7", gears: "both" };
+  assert.deepEqual(vehicle('"type": "differential", "heading": {"tau": "20/7"}'), drive);
+  const heading = (angle) => vehicle(`"type": "differential", "heading": ${angle}`).tau;
+  assert.deepEqual(['"450deg"', '"180deg"', '{"tau": null}', "0"].map(heading), ["1", "inf", "inf", "0"]);
+  assert.equal(scene('"vehicle": null').vehicle, undefined);
+});
+
+test("what is no vehicle is refused with its place", () => {
+  const vehicle = (fields, message) => refused(`"vehicle": {${fields}}`, message);
+  vehicle('"type": "boat"', /^vehicle\.type: expected "car" or "differential"/);
+  vehicle('"type": "car"', /^vehicle\.turning_radius: expected a number/);
+  for (const radius of ["0", "-1", '"1/0"', "[1, 0]"])
+    vehicle(`"type": "car", "turning_radius": ${radius}`, /^vehicle\.turning_radius/);
+  vehicle('"type": "differential", "turning_radius": 1', /unknown key "turning_radius"/);
+  vehicle('"type": "differential", "axle": [1]', /^vehicle\.axle: expected two numbers/);
+  vehicle('"type": "differential", "heading": 0.5', /^vehicle\.heading: give a multiple of 90deg/);
+  vehicle('"type": "car", "turning_radius": 1, "gears": "back"', /^vehicle\.gears/);
 });

@@ -338,7 +338,7 @@ class CurvedQuery:
         return answer
 
     def _excluded(self, path: Path) -> Unreachable | None:
-        """Return a proof by boxes among inner polygons, for a car without reverse gear; a path of the robot is given."""
+        """Return a proof by boxes among inner polygons for a car without reverse gear, beside a path of the robot."""
         car = self.options.vehicle
         if not isinstance(car, Car) or car.gears != "forward" or self.options.clearance:
             return None

@@ -448,6 +448,21 @@ def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
     return other
 
 
+def with_vehicle(scene: Scene, vehicle: Vehicle | None) -> Scene:
+    """Return the scene with another vehicle; None is a robot that moves in any direction.
+
+    Examples
+    --------
+    >>> from cfree import Car
+    >>> scene = Scene([(0, 0), (1, 0), (0, 1)])
+    >>> with_vehicle(scene, Car(4)).vehicle
+    Car(4, axle=(0, 0))
+    """
+    other = copy(scene)
+    object.__setattr__(other, "vehicle", vehicle)
+    return other
+
+
 def vehicle_for(scene: Scene, vehicle: Vehicle | Literal["any"] | None) -> Vehicle | None:
     """Return the vehicle of a query: the scene's, unless another is given; "any" is none."""
     return scene.vehicle if vehicle is None else None if vehicle == "any" else vehicle

@@ -11,6 +11,7 @@ from cfree.curves.curved import REFUSED
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
+from cfree.formats.scenes.scene_values import vehicle_record
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene, with_reading
@@ -41,6 +42,8 @@ def page(scene: Scene, answer: Path | Separated | None = None) -> str:
         if finding := other_scene(scene, answer):
             raise ValueError(f"answer: {finding}")
         data |= {"start": words(answer.start), "goal": words(answer.goal)}
+    if isinstance(answer, Path):
+        data["vehicle"] = None if answer.vehicle is None else vehicle_record(answer.vehicle)
     if poses := poses_text(answer):
         data["poses"] = poses
     return _page_of(data)
