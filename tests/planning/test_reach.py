@@ -36,6 +36,7 @@ def test_a_reversing_car_turns_round_in_a_dead_end_where_a_forward_one_cannot() 
     assert isinstance(path, Path) and path.cusps > 0
     proof = unreachable_in(ALLEY)
     assert proof.vehicle == CAR and proof.scene is ALLEY and proof.count > 0
+    assert 0 < proof.margin < 0.5 and proof.pose in (ALLEY.start, ALLEY.goal)
     with pytest.raises(TypeError, match="Unreachable: a proof"):
         bool(proof)
     assert proof.sentence().startswith("no path of a car with turning radii of 3 and 4 and no reverse gear leads")

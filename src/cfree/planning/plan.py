@@ -110,7 +110,8 @@ def plan(
     -------
     Path, Separated, Stuck, Unreachable or AllSeparated
         A path leads to the goal with the shortest path found. `AllSeparated` is for places and lists. `Stuck` is a
-        proof that contacts at one end hold the vehicle.
+        proof that contacts at one end hold the vehicle. `Unreachable` is a proof by boxes of poses that a car without
+        reverse gear has no path.
 
     Raises
     ------

@@ -173,10 +173,6 @@ class Reach:
         pieces = tuple(ring for part in scene.robot for ring in convex_pieces(part, Pose(0, 0)))
         return Unreachable(self.start, self.goal, self.car, at, pieces, grid, bits, *context)
 
-    def margin(self, grid: BoxGrid) -> float:
-        """Return the length by which the robot that the boxes are about is smaller, at most."""
-        return math.sqrt(0.5) * float(grid.side) + self.touching.reach * grid.turn / 2
-
 
 def _size(area: Area) -> float:
     return (area[2] - area[0]) * (area[3] - area[1])

@@ -54,6 +54,10 @@ class BoxGrid:
         """Number of boxes."""
         return self.columns * self.rows * self.slices
 
+    def margin(self, reach: float) -> float:
+        """Return the length by which boxes make a robot smaller, at most; its points are within a reach of the axle."""
+        return math.sqrt(0.5) * float(self.side) + reach * self.turn / 2
+
 
 @checked
 @dataclass(frozen=True, repr=False)
@@ -117,6 +121,12 @@ class Unreachable(Shown, Answer):
     def pose(self) -> Pose:
         """The end that the boxes start from."""
         return self.start if self.at == "start" else self.goal
+
+    @property
+    def margin(self) -> float:
+        """Length by which the boxes make the robot smaller, at most: a box is forbidden if the smaller one overlaps."""
+        axle = self.vehicle.axle
+        return self.grid.margin(max((math.dist(point, axle) for piece in self.pieces for point in piece), default=0.0))
 
     @cached_property
     def count(self) -> int:

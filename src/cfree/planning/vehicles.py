@@ -405,7 +405,7 @@ def _searched(question: Question, way: Sequence[Pose], reach: Reach) -> _core.Dr
         if (drive := driving.search_forward(seed, POSES)) is not None:
             return drive
     assert grid is not None, "there are boxes"
-    margin = reach.margin(grid)
+    margin = grid.margin(reach.touching.reach)
     raise UndecidedError(
         f"no path of {described(question.vehicle)} was found, and none is excluded: boxes with sides of "
         f"{float(grid.side):.3g}, in which a robot smaller by up to {margin:.3g} counts, may lead to the goal; with a "
