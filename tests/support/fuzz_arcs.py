@@ -1,6 +1,7 @@
 """Poses and motions among shapes of segments and arcs, against oracles that share no code with the core.
 
-Fine polygons with a known error decide most poses. A far obstacle at 2**80 leaves doubles without digits, so that exact
+Fine polygons with a known error decide most poses, winding numbers of convolutions those of one simply connected shape
+about another. A far obstacle at 2**80 leaves doubles without digits, so that exact
 numbers alone decide the same poses. Motions are compared with their poses, in steps and around the first contact, and
 with the same motions backwards.
 """
@@ -17,6 +18,7 @@ import shapely
 from shapely import affinity
 
 import cfree
+import convolution
 from cfree import Curved
 from cfree.collision.arcs import arcs_of
 from cfree.collision.motion import Motion, Rotation, Translation
@@ -149,6 +151,23 @@ def truth(robot: list[Any], others: list[Any], pose: Pose) -> bool | None:
     return True
 
 
+def by_winding(scene: cfree.Scene, pose: Pose) -> bool | None:
+    """True or False by winding numbers of convolutions; None for shapes with holes or grown, and near contacts."""
+    free: bool | None = True
+    for a in scene.robot:
+        for b in scene.obstacles:
+            rims = []
+            for shape in (a, b):
+                if isinstance(shape, cfree.Polygon) or shape.holes or shape.grown:
+                    return None
+                (ring,) = shape.curves
+                rims.append(convolution.features(ring))
+            robot = convolution.reflected(rims[0], pose.theta)
+            turns = convolution.winding(rims[1], robot, complex(float(pose.x), float(pose.y)))
+            free = None if turns is None or free is None else free and turns == 0
+    return free
+
+
 def rational_pose(r: random.Random, size: int = 6) -> Pose:
     x, y = point(r, size, r.choice([4, 4, 3, 1000]))
     return Pose(x, y, {"tau": r.choice([0, 0, 1, Fraction(1, 2), Fraction(1, 3), Fraction(r.randint(-99, 99), 20)])})
@@ -180,14 +199,17 @@ def run(seed: int, poses: int, motions: int) -> dict[str, int]:
     near, slow = arcs_of(scene), arcs_of(exactly(scene))
     assert near is not None and slow is not None
     robot, others = [region(s) for s in scene.robot], [region(s) for s in scene.obstacles]
-    counts = {"poses": 0, "undecided by polygons": 0, "motions": 0, "free motions": 0}
+    counts = {"poses": 0, "undecided by polygons": 0, "decided by winding numbers": 0, "motions": 0, "free motions": 0}
     for _ in range(poses):
         pose = rational_pose(r)
         free = near.is_free(pose)
         assert free == slow.is_free(pose), (seed, pose, free)
         known = truth(robot, others, pose)
         assert known in (None, free), (seed, pose, free, known)
+        turns = by_winding(scene, pose)
+        assert turns in (None, free), (seed, pose, free, turns)
         counts["poses"] += 1
+        counts["decided by winding numbers"] += turns is not None
         counts["undecided by polygons"] += known is None
     for _ in range(motions):
         pose, motion = rational_pose(r), motion_of(r)

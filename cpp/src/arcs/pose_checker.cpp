@@ -15,6 +15,8 @@ namespace cfree {
 
 namespace {
 constexpr std::size_t chunk = 256;
+constexpr std::size_t enough_for_grid = 1 << 14;  // poses: making it takes about as long as these
+constexpr double cells_in_reach = 8, most_cells = 1 << 14;
 constexpr double far = 1;  // beyond it nothing is near, as all coordinates of shapes are below a sixteenth
 
 std::atomic<std::size_t> checkers = 0;
@@ -44,9 +46,40 @@ ArcPoseChecker::ArcPoseChecker(std::shared_ptr<const ArcScene> s) : scene(std::m
 }
 ArcPoseChecker::~ArcPoseChecker() = default;
 
-Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, double s) const {
+// States of boxes: each is decided when a second pose falls into it. Two threads may do so, with the same result.
+struct ArcPoseChecker::Grid {
+    enum class State : std::uint8_t { unseen, once, free, forbidden, mixed };
+    double x0, y0, side;
+    std::size_t nx, ny;
+    std::vector<std::atomic<State>> known;
+
+    explicit Grid(const NearScene& scene) {
+        Box all;
+        for (const NearShape& obstacle : scene.obstacles) all.add(cfree::grown(obstacle.around, obstacle.radius));
+        if (scene.obstacles.empty()) all.add(0, 0);
+        all = cfree::grown(all, scene.reach);
+        const double width = all.x1 - all.x0, height = all.y1 - all.y0;
+        side = std::max({scene.reach / cells_in_reach, std::sqrt(width * height / most_cells), width / most_cells, height / most_cells});
+        x0 = all.x0, y0 = all.y0, nx = static_cast<std::size_t>(width / side) + 1, ny = static_cast<std::size_t>(height / side) + 1;
+        known = std::vector<std::atomic<State>>(nx * ny * sectors);
+    }
+    // Box of a pose, or `outside`.
+    std::size_t slot(double x, double y, double theta) const {
+        const double column = (x - x0) / side, row = (y - y0) / side;
+        if (!(0 <= column && column < static_cast<double>(nx) && 0 <= row && row < static_cast<double>(ny))) return outside;
+        const auto sector = std::min(static_cast<std::size_t>(theta * (sectors / two_pi)), sectors - 1);
+        return (static_cast<std::size_t>(row) * nx + static_cast<std::size_t>(column)) * sectors + sector;
+    }
+};
+
+ArcPoseChecker::Grid* ArcPoseChecker::grid(std::size_t poses) const {
+    if (asked.fetch_add(poses, std::memory_order_relaxed) + poses < enough_for_grid) return nullptr;
+    std::call_once(made, [&] { boxes = std::make_unique<Grid>(*near); });
+    return boxes.get();
+}
+
+Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, double s, double slack) const {
     placed.open.clear();
-    x *= near->unit, y *= near->unit;
     if (!(std::abs(x) < far && std::abs(y) < far))
         return std::any_of(near->obstacles.begin(), near->obstacles.end(), [](const NearShape& o) { return o.is_outside; })
                    ? Verdict::forbidden
@@ -58,7 +91,7 @@ Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, do
         const auto move = [&](const Vec<double>& p) { return Vec<double>{x + (c * p.x - s * p.y), y + (s * p.x + c * p.y)}; };
         const Box& box = still.around;
         const Vec<double> middle = move({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)});
-        const double half = 0.5 * norm(box.x1 - box.x0, box.y1 - box.y0) + still.radius + margin;
+        const double half = 0.5 * norm(box.x1 - box.x0, box.y1 - box.y0) + still.radius + slack + margin;
         bool is_placed = false;
         near->near({middle.x - half, middle.y - half, middle.x + half, middle.y + half}, margin, [&](Index number) {
             if (all == Verdict::forbidden) return;
@@ -66,13 +99,13 @@ Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, do
             const NearShape& obstacle = near->obstacles[j];
             const InnerDisc& disc = obstacle.disc;  // seen from the robot: then its curves need not be placed
             const Vec<double> d{disc.center.x - x, disc.center.y - y};
-            Verdict v = by_disc({{c * d.x + s * d.y, c * d.y - s * d.x}, disc.radius, disc.is_all}, still, 0);
+            Verdict v = by_disc({{c * d.x + s * d.y, c * d.y - s * d.x}, disc.radius, disc.is_all}, still, slack);
             if (v == Verdict::uncertain && !disc.is_all) {
-                v = by_disc({move(still.disc.center), still.disc.radius, still.disc.is_all}, obstacle, 0);
+                v = by_disc({move(still.disc.center), still.disc.radius, still.disc.is_all}, obstacle, slack);
                 if (v == Verdict::uncertain && !still.disc.is_all) {
                     if (!is_placed) near->place(i, x, y, c, s, placed.part[i]);
                     is_placed = true;
-                    v = verdict_by_curves(placed.part[i], obstacle, still.radius + obstacle.radius, 0);
+                    v = verdict_by_curves(placed.part[i], obstacle, still.radius + obstacle.radius, slack);
                 }
             }
             if (v == Verdict::free) return;
@@ -104,17 +137,40 @@ bool ArcPoseChecker::decide(const Placed& placed, const ExactPlacement& at) cons
 }
 
 void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
+    Grid* cells = grid(count);
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0;
     const auto chunks = static_cast<int>(std::min<std::size_t>((count + chunk - 1) / chunk, 1 << 20));
     in_parallel(std::min(threads, chunks), stop, [&] {
         Placed placed;
+        const auto decided = [&](double x, double y, double theta, double slack) {
+            const auto [c, s] = cosine_sine(theta);
+            return verdict(placed, x, y, c, s, slack);
+        };
+        const auto boxed = [&](double x, double y, double theta) {
+            using State = Grid::State;
+            const std::size_t slot = cells ? cells->slot(x, y, theta) : outside;
+            if (slot == outside) return decided(x, y, theta, 0);
+            std::atomic<State>& known = cells->known[slot];
+            State state = known.load(std::memory_order_relaxed);
+            if (state == State::unseen) known.store(State::once, std::memory_order_relaxed);
+            if (state == State::once) {
+                const std::size_t cell = slot / sectors;
+                const double column = static_cast<double>(cell % cells->nx) + 0.5, row = static_cast<double>(cell / cells->nx) + 0.5;
+                const double middle = (static_cast<double>(slot % sectors) + 0.5) * (two_pi / sectors);
+                // half a diagonal, and half a sector
+                const double slack = (0.7072 * cells->side + near->reach * two_pi / sectors / 2) * (1 + 0x1p-20);
+                const Verdict all = decided(cells->x0 + column * cells->side, cells->y0 + row * cells->side, middle, slack);
+                state = all == Verdict::free ? State::free : all == Verdict::forbidden ? State::forbidden : State::mixed;
+                known.store(state, std::memory_order_relaxed);
+            }
+            return state == State::free ? Verdict::free : state == State::forbidden ? Verdict::forbidden : decided(x, y, theta, 0);
+        };
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
             heed_stop();
             for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k) {
                 const double* q = poses + 3 * k;
-                const auto [c, s] = cosine_sine(q[2]);
-                out[k] = is_within(q[0], q[1]) ? verdict(placed, q[0], q[1], c, s) : Verdict::forbidden;
+                out[k] = is_within(q[0], q[1]) ? boxed(q[0] * near->unit, q[1] * near->unit, q[2]) : Verdict::forbidden;
             }
         }
     });
@@ -133,7 +189,7 @@ bool ArcPoseChecker::is_free(const GivenPose& pose) const {
     }
     Placed& placed = own();
     const auto [c, s] = cosine_sine(pose.theta);
-    const Verdict v = verdict(placed, rounded(pose.x), rounded(pose.y), c, s);
+    const Verdict v = verdict(placed, rounded(pose.x) * near->unit, rounded(pose.y) * near->unit, c, s, 0);
     return v == Verdict::uncertain ? decide(placed, pose.exact()) : v == Verdict::free;
 }
 

@@ -1,6 +1,9 @@
 // Test that poses are free among shapes of segments and arcs: in doubles with a bound, else exactly; theory, "Exact arcs".
 #pragma once
+#include <array>
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "cfree/arcs/shape.hpp"
@@ -37,11 +40,18 @@ private:
     struct Placed;
     Placed& own() const;  // this thread's
     bool is_within(double x, double y) const { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; }
-    Verdict verdict(Placed& placed, double x, double y, double c, double s) const;
+    // Of all poses in which no point moves by more than the slack; doubles are those of `near`.
+    Verdict verdict(Placed& placed, double x, double y, double c, double s, double slack) const;
+    // Verdicts of boxes of poses, for many poses.
+    struct Grid;
+    Grid* grid(std::size_t poses) const;
     bool decide(const Placed& placed, const ExactPlacement& at) const;
     const std::unique_ptr<const NearScene> near;
     const std::size_t number;
     std::array<double, 4> limits;  // the bounds, rounded inwards
+    mutable std::once_flag made;
+    mutable std::unique_ptr<Grid> boxes;
+    mutable std::atomic<std::size_t> asked{0};
 };
 
 }  // namespace cfree
