@@ -116,12 +116,12 @@ def test_paths_have_few_ghosts_and_slices_say_where_the_reference_point_may_be(v
 def test_paths_of_vehicles_have_the_colours_of_their_gears_and_dots_where_these_change() -> None:
     scene = cfree.Scene(ROBOT)
     moves = [cfree.Translation((5, 0)), cfree.Translation((-2, 0))]
-    for vehicle, colours, dots in ((cfree.Car(2), (AHEAD, BACK), 1), (None, (PATH,), 0)):
+    for vehicle, colours, dots in ((cfree.Car(2), (AHEAD, BACK), 1), (None, (PATH,), 2)):
         path = cfree.Path(cfree.Pose(0, 0), moves, vehicle=vehicle, scene=scene)
         svg = str(path._repr_svg_())
         assert drawn(svg)
         assert {colour for colour in (AHEAD, BACK, PATH) if f'stroke="{colour}"' in svg} == {*colours}
-        assert svg.count("<circle") == 2 + dots  # those of start and goal
+        assert svg.count("<circle") == dots  # without a vehicle those of start and goal
 
 
 def test_names_beside_one_robot_do_not_touch() -> None:

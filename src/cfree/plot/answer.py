@@ -119,8 +119,9 @@ def picture(
     ----------
     answer : Path, Separated, Stuck, Unreachable, AllSeparated, UndecidedError, Scene or Shapes
         The first of several proofs is drawn. The contacts of a vehicle that is stuck are marked, and all poses that it
-        reaches. Of an `UndecidedError` its path is drawn, which proves that a vehicle has one. A scene is drawn as by
-        `plot_workspace`, round shapes with many edges.
+        reaches; of one without reverse gear, the scene with its start and goal. Of an `UndecidedError` its path is
+        drawn, which proves that a vehicle has one. A scene is drawn as by `plot_workspace`, round shapes with many
+        edges.
         Over a scene or shapes the record of reading is drawn: lost lines red, guessed outlines hatched in orange,
         joined gaps as dots.
     scene : Scene, optional

@@ -150,7 +150,8 @@ def _workspace(
     panel.shapes(aside, ROBOT)
     for rings, pose, name in reversed(placed):
         panel.shapes(rings, ROBOT if name == "start" else END)
-        panel.dot(pose.apply(np.zeros((1, 2))), 3, POINT)
+        if gears is None:
+            panel.dot(pose.apply(np.zeros((1, 2))), 3, POINT)
     for place in places:
         panel.dot(place, 6, END)
     panel.avoid(_rings(scene.obstacles), WALL)
