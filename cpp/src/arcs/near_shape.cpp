@@ -1,3 +1,4 @@
+// Shapes of segments and arcs in doubles, with a margin for all rounding; theory, "Segments and arcs".
 #include "arcs/near_shape.hpp"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "cfree/arcs/motion_checker.hpp"
 #include "collision/rounding.hpp"
 #include "collision/shape_boxes.hpp"
 
@@ -380,7 +379,7 @@ private:
     double horizon = 1;          // nothing after it matters
 };
 
-MotionChecker::MotionChecker(std::shared_ptr<const Scene> s, std::shared_ptr<const ArcMotionChecker> true_shapes)
+MotionChecker::MotionChecker(std::shared_ptr<const Scene> s, std::shared_ptr<const MotionTest> true_shapes)
     : scene(std::move(s)), boxes(piece_boxes(scene->obstacles)), tree(std::make_unique<BoxTree>(boxes)), round(std::move(true_shapes)) {
     const Shape& o = scene->obstacles;
     std::array<bool, 2> has_frame{false, true};

@@ -221,7 +221,7 @@ class Curved(Shown):
         if self.grown and self.is_polygon:
             return _grown(self._base(), self.grown, error, inside)
         if self.grown:
-            bases = self.grown_by(-self.grown)._polygons(error / 2, inside=inside)
+            bases = self._grown_by(-self.grown)._polygons(error / 2, inside=inside)
             return tuple(part for base in bases for part in _grown(base, self.grown, error / 2, inside))
         frame = self._frame
         curves = tuple(tuple(frame.local(curve)) for curve in self.curves)
@@ -249,7 +249,7 @@ class Curved(Shown):
         rings = (self.path, *self.holes)
         return all(isinstance(ring, tuple) and all(isinstance(p, tuple) for p in ring) for ring in rings)
 
-    def grown_by(self, by: Fraction) -> Curved:
+    def _grown_by(self, by: Fraction) -> Curved:
         """Return the shape grown further, whatever its curves; files and `Curved` itself take grown polygons only."""
         other = copy(self)
         object.__setattr__(other, "grown", self.grown + by)

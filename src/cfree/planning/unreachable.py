@@ -54,6 +54,7 @@ class BoxGrid:
         """Number of boxes."""
         return self.columns * self.rows * self.slices
 
+    @checked
     def margin(self, reach: float) -> float:
         """Return the length by which boxes make a robot smaller, at most; its points are within a reach of the axle."""
         return math.sqrt(0.5) * float(self.side) + reach * self.turn / 2

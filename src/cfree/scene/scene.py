@@ -298,7 +298,7 @@ class Scene(Shown, Keeping):
 def grown_scene(scene: Scene, by: Fraction) -> Scene:
     """Return the scene with its robot grown by a disc, whatever its curves; for planners."""
     other = copy(scene)
-    robot = [part.grown_by(by) if isinstance(part, Curved) else _grown(part, by) for part in scene.robot]
+    robot = [part._grown_by(by) if isinstance(part, Curved) else _grown(part, by) for part in scene.robot]
     object.__setattr__(other, "robot", tuple(robot))
     object.__setattr__(other, "curved", True)
     return other

@@ -18,14 +18,14 @@ struct ArcCollision {
     Index part, obstacle;
 };
 
-class ArcMotionChecker {
+class ArcMotionChecker final : public MotionTest {
 public:
     // Motions are in integers of which `scale` are a unit.
     explicit ArcMotionChecker(std::shared_ptr<const ArcScene> scene, Int scale = 1);
-    ~ArcMotionChecker();
+    ~ArcMotionChecker() override;
     ArcMotionChecker(const ArcMotionChecker&) = delete;
     ArcMotionChecker& operator=(const ArcMotionChecker&) = delete;
-    bool is_free(const Motion& motion) const;
+    bool is_free(const Motion& motion) const override;
     std::optional<ArcCollision> first_collision(const Motion& motion) const;
     // Bounds of the least distance along a free motion, at most `most` apart unless that takes too long. In the user's units.
     DistanceBounds clearance(const Motion& motion, double width) const;

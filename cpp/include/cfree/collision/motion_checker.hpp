@@ -18,7 +18,6 @@ namespace cfree {
 
 struct Box;
 class BoxTree;
-class ArcMotionChecker;
 
 // Motion from a pose along a vector, or about a pole by at most half a turn. Lengths are in the scene's integer units, over
 // `unit`.
@@ -44,14 +43,21 @@ struct Collision {
     Index robot = -1, obstacle = -1;
 };
 
-class MotionChecker {
+// A test that translations and rotations are free.
+class MotionTest {
+public:
+    virtual ~MotionTest() = default;
+    virtual bool is_free(const Motion& motion) const = 0;
+};
+
+class MotionChecker final : public MotionTest {
 public:
     // With round shapes, in units, instead of which the scene has polygons, they decide if translations and rotations are free.
-    explicit MotionChecker(std::shared_ptr<const Scene> scene, std::shared_ptr<const ArcMotionChecker> round = {});
-    ~MotionChecker();
+    explicit MotionChecker(std::shared_ptr<const Scene> scene, std::shared_ptr<const MotionTest> round = {});
+    ~MotionChecker() override;
     MotionChecker(const MotionChecker&) = delete;
     MotionChecker& operator=(const MotionChecker&) = delete;
-    bool is_free(const Motion& motion) const;
+    bool is_free(const Motion& motion) const override;
     bool is_free(const Slide& slide) const;
     // True if it begins beyond the frames around the bounds and the workspace, where nothing is in the way.
     bool begins_outside(const Motion& motion) const;
@@ -71,7 +77,7 @@ private:
     std::array<std::optional<Rim>, 2> rims;  // one per layer, of the frames
     const std::vector<Box> boxes;
     const std::unique_ptr<BoxTree> tree;  // tree of the obstacles' pieces
-    const std::shared_ptr<const ArcMotionChecker> round;
+    const std::shared_ptr<const MotionTest> round;
 };
 
 }  // namespace cfree
