@@ -283,7 +283,8 @@ class CurvedQuery:
             except ForbiddenPoseError as error:
                 raise _for_both(error, refused) from None
             within = inner if isinstance(inner, Path) and (true or refused is None) else None
-            if within is not None and len(ends) == 2 and (proof := self._excluded(within)) is not None:
+            is_one = is_among_poses and len(ends) == 2
+            if within is not None and is_one and (proof := self._excluded(within)) is not None:
                 return self._for_curves(proof)
             lo, hi = self._interval
             if self._is_limited and 0 < hi - lo <= NARROW * lo:

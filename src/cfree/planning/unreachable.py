@@ -54,11 +54,6 @@ class BoxGrid:
         """Number of boxes."""
         return self.columns * self.rows * self.slices
 
-    @checked
-    def margin(self, reach: float) -> float:
-        """Return the length by which boxes make a robot smaller, at most; its points are within a reach of the axle."""
-        return math.sqrt(0.5) * float(self.side) + reach * self.turn / 2
-
 
 @checked
 @dataclass(frozen=True, repr=False)
@@ -127,7 +122,9 @@ class Unreachable(Shown, Answer):
     def margin(self) -> float:
         """Length by which the boxes make the robot smaller, at most: a box is forbidden if the smaller one overlaps."""
         axle = self.vehicle.axle
-        return self.grid.margin(max((math.dist(point, axle) for piece in self.pieces for point in piece), default=0.0))
+        return margin_of(
+            self.grid, max((math.dist(point, axle) for piece in self.pieces for point in piece), default=0.0)
+        )
 
     @cached_property
     def count(self) -> int:
@@ -151,3 +148,8 @@ class Unreachable(Shown, Answer):
     def sentence(self) -> str:
         """Write the proof in a sentence."""
         return f"no path of {described(self.vehicle)} leads from the start to the goal"
+
+
+def margin_of(grid: BoxGrid, reach: float) -> float:
+    """Return the length by which boxes make a robot smaller, at most; its points are within a reach of the axle."""
+    return math.sqrt(0.5) * float(grid.side) + reach * grid.turn / 2

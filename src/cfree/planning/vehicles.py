@@ -38,7 +38,7 @@ from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rails import Explored, Way, explore, reversed_way
 from cfree.planning.reach import Reach
 from cfree.planning.stuck import Stuck
-from cfree.planning.unreachable import Unreachable
+from cfree.planning.unreachable import Unreachable, margin_of
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene
 from cfree.vehicles.vehicle import Car, Vehicle, described
@@ -405,7 +405,7 @@ def _searched(question: Question, way: Sequence[Pose], reach: Reach) -> _core.Dr
         if (drive := driving.search_forward(seed, POSES)) is not None:
             return drive
     assert grid is not None, "there are boxes"
-    margin = grid.margin(reach.touching.reach)
+    margin = margin_of(grid, reach.touching.reach)
     raise UndecidedError(
         f"no path of {described(question.vehicle)} was found, and none is excluded: boxes with sides of "
         f"{float(grid.side):.3g}, in which a robot smaller by up to {margin:.3g} counts, may lead to the goal; with a "
