@@ -1731,6 +1731,7 @@ class Unreached(Answer):
             self.bits = stream.decompress(packed, (count + 7) // 8 + 1)
         except (binascii.Error, zlib.error, TypeError, ValueError):
             raise BadFileError("boxes: expected base64 of zlib") from None
+        refute_if(self.step > 3 * min(self.vehicle.radii), "grid.step: longer than three times the turning radius")
         is_whole = len(self.bits) == (count + 7) // 8 and stream.eof
         refuse_if(not is_whole, "boxes: expected a bit for each box of the grid")
 

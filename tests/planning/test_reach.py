@@ -113,6 +113,7 @@ def test_changed_proofs_by_boxes_are_refuted(tmp_path: Any) -> None:
         replace(proof, vehicle=Car(1, gears="forward")),
         replace(proof, grid=replace(grid, side=grid.side * half)),
         replace(proof, grid=replace(grid, step=grid.step * 2)),
+        replace(proof, grid=replace(grid, step=Fraction(10))),
         replace(proof, grid=replace(grid, corner=(grid.corner[0] + 1, grid.corner[1]))),
         replace(proof, pieces=(tuple((2 * x, 2 * y) for x, y in proof.pieces[0]),)),
         replace(proof, pieces=(proof.pieces[0][::-1],)),

@@ -103,6 +103,9 @@ def box_findings(proof: Unreachable, world: World, report: Callable[[float], obj
     if min(sizes) <= 0 or grid.slices < 8 or grid.count > MOST_BOXES:
         yield Finding(REACH, "grid", f"it needs positive sizes, 8 slices, and at most {MOST_BOXES:,} boxes")
         return
+    if grid.step > 3 * min(proof.vehicle.radii):  # less than half a turn: no step leads back
+        yield Finding(REACH, "grid", "its step is longer than three times the turning radius")
+        return
     if proof.vehicle.gears != "forward":
         yield Finding(REACH, "vehicle", "it has a reverse gear")
         return
