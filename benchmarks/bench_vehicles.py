@@ -6,7 +6,7 @@ the least width (`vehicle_scenes.py`). Every path is driven by its controls alon
 
 Times are the process's; only the second in which a path is improved is the clock's. In the environment RUNS=3 is the
 number of OMPL's runs, CAP=10 the seconds of each, BEST=10 the time for its simplified paths. FAMILIES="real maze aisle"
-takes only these, AISLES=5 fewer aisles.
+takes only these, AISLES=5 fewer aisles, ROOMS=10 fewer rooms for cars without reverse gear (`forward_rooms.py`).
 """
 
 from __future__ import annotations
@@ -17,10 +17,12 @@ import random
 import statistics
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from forward_rooms import CAR, forward_rooms
 from integrate import driven
 from measure import Report
 from ompl_vehicles import STEP, Run, runs
@@ -34,6 +36,7 @@ from cfree.planning.vehicles import numbers_of_vehicle
 
 RUNS, CAP, BEST = (float(os.environ.get(name, value)) for name, value in (("RUNS", 3), ("CAP", 10), ("BEST", 10)))
 ROUNDS, SEED = 3, 7
+ROOMS, ROOM_CAP = int(os.environ.get("ROOMS", 100)), 3  # for cars without reverse gear; OMPL's seconds in each
 IMPROVE = 1.0  # seconds
 PAIRS, CALLS = 50, 2000  # of words that are timed, and calls of each
 CUSPS = {"parking1": (4, 3), "parking2": (3, 1), "parking3": (2, 1), "warehouse1": (2, 1), "warehouse2": (5, 3)}
@@ -116,7 +119,7 @@ def run(quick: bool) -> list[Report]:
         report.rows.append(rows[-1].cells)
         print(*report.rows[-1], file=sys.stderr, flush=True)
     figures(report, rows)
-    return [report, words()]
+    return [report, forward_only(3 if quick else ROOMS), words()]
 
 
 def compare(question: Question) -> Row:
@@ -193,6 +196,35 @@ def figures(report: Report, rows: Sequence[Row]) -> None:
             report.figure(f"cars, cusps after {IMPROVE:g} s", row.name, row.cusps, "<=", balanced)
             report.figure(f"cars, cusps after {IMPROVE:g} s, not balanced", row.name, row.short_cusps, "<=", short)
             report.figure("cars, least distance, in what is to be kept", row.name, row.kept, ">=", 1)
+
+
+def forward_only(count: int) -> Report:
+    """Cars without reverse gear in random rooms: a path, a proof that there is none, or neither."""
+    tally, seconds, right, found = Counter[str](), dict[str, list[float]](), list[bool](), list[Run]()
+    for scene in forward_rooms(count, SEED):
+        start = time.process_time()
+        answer = _asked(lambda scene=scene: cfree.plan(scene, vehicle=CAR, improve=0))  # type: ignore[misc]
+        name = "open" if isinstance(answer, cfree.UndecidedError) else type(answer).__name__
+        seconds.setdefault(name, []).append(time.process_time() - start)
+        tally[name] += 1
+        if isinstance(answer, cfree.Path):
+            right.append(driven(answer, scene).is_right)
+        found += runs(scene, CAR, [f"first {SEED} {ROOM_CAP}"]) or []
+        print("room", sum(tally.values()), name, file=sys.stderr, flush=True)
+    report = Report("Cars without reverse gear in random rooms", ("answer", "rooms", "median s", "most s"))
+    for name, number in tally.most_common():
+        times = seconds[name]
+        report.rows.append((name, str(number), _number(statistics.median(times)), _number(max(times))))
+    if found:
+        solved, clipped = _counts(found)
+        report.notes.append(
+            f"OMPL's RRT in a DubinsStateSpace finds {solved} in {ROOM_CAP} s each; {clipped} of them clip"
+        )
+    decided = 1 - tally["open"] / count
+    report.figure("cars without reverse gear, found or proved impossible", f"{count} rooms", decided, ">=", 0.7)
+    if right:
+        report.figure("cars without reverse gear, paths that are right", f"{len(right)}", _mean(right), ">=", 1)
+    return report
 
 
 def words() -> Report:
