@@ -11,7 +11,7 @@ import pytest
 import shapely
 
 from arc_shapes import BAY, CAP, CAR, CONVEX, DISC, PLATE, SHAPES, STADIUM, TRIANGLE, Shape, dense, placed, touching
-from cfree import Curved, Polygon, Pose, Rotation
+from cfree import Curved, Polygon, Pose, Rotation, Scene, is_free
 from cfree.contact import (
     ArcArc,
     ArcArcSurface,
@@ -79,6 +79,24 @@ def test_convex_shapes_touch_without_overlap_at_all_poses_of_all_patches(robot: 
         assert here.distance(o) < 2e-5 and here.intersection(o).area < 2e-5
         pose[:2] += STEP * u
         assert placed(a, pose).distance(o) > 0.8 * STEP
+
+
+@pytest.mark.parametrize(("robot", "obstacle"), [*product(("disc", "stadium", "car"), ("disc", "stadium", "car"))])
+def test_exact_poses_of_patches_are_free_and_forbidden_a_little_further_in(robot: str, obstacle: str) -> None:
+    """Decided by the core's exact arcs, which know nothing about contact surfaces."""
+    A, O = SHAPES[robot], SHAPES[obstacle]
+    scene, tiny = Scene(A, [O]), Fraction(1, 2**70)
+    random = np.random.default_rng(9)
+    for contact in arc_contacts(A, O):
+        S = arc_surface(A, O, contact)
+        if not isinstance(S, ArcArcSurface):
+            continue
+        psi = S.obstacle.first + random.uniform(0.05, 0.95) * S.obstacle.width
+        phi = psi + math.pi - (S.robot.first + random.uniform(0.05, 0.95) * S.robot.width)
+        pose = S.pose(psi, phi)
+        ((u, v),) = Pose(0, 0, psi).apply_exact([(tiny, 0)])
+        assert is_free(scene, pose) is True
+        assert is_free(scene, Pose(pose.x - u, pose.y - v) @ Pose(0, 0, {"tau": pose.tau})) is False
 
 
 @pytest.mark.slow
