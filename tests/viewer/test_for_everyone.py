@@ -156,8 +156,8 @@ def test_shapes_are_changed_and_drawn(tried: Tried) -> None:
 
 def test_lessons_are_walked_through(tried: Tried) -> None:
     press(tried, "#learn", "Enter")
-    for step in range(1, 8):
-        tried.say("#lesson-step", f"{step} of 7")
+    for step in range(1, 9):
+        tried.say("#lesson-step", f"{step} of 8")
         assert len(tried.page.locator("#lessons article:visible").inner_text()) > 100
         press(tried, "#lesson-next", "Enter")
     tried.page.locator("#lessons").wait_for(state="hidden")
