@@ -21,6 +21,7 @@ from cfree.curves import Arc, Circle
 from cfree.exact.number import ExactPoint
 from cfree.planning.core_ways import end_of, from_numbers
 from cfree.planning.pose_planner import PosePlanner
+from cfree.scene.scene import box_of
 
 TINY = Fraction(1, 10**60)
 FLOOR = [(-9, -1), (9, -1), (9, 0), (-9, 0)]
@@ -301,6 +302,40 @@ def test_poses_and_motions_agree_with_the_oracles(seed: int) -> None:
 def test_many_poses_and_motions_agree_with_the_oracles() -> None:
     for seed in range(1000, 1100):
         fuzz_arcs.run(seed, 20, 4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(6))
+def test_many_poses_are_decided_by_boxes_as_one_by_one(seed: int) -> None:
+    """The second scene has no digits for doubles, so that each of its poses is decided exactly."""
+    rng = random.Random(seed)
+    robot = [moved_near(kind(rng)) for kind in rng.sample(fuzz_arcs.KINDS, 2)]
+    room = Curved.circle((0, 0), 9) if seed % 2 else None
+    scene = Scene(robot, [rng.choice(fuzz_arcs.KINDS)(rng) for _ in range(8)], workspace=room, bounds=(-8, -8, 8, 8))
+    slow = Scene(
+        robot, [*scene.obstacles, [(2**80, 0), (2**80 + 1, 0), (2**80, 1)]], workspace=room, bounds=scene.bounds
+    )
+    random_ = np.random.default_rng(seed)
+    rows = np.column_stack([random_.uniform(-9, 9, (60_000, 2)), random_.uniform(0, 2 * math.pi, 60_000)])
+    near = cfree.is_free(scene, rows)
+    assert (near == cfree.is_free(scene, rows)).all()
+    few = rng.sample(range(len(rows)), 1500)
+    assert (near[few] == cfree.is_free(slow, rows[few])).all()
+    assert [cfree.is_free(scene, tuple(row)) for row in rows[few[:200]].tolist()] == near[few[:200]].tolist()
+
+
+def moved_near(shape: Any) -> Any:
+    """A shape about the origin, so that the robot turns about itself."""
+    x, y = (round(float(low + high) / 2) for low, high in zip(box_of(shape)[:2], box_of(shape)[2:], strict=True))
+    if isinstance(shape, cfree.Polygon):
+        return cfree.Polygon([(a - x, b - y) for a, b in shape.exact_vertices])
+    if isinstance(shape.path, Circle):
+        return Curved.circle((shape.path.center[0] - x, shape.path.center[1] - y), shape.path.radius)
+    if shape.holes:
+        return shape
+    if shape.grown:
+        return Curved([(a - x, b - y) for a, b in shape.path], grown=shape.grown)
+    return fuzz_arcs.moved(list(shape.path), -x, -y)
 
 
 # --- searches on the true shapes, with polygons around them as a guide ---

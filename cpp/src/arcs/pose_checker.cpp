@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "arcs/near_shape.hpp"
 #include "arcs/overlap.hpp"
@@ -46,12 +47,15 @@ ArcPoseChecker::ArcPoseChecker(std::shared_ptr<const ArcScene> s) : scene(std::m
 }
 ArcPoseChecker::~ArcPoseChecker() = default;
 
-// States of boxes: each is decided when a second pose falls into it. Two threads may do so, with the same result.
+// Boxes of poses: cells of positions times sectors of a turn. A cell has the numbers of the obstacles within the robot's reach;
+// or it is forbidden all around. A box is decided when a second pose falls into it; two threads may do so, with one result.
 struct ArcPoseChecker::Grid {
     enum class State : std::uint8_t { unseen, once, free, forbidden, mixed };
     double x0, y0, side;
     std::size_t nx, ny;
     std::vector<std::atomic<State>> known;
+    std::vector<Index> start, member;
+    std::vector<char> is_blocked;
 
     explicit Grid(const NearScene& scene) {
         Box all;
@@ -62,6 +66,39 @@ struct ArcPoseChecker::Grid {
         side = std::max({scene.reach / cells_in_reach, std::sqrt(width * height / most_cells), width / most_cells, height / most_cells});
         x0 = all.x0, y0 = all.y0, nx = static_cast<std::size_t>(width / side) + 1, ny = static_cast<std::size_t>(height / side) + 1;
         known = std::vector<std::atomic<State>>(nx * ny * sectors);
+        fill(scene);
+    }
+    double around() const { return 0.7072 * side * (1 + 0x1p-20) + margin; }  // radius of a disc around a cell
+    Vec<double> middle(std::size_t cell) const {
+        return {x0 + (static_cast<double>(cell % nx) + 0.5) * side, y0 + (static_cast<double>(cell / nx) + 0.5) * side};
+    }
+    void fill(const NearScene& scene) {
+        double core = 0;  // radius of a disc in the robot, around its reference point
+        for (const NearShape& part : scene.robot) core = std::max(core, part.disc.radius - norm(part.disc.center.x, part.disc.center.y));
+        is_blocked.assign(nx * ny, false);
+        std::vector<std::pair<std::size_t, Index>> found;
+        const auto index = [&](double offset, std::size_t count) {
+            return static_cast<std::size_t>(std::clamp(offset / side, 0.0, static_cast<double>(count - 1)));
+        };
+        for (std::size_t j = 0; j < scene.obstacles.size(); ++j) {
+            const NearShape& o = scene.obstacles[j];
+            const Box box = o.is_outside ? Box{x0, y0, x0 + static_cast<double>(nx) * side, y0 + static_cast<double>(ny) * side}
+                                         : cfree::grown(o.around, o.radius + scene.reach + around());
+            for (std::size_t row = index(box.y0 - y0, ny); row <= index(box.y1 - y0, ny); ++row)
+                for (std::size_t column = index(box.x0 - x0, nx); column <= index(box.x1 - x0, nx); ++column) {
+                    const std::size_t cell = row * nx + column;
+                    const double apart = o.distance(middle(cell)) - o.radius;
+                    if (apart + around() + margin < core) is_blocked[cell] = true;
+                    if (apart < scene.reach + around() + margin) found.emplace_back(cell, static_cast<Index>(j));
+                }
+        }
+        std::sort(found.begin(), found.end());
+        start.assign(nx * ny + 1, 0);
+        for (const auto& [cell, j] : found) ++start[cell + 1], member.push_back(j);
+        std::partial_sum(start.begin(), start.end(), start.begin());
+    }
+    std::span<const Index> near(std::size_t cell) const {
+        return {member.data() + start[cell], static_cast<std::size_t>(start[cell + 1] - start[cell])};
     }
     // Box of a pose, or `outside`.
     std::size_t slot(double x, double y, double theta) const {
@@ -78,7 +115,7 @@ ArcPoseChecker::Grid* ArcPoseChecker::grid(std::size_t poses) const {
     return boxes.get();
 }
 
-Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, double s, double slack) const {
+Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, double s, double slack, std::optional<Numbers> among) const {
     placed.open.clear();
     if (!(std::abs(x) < far && std::abs(y) < far))
         return std::any_of(near->obstacles.begin(), near->obstacles.end(), [](const NearShape& o) { return o.is_outside; })
@@ -93,9 +130,9 @@ Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, do
         const Vec<double> middle = move({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)});
         const double half = 0.5 * norm(box.x1 - box.x0, box.y1 - box.y0) + still.radius + slack + margin;
         bool is_placed = false;
-        near->near({middle.x - half, middle.y - half, middle.x + half, middle.y + half}, margin, [&](Index number) {
+        const auto look = [&](Index k) {
             if (all == Verdict::forbidden) return;
-            const auto j = static_cast<std::size_t>(number);
+            const auto j = static_cast<std::size_t>(k);
             const NearShape& obstacle = near->obstacles[j];
             const InnerDisc& disc = obstacle.disc;  // seen from the robot: then its curves need not be placed
             const Vec<double> d{disc.center.x - x, disc.center.y - y};
@@ -111,7 +148,14 @@ Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, do
             if (v == Verdict::free) return;
             if (v == Verdict::uncertain) placed.open.emplace_back(i, j);
             all = v;
-        });
+        };
+        const Box reached{middle.x - half, middle.y - half, middle.x + half, middle.y + half};
+        if (!among) near->near(reached, margin, look);
+        else
+            for (const Index k : *among) {
+                const NearShape& obstacle = near->obstacles[static_cast<std::size_t>(k)];
+                if (obstacle.is_outside || cfree::grown(obstacle.around, obstacle.radius).meets(reached)) look(k);
+            }
         if (all == Verdict::forbidden) return all;
     }
     return placed.open.empty() ? all : Verdict::uncertain;
@@ -143,28 +187,30 @@ void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, 
     const auto chunks = static_cast<int>(std::min<std::size_t>((count + chunk - 1) / chunk, 1 << 20));
     in_parallel(std::min(threads, chunks), stop, [&] {
         Placed placed;
-        const auto decided = [&](double x, double y, double theta, double slack) {
+        const auto decided = [&](double x, double y, double theta, double slack, std::optional<Numbers> among) {
             const auto [c, s] = cosine_sine(theta);
-            return verdict(placed, x, y, c, s, slack);
+            return verdict(placed, x, y, c, s, slack, among);
         };
         const auto boxed = [&](double x, double y, double theta) {
             using State = Grid::State;
             const std::size_t slot = cells ? cells->slot(x, y, theta) : outside;
-            if (slot == outside) return decided(x, y, theta, 0);
+            if (slot == outside) return decided(x, y, theta, 0, {});
+            const std::size_t cell = slot / sectors;
+            if (cells->is_blocked[cell]) return Verdict::forbidden;
+            const Numbers among = cells->near(cell);
+            if (among.empty()) return Verdict::free;
             std::atomic<State>& known = cells->known[slot];
             State state = known.load(std::memory_order_relaxed);
             if (state == State::unseen) known.store(State::once, std::memory_order_relaxed);
             if (state == State::once) {
-                const std::size_t cell = slot / sectors;
-                const double column = static_cast<double>(cell % cells->nx) + 0.5, row = static_cast<double>(cell / cells->nx) + 0.5;
+                const Vec<double> place = cells->middle(cell);
                 const double middle = (static_cast<double>(slot % sectors) + 0.5) * (two_pi / sectors);
-                // half a diagonal, and half a sector
-                const double slack = (0.7072 * cells->side + near->reach * two_pi / sectors / 2) * (1 + 0x1p-20);
-                const Verdict all = decided(cells->x0 + column * cells->side, cells->y0 + row * cells->side, middle, slack);
+                const double slack = cells->around() + near->reach * (two_pi / sectors / 2) * (1 + 0x1p-20);
+                const Verdict all = decided(place.x, place.y, middle, slack, among);
                 state = all == Verdict::free ? State::free : all == Verdict::forbidden ? State::forbidden : State::mixed;
                 known.store(state, std::memory_order_relaxed);
             }
-            return state == State::free ? Verdict::free : state == State::forbidden ? Verdict::forbidden : decided(x, y, theta, 0);
+            return state == State::free ? Verdict::free : state == State::forbidden ? Verdict::forbidden : decided(x, y, theta, 0, among);
         };
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
             heed_stop();

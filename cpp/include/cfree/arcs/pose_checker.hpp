@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "cfree/arcs/shape.hpp"
 #include "cfree/collision/pose_checker.hpp"
@@ -40,8 +41,9 @@ private:
     struct Placed;
     Placed& own() const;  // this thread's
     bool is_within(double x, double y) const { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; }
-    // Of all poses in which no point moves by more than the slack; doubles are those of `near`.
-    Verdict verdict(Placed& placed, double x, double y, double c, double s, double slack) const;
+    // Of all poses in which no point moves by more than the slack, among all obstacles or some; doubles are those of `near`.
+    using Numbers = std::span<const Index>;
+    Verdict verdict(Placed& placed, double x, double y, double c, double s, double slack, std::optional<Numbers> among = {}) const;
     // Verdicts of boxes of poses, for many poses.
     struct Grid;
     Grid* grid(std::size_t poses) const;
