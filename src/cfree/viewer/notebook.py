@@ -43,7 +43,7 @@ def widget(
 
     Notes
     -----
-    The page has 1.9 MB, which the notebook keeps for each widget if it saves their state.
+    The page has 2.0 MB, which the notebook keeps for each widget if it saves their state.
     """
     from cfree.viewer.widget import Widget
 
