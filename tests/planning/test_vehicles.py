@@ -206,10 +206,11 @@ def test_preferences_count_at_the_axle_point() -> None:
     assert Preferences(backward=5).cost(dear, WALL) == pytest.approx(cost)
 
 
-def test_the_default_cost_of_a_cusp_is_the_length_of_the_robot_and_backward_is_one_and_a_half() -> None:
+def test_a_cusp_costs_the_length_of_the_robot_by_default_a_stop_a_quarter_and_backward_half_more() -> None:
     path = plan(WALL, vehicle=Car(1), improve=0)
     assert isinstance(path, Path)
-    cost = sum(part.length * (1.5 if part.gear == "backward" else 1) for part in path.driving) + path.cusps
+    cost = sum(part.length * (1.5 if part.gear == "backward" else 1) for part in path.driving)
+    cost += path.cusps + 0.25 * (path.stops - path.cusps)
     assert Preferences().cost(path, WALL) == pytest.approx(cost)
 
 

@@ -1,3 +1,5 @@
+// Whole translations and rotations among segments and arcs: doubles leave out what keeps its distance, then the contacts are
+// isolated, and one pose between each two is decided; theory, "Segments and arcs".
 #include "cfree/arcs/motion_checker.hpp"
 
 #include <algorithm>

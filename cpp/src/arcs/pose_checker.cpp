@@ -1,3 +1,5 @@
+// Poses among segments and arcs: doubles with a margin, cells of poses that are decided together, then integers; theory,
+// "Segments and arcs".
 #include "cfree/arcs/pose_checker.hpp"
 
 #include <algorithm>

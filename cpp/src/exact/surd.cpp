@@ -1,3 +1,4 @@
+// Signs of sums of square roots by squaring, and roots of polynomials that hold them; theory, "Segments and arcs".
 #include "cfree/exact/surd.hpp"
 
 #include <algorithm>

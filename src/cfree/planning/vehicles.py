@@ -44,6 +44,7 @@ from cfree.scene.scene import Scene
 from cfree.vehicles.vehicle import Car, Vehicle, described
 
 WORDS = 40_000  # most words tried to follow one path, for each share
+FEW_WORDS = 300  # most words tried to follow a path that is not improved
 SHARES: dict[Objective, tuple[float, ...]] = {
     "balanced": (0.5, 0.25, 0.125, 0.0),
     "short": (0.0,),
@@ -149,16 +150,16 @@ def joined(question: Question, start: Pose, goal: Pose, way: Sequence[Pose]) -> 
     reach = _reach(question, start, goal)
     for (before, first), (after, last) in pairs:
         its = way if not before and not after else question.planner.way(first, last, question.options)
-        if not isinstance(its, list) or (roomy := _roomy(question, first, last, its)) is None:
+        if not isinstance(its, list):
             continue
         try:
-            middle = driven(question, roomy, reach)
+            middle = _at_once(question, its) or _in_room(question, first, last, its, reach)
         except UndecidedError as error:  # another way out may have more room
             undecided = undecided or error
             continue
-        if isinstance(middle, Unreachable):
-            return middle
-        if not before and not after:
+        if middle is None:
+            continue
+        if isinstance(middle, Unreachable) or (not before and not after):
             return middle
         return _checked(question, start, (*before, *middle.motions, *reversed_way(after)))
     if undecided is not None:
@@ -179,6 +180,25 @@ def _reach(question: Question, start: Pose, goal: Pose) -> Reach | None:
     """Return the boxes between two poses for a car without reverse gear."""
     car = question.vehicle
     return Reach(question.scene, car, start, goal) if isinstance(car, Car) and car.gears == "forward" else None
+
+
+def _in_room(
+    question: Question, start: Pose, goal: Pose, way: list[Pose], reach: Reach | None
+) -> Path | Unreachable | None:
+    """Return a path along one of the robot that touches nothing; None if start and goal are in different cells."""
+    roomy = _roomy(question, start, goal, way)
+    return None if roomy is None else driven(question, roomy, reach)
+
+
+def _at_once(question: Question, way: list[Pose]) -> Path | None:
+    """Return a path along a first path of the robot, unimproved, if few words suffice."""
+    if question.options.improve != 0 or not _is_roomy(question, way):
+        return None
+    is_whole, _, drive = _driving(question, way, SHARES["balanced"][0], "balanced").follow(FEW_WORDS, 0)
+    if not is_whole:
+        return None
+    drive.join_far()
+    return _path(question, drive)
 
 
 def _ways_out(question: Question, pose: Pose, name: str, other: Pose) -> Explored | None:

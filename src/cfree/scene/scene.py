@@ -36,6 +36,7 @@ from cfree.words import counted
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
 AnyShape = Polygon | Curved
+SIDES_OF_ROUND = 256  # parts of a robot's size: error of the polygon that tells its radius
 
 
 @checked
@@ -397,14 +398,9 @@ def box_of(shape: AnyShape) -> tuple[float, float, float, float]:
 
 
 def robot_radius(scene: Scene) -> float:
-    """Return the distance of the robot's farthest vertex from its reference point; for a round robot, of a box's."""
-    corners = (part.vertices.tolist() if isinstance(part, Polygon) else _corners(part) for part in scene.robot)
-    return max(math.hypot(x, y) for points in corners for x, y in points)
-
-
-def _corners(shape: Curved) -> list[tuple[float, float]]:
-    x0, y0, x1, y1 = map(float, shape.box)
-    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+    """Return the distance of the robot's farthest vertex from its reference point; of a round one, a little more."""
+    polygons = [polygon for part in scene.robot for polygon in polygons_for(part, size_of(part) / SIDES_OF_ROUND, True)]
+    return max(math.hypot(x, y) for polygon in polygons for x, y in polygon.vertices.tolist())
 
 
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:

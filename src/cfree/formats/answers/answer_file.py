@@ -245,9 +245,8 @@ def usual_step(path: Path, scene: Scene | None) -> float:
     >>> usual_step(way, None), usual_step(way, Scene([(0, 0), (3, 0), (3, 4)]))
     (0.04, 0.25)
     """
-    if scene is None or scene.curved:
-        scene = path.scene or scene
-    if scene is not None and not scene.curved:
+    scene = path.scene if scene is None or (scene.curved and path.scene) else scene
+    if scene is not None:
         return robot_radius(scene) / PARTS_OF_RADIUS
     stamp = path.stamp if scene is None else stamp_of(scene)
     if stamp is not None:
