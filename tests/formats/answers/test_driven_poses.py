@@ -173,5 +173,5 @@ def test_the_wheelbase_of_a_car_is_used_saved_and_loaded(tmp_path: FilePath) -> 
     pause = timed(loaded, scene, speed=1, steer_rate=1).stops[0].pause
     assert pause == pytest.approx(math.atan(2.7 / 4))
     assert repr(Car(4, wheelbase="2.7")) == "Car(4, axle=(0, 0), wheelbase=27/10)"
-    with pytest.raises(ValueError, match="wheelbase 0: give a length above 0"):
+    with pytest.raises(ValueError, match="wheelbase: 0; give a length above 0"):
         Car(4, wheelbase=0)
