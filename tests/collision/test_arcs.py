@@ -20,7 +20,7 @@ from cfree.collision.motion import joining
 from cfree.curves import Arc, Circle
 from cfree.exact.number import ExactPoint
 from cfree.planning.core_ways import end_of, from_numbers
-from cfree.planning.pose_planner import PosePlanner
+from cfree.scene.features import scene_features
 from cfree.scene.scene import box_of
 
 TINY = Fraction(1, 10**60)
@@ -90,6 +90,16 @@ def test_rows_of_doubles_mean_the_exact_poses() -> None:
     assert [cfree.is_free(scene, tuple(row)) for row in rows.tolist()] == cfree.is_free(scene, rows).tolist()
     assert cfree.is_free(scene, rows).dtype == bool
     assert cfree.is_free(scene, np.empty((0, 3))).tolist() == []
+
+
+def test_an_arc_there_and_back_forbids_nothing() -> None:
+    """A ring without inside, as a segment is."""
+    there = Curved([(0, 0), Arc((2, 0), through=(1, 1)), Arc((0, 0), through=(1, 1))])
+    rows = np.random.default_rng(0).uniform(-2, 2, (20_000, 3)) % [4, 4, math.tau]
+    for scene in (Scene(DISC, [there]), Scene(there, [DISC])):
+        assert cfree.is_free(scene, Pose(0, 0)) and cfree.is_free(scene, rows).all()
+        assert cfree.is_free_motion(scene, Pose(-5, 0), Translation((9, 1)))
+    assert not cfree.is_free(Scene(DISC, workspace=there), Pose(0, 0))
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
@@ -344,16 +354,16 @@ def moved_near(shape: Any) -> Any:
 def test_searches_take_arcs_as_their_test_of_motions() -> None:
     """A stadium through a corridor of its width: among polygons around the two no path exists."""
     scene = Scene(STADIUM, CORRIDOR, bounds=(-20, -3, 20, 3))
-    guide = scene.outer(0.01)
-    known = PosePlanner(guide)._known
+    features = scene_features(scene.outer(0.01))
+    known = _core.KnownScene(features.made, _core.MotionChecker(features.core, arcs(scene).motions))
     ends = [end_of(pose) for pose in (Pose(-15, 0), Pose(15, 0))]
-    searcher = _core.Searcher(known, [place for _, place in ends], (2.0, 1.0, 1.0, 1.0), arcs(scene).core)
+    searcher = _core.Searcher(known, [place for _, place in ends], (2.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
     shortener = searcher.shortener([*ends], 0)
     assert shortener.length() == 30
     shortener.merge()
     assert len(shortener.path()) == 2
     start, goal = [end_of(pose) for pose in (Pose(-15, 2), Pose(-15, -2, 2.0))]
-    free = _core.Searcher(known, [start[1], goal[1]], (2.0, 1.0, 1.0, 1.0), arcs(scene).core)
+    free = _core.Searcher(known, [start[1], goal[1]], (2.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
     search, way = free.search(start, goal, 0), []
     for _ in range(50):
         if way := search.run(200):

@@ -96,8 +96,11 @@ def test_what_is_too_thin_for_doubles_is_undecided_with_the_reason() -> None:
     thin = moon("1e-12")
     assert thin.inner(0.01) == () and thin.outer(0.01)
     assert moon("1e-3").inner(0.01)
-    scene = cfree.Scene(thin, [PROBE], start=(0, 0, 0), goal=(9, 0, 0))
-    assert cfree.is_free(scene, Pose(0, 0)) is False and cfree.is_free(scene, Pose(9, 0)) is True
+    arcs = cfree.Scene(thin, [PROBE])  # decided without polygons
+    assert cfree.is_free(arcs, Pose(0, 0)) is False
+    ellipse = cfree.Curved.ellipse((50, 50), (1, 2))
+    scene = cfree.Scene(thin, [PROBE, ellipse], start=(0, 0, 0), goal=(9, 0, 0))
+    assert cfree.is_free(scene, Pose(0, 0)) is None and cfree.is_free(scene, Pose(9, 0)) is True
     with pytest.raises(cfree.UndecidedError, match="no polygon inside the robot can be proved: it is too thin"):
         cfree.plan(scene)
     inside = cfree.Scene([(0, 0), ("1e-15", 0), (0, "1e-15")], workspace=thin)

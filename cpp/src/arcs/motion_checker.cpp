@@ -379,20 +379,22 @@ DistanceBounds ArcMotionChecker::clearance(const Motion& motion, double width) c
     std::vector<NearShape> placed(near->robot.size());
     const auto distance = [&](double u, double most) {
         const auto [x, y, c, s] = course.at(u);
+        Gap least{most, most};
         for (std::size_t i = 0; i < placed.size(); ++i) {
             near->place(i, x, y, c, s, placed[i]);
-            near->near(placed[i].around, most + placed[i].radius, [&](Index j) {
-                most = std::min(most, distance_of(placed[i], near->obstacles[static_cast<std::size_t>(j)], most));
+            near->near(placed[i].around, least.high + placed[i].radius, [&](Index j) {
+                const auto [low, high] = distance_of(placed[i], near->obstacles[static_cast<std::size_t>(j)], least.high);
+                least = {std::min(least.low, low), std::min(least.high, high)};
             });
         }
-        return most;
+        return least;
     };
     struct Part {
         double least, lo, hi;
         bool operator<(const Part& other) const { return least > other.least; }
     };
     constexpr double most = 4;
-    double best = std::min(distance(0, most), distance(1, most));
+    double best = std::min(distance(0, most).high, distance(1, most).high);
     std::vector<Part> parts{{0, 0, 1}};
     for (int count = 0; count < most_parts && parts.front().least < best - width * near->unit; ++count) {
         heed_stop();
@@ -400,10 +402,10 @@ DistanceBounds ArcMotionChecker::clearance(const Motion& motion, double width) c
         const auto [least, lo, hi] = parts.back();
         parts.pop_back();
         const double middle = 0.5 * (lo + hi), way = std::max(course.way(lo, middle), course.way(middle, hi));
-        const double here = distance(middle, std::min(most, best + way));
-        best = std::min(best, here);
+        const Gap here = distance(middle, std::min(most, best + way));
+        best = std::min(best, here.high);
         for (const auto& [from, to] : {std::pair(lo, middle), std::pair(middle, hi)}) {
-            parts.push_back({std::max(least, here - way), from, to});
+            parts.push_back({std::max(least, here.low - way), from, to});
             std::push_heap(parts.begin(), parts.end());
         }
     }

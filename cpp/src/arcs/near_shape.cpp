@@ -286,13 +286,23 @@ Verdict verdict_by_curves(const NearShape& a, const NearShape& b, double within,
     return Verdict::free;
 }
 
-double distance_of(const NearShape& a, const NearShape& b, double most) {
-    if (verdict_on(a, b, a.radius + b.radius, 0) != Verdict::free) return 0;
-    double least = most + a.radius + b.radius;
+Gap distance_of(const NearShape& a, const NearShape& b, double most) {
+    const double grown_by = a.radius + b.radius;
+    const Verdict verdict = verdict_on(a, b, grown_by, 0);
+    if (verdict == Verdict::forbidden) return {0, 0};
+    Gap least{most + grown_by, most + grown_by};
     for (std::size_t i = 0; i < a.curves.size(); ++i)
-        for (std::size_t j = 0; j < b.curves.size(); ++j)
-            if (meet(a.boxes[i], b.boxes[j], least)) least = std::min(least, gap_between(a.curves[i], b.curves[j]));
-    return least - a.radius - b.radius;
+        for (std::size_t j = 0; j < b.curves.size(); ++j) {
+            if (!meet(a.boxes[i], b.boxes[j], least.high)) continue;
+            const NearCurve &p = a.curves[i], &q = b.curves[j];
+            const double gap = gap_between(p, q);
+            // what may meet is at most as far apart as its ends
+            double ends = gap > 0 ? gap : std::min(distance_of_point(p.start, q), distance_of_point(p.end, q));
+            if (gap <= 0) ends = std::min({ends, distance_of_point(q.start, p), distance_of_point(q.end, p)});
+            least = {std::min(least.low, std::max(gap, 0.0)), std::min(least.high, ends)};
+        }
+    const auto shortened = [&](double distance) { return std::max(0.0, distance - grown_by); };
+    return {verdict == Verdict::free ? shortened(least.low) : 0, shortened(least.high)};
 }
 
 NearScene::NearScene(std::shared_ptr<const ArcScene> of) : scene(std::move(of)) {
@@ -314,8 +324,8 @@ NearScene::NearScene(std::shared_ptr<const ArcScene> of) : scene(std::move(of)) 
     for (const ArcShape& shape : scene->obstacles) {
         const auto j = static_cast<Index>(obstacles.size());
         const NearShape& near = obstacles.emplace_back(shape, shift);
-        (near.is_outside ? outside : inside).push_back(j);
-        if (!near.is_outside) boxes.push_back(near.around);
+        if (near.is_outside) outside.push_back(j);
+        else if (!near.curves.empty()) inside.push_back(j), boxes.push_back(near.around);
         most_radius = std::max(most_radius, near.radius);
     }
     tree = std::make_unique<BoxTree>(std::move(boxes));

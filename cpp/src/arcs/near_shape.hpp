@@ -59,8 +59,11 @@ Verdict verdict_on(const NearShape& a, const NearShape& b, double within, double
 // What is certain of it by a disc in one of the two, or by all curves.
 Verdict by_disc(const InnerDisc& disc, const NearShape& other, double slack);
 Verdict verdict_by_curves(const NearShape& a, const NearShape& b, double within, double slack, CurvePairs* near = nullptr);
-// Least distance of two shapes that are apart, within the margin, or at most `most`; 0 if they may touch or overlap.
-double distance_of(const NearShape& a, const NearShape& b, double most);
+// Bounds of the distance of two shapes, or of `most` if that is less, within the margin; 0, 0 if they certainly overlap.
+struct Gap {
+    double low, high;
+};
+Gap distance_of(const NearShape& a, const NearShape& b, double most);
 
 // All shapes of a scene.
 class NearScene {

@@ -61,8 +61,9 @@ struct ArcPoseChecker::Grid {
 
     explicit Grid(const NearScene& scene) {
         Box all;
-        for (const NearShape& obstacle : scene.obstacles) all.add(cfree::grown(obstacle.around, obstacle.radius));
-        if (scene.obstacles.empty()) all.add(0, 0);
+        for (const NearShape& obstacle : scene.obstacles)
+            if (!obstacle.curves.empty()) all.add(cfree::grown(obstacle.around, obstacle.radius));
+        if (!(all.x0 <= all.x1)) all.add(0, 0);
         all = cfree::grown(all, scene.reach);
         const double width = all.x1 - all.x0, height = all.y1 - all.y0;
         side = std::max({scene.reach / cells_in_reach, std::sqrt(width * height / most_cells), width / most_cells, height / most_cells});
@@ -84,6 +85,7 @@ struct ArcPoseChecker::Grid {
         };
         for (std::size_t j = 0; j < scene.obstacles.size(); ++j) {
             const NearShape& o = scene.obstacles[j];
+            if (o.curves.empty() && !o.is_outside) continue;
             const Box box = o.is_outside ? Box{x0, y0, x0 + static_cast<double>(nx) * side, y0 + static_cast<double>(ny) * side}
                                          : cfree::grown(o.around, o.radius + scene.reach + around());
             for (std::size_t row = index(box.y0 - y0, ny); row <= index(box.y1 - y0, ny); ++row)
@@ -127,6 +129,7 @@ Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, do
     Verdict all = Verdict::free;
     for (std::size_t i = 0; i < near->robot.size(); ++i) {
         const NearShape& still = near->robot[i];
+        if (still.curves.empty()) continue;
         const auto move = [&](const Vec<double>& p) { return Vec<double>{x + (c * p.x - s * p.y), y + (s * p.x + c * p.y)}; };
         const Box& box = still.around;
         const Vec<double> middle = move({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)});
@@ -249,18 +252,20 @@ std::optional<bool> ArcPoseChecker::is_free(double x, double y, double theta) co
 
 DistanceBounds ArcPoseChecker::distance(const GivenPose& pose, double most) const {
     const ExactPlacement at = pose.exact();
-    double least = std::min(most * near->unit, 4.0);
+    const double farthest = std::min(most * near->unit, 4.0);
+    Gap least{farthest, farthest};
     const double x = rounded(pose.x) * near->unit, y = rounded(pose.y) * near->unit;
     if (!(std::abs(x) < far && std::abs(y) < far)) return {0, HUGE_VAL};
     NearShape part;
     for (std::size_t i = 0; i < near->robot.size(); ++i) {
         part = near->robot[i];
         near->place(i, x, y, ratio(at.c, at.w), ratio(at.s, at.w), part);
-        near->near(part.around, least + part.radius, [&](Index j) {
-            least = std::min(least, distance_of(part, near->obstacles[static_cast<std::size_t>(j)], least));
+        near->near(part.around, least.high + part.radius, [&](Index j) {
+            const auto [low, high] = distance_of(part, near->obstacles[static_cast<std::size_t>(j)], least.high);
+            least = {std::min(least.low, low), std::min(least.high, high)};
         });
     }
-    return {std::max(0.0, least - 2 * margin) / near->unit, (least + 2 * margin) / near->unit};
+    return {std::max(0.0, least.low - 2 * margin) / near->unit, least.high < farthest ? (least.high + 2 * margin) / near->unit : HUGE_VAL};
 }
 
 }  // namespace cfree

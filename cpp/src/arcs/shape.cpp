@@ -15,7 +15,7 @@ namespace {
 constexpr int finest = 4000;
 
 // The winding number of a simple ring about the points inside it: looked up at points nearer and nearer to the middle of each
-// curve, until one is inside.
+// curve, until one is inside. 0 if none is.
 int direction_of(const std::vector<RoundEdge>& ring) {
     ArcShape shape;
     shape.ring = {0, static_cast<Index>(ring.size())};
@@ -31,7 +31,7 @@ int direction_of(const std::vector<RoundEdge>& ring) {
                 if (const auto turns = turns_about(placed, 0, shape.ring[1], spot); turns && *turns != 0) return *turns > 0 ? 1 : -1;
             }
         }
-    return 1;
+    return 0;
 }
 
 }  // namespace
@@ -43,7 +43,12 @@ ArcShape arc_shape(std::vector<std::vector<RoundEdge>> rings, Int radius, Int sc
     for (std::size_t k = 0; k < rings.size(); ++k) {
         auto& ring = rings[k];
         const int wanted = (k == 0) != is_outside ? 1 : -1;
-        if (direction_of(ring) != wanted) {
+        const int direction = direction_of(ring);
+        if (direction == 0) {  // there and back: a shape without inside, or a hole without
+            if (k == 0) break;
+            continue;
+        }
+        if (direction != wanted) {
             std::reverse(ring.begin(), ring.end());
             std::transform(ring.begin(), ring.end(), ring.begin(), reversed);
         }
