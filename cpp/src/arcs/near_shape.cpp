@@ -286,6 +286,26 @@ Verdict verdict_by_curves(const NearShape& a, const NearShape& b, double within,
     return Verdict::free;
 }
 
+// Distance of some points of two curves that may meet: ends, and points on common normals.
+static double distance_of_points(const NearCurve& a, const NearCurve& b) {
+    double least = std::min({distance_of_point(a.start, b), distance_of_point(a.end, b), distance_of_point(b.start, a), distance_of_point(b.end, a)});
+    if (a.turn != 0 && b.turn != 0) {
+        const Vec<double> d = b.center - a.center;
+        for (const int i : {1, -1})
+            for (const int j : {1, -1})
+                if (depth_in_cone(a, i > 0 ? d : -d) >= 0 && depth_in_cone(b, j > 0 ? d : -d) >= 0)
+                    least = std::min(least, std::abs(length(d) + j * b.radius - i * a.radius));
+        return least;
+    }
+    if (a.turn == b.turn) return least;
+    const NearCurve &line = a.turn == 0 ? a : b, &arc = a.turn == 0 ? b : a;
+    const Vec<double> e = line.end - line.start, d = arc.center - line.start;
+    const double size = length(e), height = cross(e, d) / size, t = dot(e, d) / size;
+    const Vec<double> down{e.y * height, -e.x * height};
+    if (0 <= t && t <= size && depth_in_cone(arc, down) >= 0) least = std::min(least, std::abs(std::abs(height) - arc.radius));
+    return least;
+}
+
 Gap distance_of(const NearShape& a, const NearShape& b, double most) {
     const double grown_by = a.radius + b.radius;
     const Verdict verdict = verdict_on(a, b, grown_by, 0);
@@ -296,10 +316,7 @@ Gap distance_of(const NearShape& a, const NearShape& b, double most) {
             if (!meet(a.boxes[i], b.boxes[j], least.high)) continue;
             const NearCurve &p = a.curves[i], &q = b.curves[j];
             const double gap = gap_between(p, q);
-            // what may meet is at most as far apart as its ends
-            double ends = gap > 0 ? gap : std::min(distance_of_point(p.start, q), distance_of_point(p.end, q));
-            if (gap <= 0) ends = std::min({ends, distance_of_point(q.start, p), distance_of_point(q.end, p)});
-            least = {std::min(least.low, std::max(gap, 0.0)), std::min(least.high, ends)};
+            least = {std::min(least.low, std::max(gap, 0.0)), std::min(least.high, gap > 0 ? gap : distance_of_points(p, q))};
         }
     const auto shortened = [&](double distance) { return std::max(0.0, distance - grown_by); };
     return {verdict == Verdict::free ? shortened(least.low) : 0, shortened(least.high)};
