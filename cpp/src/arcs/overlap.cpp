@@ -1,4 +1,4 @@
-// Boundaries are cut where they meet; then one point of each part is located. Theory, "Exact arcs".
+// Boundaries are cut where they meet; then one point of each part is located. Theory, "Segments and arcs".
 #include "arcs/overlap.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Overlap of two placed shapes, exactly; theory, "Exact arcs".
+// Overlap of two placed shapes, exactly; theory, "Segments and arcs".
 #pragma once
 #include "cfree/arcs/shape.hpp"
 #include "collision/box_tree.hpp"

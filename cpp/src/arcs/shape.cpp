@@ -1,4 +1,4 @@
-// Directions of rings; theory, "Exact arcs".
+// Directions of rings; theory, "Segments and arcs".
 #include "cfree/arcs/shape.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Exact tests that whole translations and rotations are free among shapes of segments and arcs; theory, "Exact arcs".
+// Exact tests that whole translations and rotations are free among shapes of segments and arcs; theory, "Segments and arcs".
 //
 // Between two successive parameters at which some pair of curves is exactly in contact, all poses are free or all are not. So a
 // motion is free if one pose between each two is. Doubles first leave out what keeps its distance.

@@ -1,4 +1,4 @@
-// Test that poses are free among shapes of segments and arcs: in doubles with a bound, else exactly; theory, "Exact arcs".
+// Test that poses are free among shapes of segments and arcs: in doubles with a bound, else exactly; theory, "Segments and arcs".
 #pragma once
 #include <array>
 #include <atomic>

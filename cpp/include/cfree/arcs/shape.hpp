@@ -1,4 +1,4 @@
-// Shapes bounded by segments and circular arcs, in exact integers and in doubles; theory, "Exact arcs".
+// Shapes bounded by segments and circular arcs, in exact integers and in doubles; theory, "Segments and arcs".
 //
 // All ends and centers are rational, so that squares of radii are. A shape may be grown: all points closer than its radius
 // belong to its inside. A shape that is `outside` is the complement of what its rings bound.
