@@ -32,6 +32,7 @@ from cfree import (
     plan,
     plan_many,
 )
+from cfree.curves import Arc
 from cfree.planning import vehicles
 from cfree.scene.digest import stamp_of
 from second_opinion import verified_in_a_file
@@ -491,3 +492,19 @@ def test_first_motions_are_free_as_the_signs_tell(seed: int) -> None:
         assert sign >= 0 or not any(checker.is_free(pose, motion) for motion in motions)
         if sign >= 0:
             assert (contacts.pairs(motions[-1].apply(pose)) == []) == (sign > 0)
+
+
+def test_a_vehicle_leaves_contacts_with_round_shapes_and_drives_along_them() -> None:
+    disc, floor = Curved.circle((0, 0), 1), box(-9, -9, 9, 0)
+    for goal in ((4, 1, 0), (4, 4, "45deg")):
+        scene = Scene(disc, [floor], start=(-4, 1, 0), goal=goal)
+        path = plan(scene, vehicle=Car(1), improve=0)
+        assert isinstance(path, Path) and path.goal == scene.goal
+        assert is_drivable(path, Car(1)) and cfree.verify.answer(scene, path).verified
+
+
+def test_contacts_that_hold_a_vehicle_among_round_shapes_stay_undecided() -> None:
+    car = Curved([(0, -1), (3, -1), Arc((3, 1), center=(3, 0)), (0, 1)])
+    scene = Scene(car, [box(4, -2, 5, 2), box(-2, -2, 0, 2)], start=(0, 0, 0), goal=(0, 9, 0))
+    with pytest.raises(UndecidedError, match="start: the robot touches something there, and no first motion was found"):
+        plan(scene, vehicle=Car(2))

@@ -240,8 +240,11 @@ class CurvedQuery:
         options = self._within_time()
         paths = list[Path]()
         for goal in ends[1:]:
-            with suppress(UndecidedError):
+            try:
                 path = planner.first_path(ends[0], goal, options.shared(len(ends) - 1))
+            except UndecidedError as error:  # of a vehicle
+                self._reason = str(error)
+            else:
                 paths += [path] if isinstance(path, Path) else []
         if not paths:
             return None

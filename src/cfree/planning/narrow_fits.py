@@ -160,7 +160,7 @@ def _narrow_runs(planner: TruePlanner, path: Path) -> Iterator[tuple[float, np.n
     rows = np.column_stack([samples.xy, samples.theta])
     turned = rows.copy()
     turned[:, 2] = np.mod(turned[:, 2], 2 * math.pi)
-    is_free = planner.arcs.are_free(turned)
+    is_free = planner.shapes.are_free(turned)
     travel = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(rows[:, :2], axis=0).T))])
     edges = np.flatnonzero(np.diff(np.concatenate([[True], is_free, [True]]).astype(int)))
     for begin, end in edges.reshape(-1, 2).tolist():

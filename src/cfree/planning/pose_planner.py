@@ -13,6 +13,7 @@ from functools import cached_property
 from itertools import pairwise
 
 import cfree._core as _core
+from cfree.collision.arcs import ArcScene
 from cfree.collision.motion import joining
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.nearest_free import refuse_forbidden
@@ -48,6 +49,8 @@ class PosePlanner:
     space : FreeSpace, optional
         Computed at first use by default.
     """
+
+    arcs: ArcScene | None = None  # of a planner among round shapes, whose polygons are a guide
 
     def __init__(self, scene: Scene, space: FreeSpace | None = None) -> None:
         self.scene, self._space = scene, space

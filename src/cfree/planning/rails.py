@@ -123,7 +123,7 @@ def _along(
     axle = pose @ touching.vehicle.frame
     if control.w == 0:
         length = _next_event(touching, axle, control)
-        at_goal = None if goal is None else _ahead(axle, goal @ touching.vehicle.frame, control)
+        at_goal = None if goal is None else ahead(axle, goal @ touching.vehicle.frame, control)
         if at_goal is not None and (length is None or at_goal < length):
             motion = motion_of(axle, control, at_goal)
             if checker.is_free(pose, motion):
@@ -144,7 +144,7 @@ def _along(
             return
 
 
-def _ahead(axle: Pose, goal: Pose, control: Control) -> Fraction | None:
+def ahead(axle: Pose, goal: Pose, control: Control) -> Fraction | None:
     """Return the length of a straight motion to a pose; None if it does not lead there."""
     x, y = goal.x - axle.x, goal.y - axle.y
     length = control.v * (axle.cos * x + axle.sin * y)

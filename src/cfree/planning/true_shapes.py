@@ -62,7 +62,8 @@ class TruePlanner(PosePlanner):
 
     def __init__(self, exact: Scene, clearance: Fraction, arcs: ArcScene, near: Approximations) -> None:
         super().__init__(near.scene(outward=False))
-        self.arcs, self.true, self._exact, self._clearance = arcs, near.exact, exact, clearance
+        self.arcs = self.shapes = arcs
+        self.true, self._exact, self._clearance = near.exact, exact, clearance
         self._error = max(near.errors)
         count = len(near.exact.robot)
         errors = near.errors[:count], near.errors[count:]
@@ -72,11 +73,16 @@ class TruePlanner(PosePlanner):
     @cached_property
     def checker(self) -> MotionChecker:
         """Checker of motions among the shapes themselves."""
-        return TrueMotions(self.scene, self.arcs)
+        return TrueMotions(self.scene, self.shapes)
 
     @cached_property
     def _known(self) -> _core.KnownScene:
         return _core.KnownScene(self.checker.features.made, self.checker._handle, self._slack)
+
+    def way(self, start: Pose, goal: Pose, options: Options, *, few: bool = False) -> list[Pose] | None:
+        """Return poses of a path, if simple ways or a search give one."""
+        found = self.quick(start, goal, options)
+        return None if found is None else [*found]
 
     def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or a search give one."""

@@ -29,7 +29,7 @@ from cfree.errors import InvalidPoseError, InvariantError, UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.driving import is_drivable
 from cfree.paths.path import Objective, Path
-from cfree.paths.preferences import NONE, Dues, Preferences, dues_of
+from cfree.paths.preferences import NONE, Dues, Preferences, dues_of, robot_length
 from cfree.planning.clearance import plan_at_distance
 from cfree.planning.core_ways import end_of, from_numbers
 from cfree.planning.first_motions import Touching
@@ -37,6 +37,7 @@ from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rails import Explored, Way, explore, reversed_way
 from cfree.planning.reach import Reach
+from cfree.planning.round_contacts import tried_ways_out
 from cfree.planning.stuck import Stuck
 from cfree.planning.unreachable import Unreachable, margin_of
 from cfree.scene.frame import frame_of
@@ -115,7 +116,7 @@ class Question:
         """True if the robot touches something at a free pose."""
         x0, y0, x1, y1 = self.scene.bounds or (pose.x - 1, pose.y - 1, pose.x + 1, pose.y + 1)
         is_certainly_apart = _driving(self, [pose], 0.0, "short").distance > 0 and x0 < pose.x < x1 and y0 < pose.y < y1
-        return not is_certainly_apart and bool(self.onward.pairs(pose))
+        return not is_certainly_apart and (self.planner.arcs is not None or bool(self.onward.pairs(pose)))
 
 
 def drive_along(
@@ -212,9 +213,14 @@ def _ways_out(question: Question, pose: Pose, name: str, other: Pose) -> Explore
     if not question.touches(pose):
         return None
     touching = question.onward if name == "start" else question.back
-    found = explore(touching, question.checker, pose, goal=other)
+    if question.planner.arcs is None:
+        found, why = explore(touching, question.checker, pose, goal=other), "where it could leave is irrational"
+    else:
+        size, why = robot_length(question.scene, question.vehicle), "no first motion was found that leaves"
+        gears, checker = touching.gears, question.checker
+        found = tried_ways_out(question.vehicle, gears, checker, pose, other, size, question.touches)
     if not found.exits and not found.is_complete and other not in found.rail:
-        raise UndecidedError(f"{name}: the robot touches something there, and where it could leave is irrational")
+        raise UndecidedError(f"{name}: the robot touches something there, and {why}")
     return found
 
 
