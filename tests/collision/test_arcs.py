@@ -14,7 +14,7 @@ import pytest
 import cfree
 import cfree._core as _core
 import fuzz_arcs
-from cfree import Curved, Pose, Rotation, Scene, Translation
+from cfree import Curved, Pose, Rotation, Scene, Translation, is_free
 from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.collision.motion import joining
 from cfree.curves import Arc, Circle
@@ -370,3 +370,14 @@ def test_searches_take_arcs_as_their_test_of_motions() -> None:
             break
     poses = [from_numbers(numbers) for numbers in way]
     assert len(poses) > 1 and all(cfree.is_free_motion(scene, a, joining(a, b)) for a, b in pairwise(poses))
+
+
+@pytest.mark.parametrize("halves", [20, 2000, 10**6, 10**12])
+def test_a_disc_without_a_thin_segment_may_touch_a_wall_there(halves: int) -> None:
+    tau = Fraction(1, halves)
+    c, s = (1 - tau**2) / (1 + tau**2), 2 * tau / (1 + tau**2)
+    cut = Curved([(c, s), Arc((c, -s), center=(0, 0))])
+    scene = Scene(cut, [[(c, -5), (9, -5), (9, 5), (c, 5)]])
+    assert is_free(scene, Pose(0, 0)) is True
+    assert is_free(scene, Pose(Fraction(1, 10**40), 0)) is False
+    assert is_free(scene, [[0, 0, 0]]).tolist() == [True]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -13,6 +14,7 @@ import pytest
 import cfree
 import cfree.viewer.pictures
 from cfree.palette import AHEAD, BACK, PATH
+from cfree.planning.unreachable import BoxGrid
 from cfree.value import Shown
 from cfree.viewer.svg import Panel
 
@@ -46,7 +48,10 @@ def values() -> dict[str, Any]:
     goals = cfree.plan(scene_of(goal=[(6, 1, 0), (6, 5)]))
     start, goal = cfree.Pose(1, 1), cfree.Pose(6, 1)
     held = cfree.Stuck(start, goal, cfree.Car(1), "start", "pieces", (start,), (0,), scene=scene)
-    parts = scene, boundary, space, space.cells[0], path, cfree.plan(scene), goals, boundary.slice(0.3), held
+    grid = BoxGrid((Fraction(0), Fraction(0)), Fraction(1), Fraction(1), 1, 1, 8)
+    car = cfree.Car(1, gears="forward")
+    shut = cfree.Unreachable(start, goal, car, "start", (), grid, b"", scene=scene)
+    parts = shut, scene, boundary, space, space.cells[0], path, cfree.plan(scene), goals, boundary.slice(0.3), held
     return {type(value).__name__: value for value in (*parts, boundary.mesh(0.5), scene.obstacles[0], ROUND)}
 
 

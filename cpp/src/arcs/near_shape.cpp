@@ -196,18 +196,14 @@ double NearShape::distance(const Vec<double>& p) const {
 
 // All of a circle; else the best of some places in the box, and then of places nearer and nearer around it.
 void NearShape::find_disc(const ArcShape& shape) {
-    double turn = 0;
-    const auto& first = shape.curves.front();
-    for (const RoundEdge& c : shape.curves) {
-        if (c.turn != 1 || c.center.x != first.center.x || c.center.y != first.center.y) break;
-        const auto& k = curves[static_cast<std::size_t>(&c - &first)];
-        turn += arc_tangent(cross(k.start - k.center, k.end - k.center), dot(k.start - k.center, k.end - k.center));
-        if (turn > 6.28) {
-            disc = {k.center, k.radius + radius, shape.rings() == 1};
-            if (disc.is_all) return;
-        }
+    const RoundEdge& first = shape.curves.front();
+    const bool is_circle = shape.rings() == 1 && std::all_of(shape.curves.begin(), shape.curves.end(), [&](const RoundEdge& c) {
+        return c.turn == 1 && c.center.x == first.center.x && c.center.y == first.center.y;
+    });
+    if (is_circle) {
+        disc = {curves.front().center, curves.front().radius + radius, true};
+        return;
     }
-    disc = {};
     const double size = std::max(around.x1 - around.x0, around.y1 - around.y0);
     constexpr int places = 6, rounds = 4;
     Vec<double> middle{0.5 * (around.x0 + around.x1), 0.5 * (around.y0 + around.y1)};

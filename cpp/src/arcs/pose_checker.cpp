@@ -71,7 +71,7 @@ struct ArcPoseChecker::Grid {
         known = std::vector<std::atomic<State>>(nx * ny * sectors);
         fill(scene);
     }
-    double around() const { return 0.7072 * side * (1 + 0x1p-20) + margin; }  // radius of a disc around a cell
+    double around() const { return std::sqrt(0.5) * side * (1 + 0x1p-20) + margin; }  // radius of a disc around a cell
     Vec<double> middle(std::size_t cell) const {
         return {x0 + (static_cast<double>(cell % nx) + 0.5) * side, y0 + (static_cast<double>(cell / nx) + 0.5) * side};
     }

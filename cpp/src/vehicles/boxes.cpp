@@ -15,7 +15,7 @@ namespace cfree {
 namespace {
 
 using std::numbers::pi;
-constexpr double relative_slack = 1e-9;  // of all lengths: far more than doubles are off
+constexpr double relative_slack = 0x1p-30;  // of all lengths: far more than doubles are off
 constexpr int most_steps = 0xffff;
 
 // The part of a convex polygon with n . z <= p.
