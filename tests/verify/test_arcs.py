@@ -12,6 +12,7 @@ import shapely
 from flint import fmpq
 from shapely.affinity import affine_transform
 
+import cfree
 from cfree import Curved, MotionChecker, Polygon, Pose, Rotation, Scene, Translation
 from cfree.collision.motion import Motion
 from cfree.curves import Arc, Circle
@@ -203,3 +204,25 @@ def test_motions_are_those_of_fine_polygons() -> None:
             continue
         for u in np.linspace(0, 1, 41):
             assert turned(one, course.at(Fraction(u))).intersection(other).area < 4e-3
+
+
+def thin(halves: int) -> Curved:
+    """A disc without a thin segment."""
+    tau = Fraction(1, halves)
+    c, s = (1 - tau**2) / (1 + tau**2), 2 * tau / (1 + tau**2)
+    return Curved([(c, s), Arc((c, -s), center=(0, 0))])
+
+
+@pytest.mark.slow
+def test_the_core_and_the_checker_agree_at_contacts_and_beside_them() -> None:
+    rng = random.Random(8)
+    shapes = [*SHAPES, thin(20), thin(2000), thin(2**50), Curved(Circle((0, 0), 2), [Circle((Fraction(1, 2), 0), 1)])]
+    for _ in range(150):
+        scene = Scene(rng.choice(shapes), [rng.choice(shapes)])
+        world, tau = ArcWorld(scene), rng.choice([Fraction(0), Fraction(0), Fraction(1), Fraction(1, 2)])
+        x, y = (Fraction(rng.randrange(-10, 11), 2) + rng.choice([0, 0, EPS, -EPS]) for _ in range(2))
+        start = Pose(x, y, {"tau": tau})
+        assert cfree.is_free(scene, start) is world.is_free(place_of(start, 1))
+        motion = random_motion(rng)
+        is_free = world.collision(Course(place_of(start, 1), motion, 1)) is None
+        assert cfree.collision.is_free_motion(scene, start, motion) is is_free
