@@ -142,6 +142,10 @@ def number(value: Any, place: str) -> Fraction:
 def numbers(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     return tuple(number(item, place) for item in items(value, place, count, count))
 
+def read_point(value: Any, place: str) -> tuple[Fraction, Fraction]:
+    x, y = numbers(value, place, 2)
+    return x, y
+
 def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     """Numbers that are not in quotes."""
     refuse_if(any(isinstance(c, str) for c in items(value, place, count, count)), f"{place}: expected no text")
@@ -371,14 +375,14 @@ def is_convex(rings: list[Ring]) -> bool:
 def is_around_disc(ring: Ring, radius: Fraction) -> bool:
     """True if a ring is convex, with a disc about the origin inside."""
     sides = ((cross(p, q), minus(q, p)) for p, q in edges_of(ring))
-    return is_convex([ring]) and all(h > 0 and h * h >= radius**2 * dot(u, u) for h, u in sides)
+    return len(ring) > 2 and is_convex([ring]) and all(h > 0 and h * h >= radius**2 * dot(u, u) for h, u in sides)
 
 # === Round shapes: rings of segments and of arcs of circles ===
 def root_sign(a: Fraction, *roots: tuple[int, Fraction]) -> int:
     """Sign of a + the sum of s sqrt(k) for all pairs (s, k), s = 1, 0 or -1.
 
-    Over a common denominator all numbers are integers, and so is the product of all values for other signs of the roots
-    that are conjugates of this one. None is larger than `most`. So a value that is not 0 is at least 1 / most^(2^n - 1).
+    Over a common denominator all numbers are integers. The value and its conjugates, which have other signs of the n
+    roots, are at most `most`, and their product is an integer. So if it is not 0, it is at least 1 / most^(2^n - 1).
     """
     roots = tuple((s, k) for s, k in roots if s and k)
     unit = math.lcm(a.denominator, *(k.denominator for _, k in roots))
@@ -394,7 +398,7 @@ def root_sign(a: Fraction, *roots: tuple[int, Fraction]) -> int:
         bits = min(8 * bits, enough)
 
 class Edge:
-    """A segment from p to q; or an arc of at most a right angle about a center, counter-clockwise if turn is 1, else -1.
+    """A segment from p to q; or an arc of at most a right angle, counter-clockwise if turn is 1, clockwise if it is -1.
 
     Its rounds are circles: its beginning, with no radius, and that of the arc. Their radii are given squared.
     """
@@ -408,7 +412,7 @@ class Edge:
             begin, end = minus(p, center), minus(q, center)
             self.square = dot(begin, begin)
             share = self.square / (self.square + dot(begin, end))  # to where both tangents meet
-            self.corners.append(tuple(c + share * (u + v) for c, u, v in zip(center, begin, end, strict=True)))  # type: ignore[arg-type]
+            self.corners.append((center[0] + share * (begin[0] + end[0]), center[1] + share * (begin[1] + end[1])))
             self.rounds.append((center, self.square))
             self.equation = 1, -2 * center[0], -2 * center[1], dot(center, center) - self.square
         (*xs,), (*ys,) = zip(*self.corners, strict=True)
@@ -417,13 +421,16 @@ class Edge:
     def moved(self, place: Fractions) -> Edge:
         """The edge after a rotation, by cosine and sine, and a translation."""
         x, y, c, s = place
-        ends = [p and (x + c * p[0] - s * p[1], y + s * p[0] + c * p[1]) for p in (self.p, self.q, self.center)]
-        return Edge(*ends, self.turn)  # type: ignore[arg-type]
+
+        def there(p: Point) -> Point:
+            return x + c * p[0] - s * p[1], y + s * p[0] + c * p[1]
+
+        return Edge(there(self.p), there(self.q), self.center and there(self.center), self.turn)
 
     def is_near(self, other: Edge, gap: Fraction) -> bool:
         """True if boxes around them are no farther apart than a gap."""
         (a, b, c, d), (e, f, g, h) = self.box, other.box
-        return a <= g + gap and e <= c + gap and b <= h + gap and f <= d + gap
+        return bool(a <= g + gap and e <= c + gap and b <= h + gap and f <= d + gap)
 
     def points_to(self, v: Point) -> bool:
         """True if the arc has a point in this direction from its center: one on the outer side of its chord."""
@@ -431,12 +438,16 @@ class Edge:
         a, b = cross(self.chord, minus(self.center, self.p)), cross(self.chord, v)
         return self.turn * root_sign(a, (sign(b), b * b * self.square / dot(v, v))) <= 0
 
+    def stops_at(self, x: Fraction) -> bool:
+        """True if the edge begins at this x, or its circle has a vertical tangent."""
+        return x == self.p[0] or bool(self.center and self.square == (x - self.center[0]) ** 2)
+
     def heights(self, x: Fraction) -> list[tuple[Fraction, int, Fraction]]:
-        """All (a, s, k) for which (x, a + s sqrt(k)) is on the edge; x is that of no end, and of no vertical tangent."""
+        """All (a, s, k) for which (x, a + s sqrt(k)) is on the edge; x is that of no end and of no vertical tangent."""
         (px, py), (qx, _), (u, v) = self.p, self.q, self.chord
         if self.center is None:
             return [(py + (x - px) * v / u, 0, ZERO)] if (px < x) != (qx < x) else []
-        (cx, cy), k = self.center, self.square - (x - self.center[0]) ** 2
+        cy, k = self.center[1], self.square - (x - self.center[0]) ** 2
         a = u * (cy - py) - v * (x - px)
         up_and_down = (1, -1) if k > 0 else ()
         return [(cy, s, k) for s in up_and_down if self.turn * root_sign(a, (s * sign(u), u * u * k)) < 0]
@@ -445,9 +456,9 @@ class Edge:
         """All (p, v, k) for which p + v sqrt(k) is on both; of edges on one line or circle, ends alone."""
         if self.center is None and other.center:
             return other.common_points(self)
-        (e, *line), (f, *second) = self.equation, other.equation
+        (_, *first), (f, *second) = self.equation, other.equation
         if f:
-            second = [a - b for a, b in zip(line, second, strict=True)]
+            second = [a - b for a, b in zip(first, second, strict=True)]
         l, m, k = second
         places: list[tuple[Point, Point, Fraction]] = []
         if self.center:
@@ -457,7 +468,7 @@ class Edge:
                 places = [(foot, (s * along[0], s * along[1]), rest / n) for s in ((1, -1) if rest else (1,))]
             on_one = not n and not k
         else:
-            a, b, c = line
+            a, b, c = first
             d = a * m - b * l
             places = [((Fraction(b * k - c * m) / d, Fraction(c * l - a * k) / d), (ZERO, ZERO), ZERO)] if d else []
             on_one = not d and l * self.p[0] + m * self.p[1] + k == 0
@@ -490,12 +501,14 @@ def whole_numbers(p: Sequence[Any]) -> Poly:
     unit = math.lcm(*(c.denominator for c in p))
     return tuple(int(c * unit) for c in p)
 
-def clear_line(edges: Sequence[Edge], ring: Iterable[Edge]) -> Fraction:
-    """Some x between the ends of a ring's widest edge, and that of no end and no vertical tangent of all edges."""
-    low, high = max((sorted((edge.p[0], edge.q[0])) for edge in ring), key=lambda ends: ends[1] - ends[0])
-    n = 3 * len(edges) + 2
-    every = (low + (high - low) * Fraction(k, n) for k in range(1, n))
-    return next(x for x in every if not any(x == edge.p[0] or (edge.center and edge.square == (x - edge.center[0]) ** 2) for edge in edges))
+def clear_line(edges: Sequence[Edge], ring: Sequence[Edge]) -> Fraction:
+    """Some x on which a ring has points, and no edge begins or has a vertical tangent."""
+    low, high, parts = min(edge.box[0] for edge in ring), max(edge.box[2] for edge in ring), 1
+    while True:
+        parts *= 2
+        for x in (low + (high - low) * Fraction(k, parts) for k in range(1, parts, 2)):
+            if not any(edge.stops_at(x) for edge in edges) and any(edge.heights(x) for edge in ring):
+                return Fraction(x)
 
 def stops(edges: Iterable[Edge]) -> Iterator[Poly]:
     """Yield polynomials in x with zeros at all ends and vertical tangents."""
@@ -528,8 +541,7 @@ class Round:
     """A round shape of a scene. Its rings are named by the ends of their edges."""
 
     def __init__(self, curves: Sequence[tuple[str, list[Edge]]], grown: Fraction, place: str) -> None:
-        self.words, self.grown = [words for words, _ in curves], grown
-        self.edges = [edges for _, edges in curves]
+        self.words, self.edges, self.grown = [words for words, _ in curves], [edges for _, edges in curves], grown
         self.rings = [[edge.p for edge in edges] for edges in self.edges]
         numbers = [c for edges in self.edges for e in edges for p in (e.p, e.center) if p for c in p]
         self.unit = math.lcm(grown.denominator, *(c.denominator for c in numbers))
@@ -568,77 +580,80 @@ def extreme(edges: Sequence[Edge], axis: int, s: int) -> Fraction:
                 scale = 1 << 2 * (60 + max(0, d.bit_length() - n.bit_length()))
                 above = Fraction(math.isqrt(n * scale // d) + 1, math.isqrt(scale))
                 greatest = max(greatest, s * edge.center[axis] + (root if root * root == edge.square else above))
-    return greatest
+    return Fraction(greatest)
 
 def read_round(value: dict[str, Any], place: str, **more: Any) -> Round:
-    got = members(value, place, circle=None, ellipse=None, path=None, outer=None, holes=[], grown=0, **more)
-    grown = number(got["grown"] or 0, f"{place}.grown")
+    got = members(value, place, circle=None, ellipse=None, path=None, outer=None, holes=[], grown=None, **more)
+    grown = ZERO if got["grown"] is None else number(got["grown"], f"{place}.grown")
     refuse_if(grown < 0, f"{place}.grown: expected a length")
     outer = {key: got[key] for key in ("circle", "ellipse", "path", "outer") if got[key] is not None}
-    holes = items(got["holes"], f"{place}.holes")
-    curves = [read_curve(ring, place) for ring in (outer, *holes)]
+    curves = [read_curve(ring, place, "outer") for ring in [outer]]
+    curves += [read_curve(ring, place) for ring in items(got["holes"], f"{place}.holes")]
     straight = all(edge.center is None for _, edges in curves for edge in edges)
     refuse_if(grown and not straight, f"{place}.grown: expected a polygon")
     return Round(curves, grown, place)
 
-def read_curve(value: Any, place: str) -> tuple[str, list[Edge]]:
+def read_curve(value: Any, place: str, *more: str) -> tuple[str, list[Edge]]:
     """A ring in the words of docs/answer-format.md, "Round shapes", and its edges."""
-    got = members({"path": value} if isinstance(value, list) else value, place, circle=0, ellipse=0, path=0, outer=0)
-    refuse_if(len(value) != 1 and isinstance(value, dict), f"{place}: expected one of circle, path, outer")
-    refuse_if(got["ellipse"], f"{place}: an ellipse; `cfree verify` reads it")
-    if got["circle"]:
+    known = dict.fromkeys(("circle", "ellipse", "path", *more))
+    got = members({"path": value} if isinstance(value, list) else value, place, **known)
+    refuse_if(sum(member is not None for member in got.values()) != 1, f"{place}: expected one of circle, path")
+    refuse_if(got["ellipse"] is not None, f"{place}: an ellipse; `cfree verify` reads it")
+    if got["circle"] is not None:
         circle = members(got["circle"], place, center=REQUIRED, radius=REQUIRED)
-        center, radius = numbers(circle["center"], place, 2), number(circle["radius"], place)
+        (x, y), radius = read_point(circle["center"], place), number(circle["radius"], place)
         refuse_if(radius <= 0, f"{place}: expected a radius above 0")
-        return read_arc((center[0] + radius, center[1]), {"to": None, "center": circle["center"]}, place)
-    path = items(got["path"] or got["outer"], place, 1)
-    begin = end = numbers(path[0], place, 2)
-    words, edges = [], []
-    for item in [*path[1:], path[0]]:
+        return arc((x + radius, y), (x + radius, y), (x, y), (ZERO, radius), place)
+    path = items(got["outer"] if got["path"] is None else got["path"], place, 1)
+    refuse_if(got["path"] is None and not all(isinstance(p, list) for p in path), f"{place}.outer: expected points")
+    pieces: list[tuple[str, list[Edge]]] = []
+    begin = end = read_point(path[0], place)
+    for item in path[1:]:
         if isinstance(item, dict):
-            segment = members(item, place, arc=None, bezier=None, spline=None)
-            curves = {"bezier": "a B\u00e9zier curve", "spline": "a spline"}
-            for key, name in curves.items():
-                refuse_if(segment[key] is not None, f"{place}: {name}; `cfree verify` reads it")
-            said, more = read_arc(end, segment["arc"], place)
+            pieces.append(read_arc(end, item, place))
+            end = pieces[-1][1][-1].q
         else:
-            to = numbers(item, place, 2)
-            said, more = f"line {to[0]} {to[1]}", [Edge(end, to)]
-            if to == end:
-                continue
-        words.append(said)
-        edges += more
-        end = edges[-1].q
-    return " ".join(words), edges
+            begun, end = end, read_point(item, place)
+            pieces += [line(begun, end)] if begun != end else []
+    pieces += [line(end, begin)] if begin != end else []
+    return " ".join(words for words, _ in pieces), [edge for _, edges in pieces for edge in edges]
+
+def line(p: Point, q: Point) -> tuple[str, list[Edge]]:
+    return f"line {q[0]} {q[1]}", [Edge(p, q)]
 
 def read_arc(p: Point, value: Any, place: str) -> tuple[str, list[Edge]]:
-    """An arc that begins in p: right angles, and the rest. To no point, it is a whole turn."""
-    got = members(value, f"{place}.arc", to=REQUIRED, through=None, center=None, clockwise=False, conjugate=None)
-    q = p if got["to"] is None else numbers(got["to"], place, 2)
-    clockwise = one_of(got["clockwise"], f"{place}.clockwise", False, True)
-    refuse_if((got["through"] is None) == (got["center"] is None), f"{place}: expected through, or center")
+    """An arc that begins in p."""
+    segment = members(value, place, arc=None, bezier=None, spline=None)
+    for key, name in {"bezier": "a Bezier curve", "spline": "a spline"}.items():
+        refuse_if(segment[key] is not None, f"{place}: {name}; `cfree verify` reads it")
+    optional = dict.fromkeys(("through", "center", "conjugate"))
+    got = members(segment["arc"], f"{place}.arc", to=REQUIRED, clockwise=False, **optional)
+    q, clockwise = read_point(got["to"], place), one_of(got["clockwise"], f"{place}.clockwise", False, True)
+    refuse_if((got["through"] is None) == (got["center"] is None), f"{place}: expected one of through, center")
     if got["through"] is None:
-        center = numbers(got["center"], place, 2)
+        center = read_point(got["center"], place)
     else:
         refuse_if(clockwise or got["conjugate"] is not None, f"{place}: clockwise, conjugate: of arcs about a center")
-        center, left = circle_through(p, numbers(got["through"], place, 2), q, place)
+        center, left = circle_through(p, read_point(got["through"], place), q, place)
         clockwise = left < 0
     u = minus(p, center)
-    v = (-u[1], u[0]) if got["conjugate"] is None else numbers(got["conjugate"], place, 2)
-    if clockwise != (got["conjugate"] is not None and cross(u, v) < 0):
-        v = -v[0], -v[1]
+    v = (-u[1], u[0]) if got["conjugate"] is None else read_point(got["conjugate"], place)
+    against = got["conjugate"] is not None and cross(u, v) < 0
+    return arc(p, q, center, v if clockwise == against else (-v[0], -v[1]), place)
+
+def arc(p: Point, q: Point, center: Any, v: Point, place: str) -> tuple[str, list[Edge]]:
+    """The arc from p to q on center + u cos t + v sin t: right angles, and the rest. From p to p it is a whole turn."""
+    u, end = minus(p, center), minus(q, center)
     is_circular = dot(u, v) == 0 and dot(u, u) == dot(v, v)
     refuse_if(not is_circular, f"{place}: an arc of an ellipse; `cfree verify` reads it")
-    end, turn = minus(q, center), sign(cross(u, v))
-    refuse_if(not turn or dot(end, end) != dot(u, u), f"{place}: an arc whose end is not on it")
-    points, begin = [p], u
+    turn, square, begin, points = sign(cross(u, v)), dot(u, u), u, [p]
+    refuse_if(not turn or dot(end, end) != square, f"{place}: an arc whose end is not on it")
     while (p == q and len(points) < 5) or dot(begin, end) <= 0 or turn * cross(begin, end) < 0:
         begin = -turn * begin[1], turn * begin[0]
         points.append((center[0] + begin[0], center[1] + begin[1]))
-    rest = turn * cross(begin, end) / (dot(u, u) + dot(begin, end))
-    words = ["arc", *center, *u, *v, len(points) - 1, rest]
-    edges = [Edge(a, b, center, turn) for a, b in pairwise([*points, *([q] if rest else [])])]
-    return " ".join(map(str, words)), edges
+    rest = turn * cross(begin, end) / (square + dot(begin, end))
+    words = " ".join(map(str, ["arc", *center, *u, *v, len(points) - 1, rest]))
+    return words, [Edge(a, b, center, turn) for a, b in pairwise(points + [q] * (rest != 0))]
 
 def circle_through(p: Point, q: Point, r: Point, place: str) -> tuple[Point, Fraction]:
     """The center, and above 0 if the circle is counter-clockwise."""
@@ -653,8 +668,8 @@ class Scene:
     """A robot of polygons, obstacles, perhaps a workspace, bounds, start and goal."""
 
     def __init__(
-        self, robot: list[Any], obstacles: list[Any], workspace: Polygon | Round | None, bounds: Fractions | None
-    ) -> None:  # Polygon or Round
+        self, robot: list[Any], obstacles: list[Any], workspace: Any, bounds: Fractions | None
+    ) -> None:  # all shapes are a Polygon or a Round
         self.robot, self.obstacles, self.workspace, self.bounds = robot, obstacles, workspace, bounds
         self.asked: dict[str, list[Pose]] = {}  # any one of them
         polygons = [*robot, *obstacles, *filter(None, [workspace])]
@@ -692,11 +707,12 @@ def read_scene(data: Any) -> Scene:
     robot, obstacles = ([each] if is_ring(each) else each for each in (got["robot"], got["obstacles"]))
     robot = [robot] if isinstance(robot, dict) else items(robot, "robot", 1)
     scene = Scene(
-        [read_polygon(part, f"robot[{k}]") for k, part in enumerate(robot)],
-        [read_polygon(o, f"obstacles[{k}]", name=None) for k, o in enumerate(items(obstacles, "obstacles"))],
-        None if got["workspace"] is None else read_polygon(got["workspace"], "workspace"),
+        [read_shape(part, f"robot[{k}]") for k, part in enumerate(robot)],
+        [read_shape(o, f"obstacles[{k}]", name=None) for k, o in enumerate(items(obstacles, "obstacles"))],
+        None if got["workspace"] is None else read_shape(got["workspace"], "workspace"),
         None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
     )
+    refuse_if(getattr(scene.workspace, "grown", 0), "workspace: expected the ring of its lines and arcs, not grown")
     refuse_if(got["goal"] is not None and bool(got["goals"]), "goals: there is a goal, too")
     if got["vehicle"] is not None:
         Vehicle(got["vehicle"])
@@ -710,9 +726,11 @@ def is_ring(value: Any) -> bool:
     first = value[0] if isinstance(value, list) and value else None
     return isinstance(first, list) and bool(first) and not isinstance(first[0], (list, dict))
 
-def read_polygon(value: Any, place: str, **more: Any) -> Polygon | Round:
-    if isinstance(value, dict) and value.keys() & ROUND:
-        return read_round(value, place, **more)
+def read_shape(value: Any, place: str, **more: Any) -> Polygon | Round:
+    is_round = isinstance(value, dict) and value.keys() & ROUND
+    return (read_round if is_round else read_polygon)(value, place, **more)
+
+def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
     got = members({"outer": value} if is_ring(value) else value, place, outer=REQUIRED, holes=[], **more)
     rings = [got["outer"], *items(got["holes"], f"{place}.holes")]
     read: list[Any] = [[numbers(point, place, 2) for point in items(ring, place)] for ring in rings]
@@ -1269,23 +1287,25 @@ def check_pose(world: World | RoundWorld, pose: Pose, what: str) -> None:
         raise RefutedError(f"{what}: {pose} is forbidden")
 
 # === Round shapes: poses and motions ===
-# One vertical line between any two neighbouring x of ends, vertical tangents and crossings stands for all between these:
-# the edges have one order there. Grown shapes overlap if edges are nearer than both growths together, or their cores do.
+# One vertical line between any two neighbouring x of ends, vertical tangents and crossings stands for all of these: the
+# edges have one order there. Grown shapes overlap if edges are nearer than both growths together, or the shapes do.
 
 def overlap(one: Region, other: Region) -> bool:
     """True if the interiors of two regions meet; the first is bounded."""
     gap = one.grown + other.grown
-    pairs = [(e, f) for e in one.edges for f in other.edges if e.is_near(f, gap)]
-    if gap and any(are_nearer(e, f, gap) for e, f in pairs):
-        return True
     (lo, bottom, hi, top), (left, below, right, above) = one.box, other.box
     if not other.outside:
+        if lo > right + gap or left > hi + gap or bottom > above + gap or below > top + gap:
+            return False
         lo, hi = max(lo, left), min(hi, right)
-    if lo >= hi or (not other.outside and (bottom >= above or below >= top)):
-        return False
-    if gap:  # no edges meet; so one line through each ring is enough
-        every = one.edges + other.edges
+    pairs = [(e, f) for e in one.edges for f in other.edges if e.is_near(f, gap)]
+    if gap:
+        if any(are_nearer(e, f, gap) for e, f in pairs):
+            return True
+        every = one.edges + other.edges  # none of one's meets one of the other, so one line through each ring is enough
         return any(overlap_on(one, other, clear_line(every, ring)) for ring in (*one.rings, *other.rings))
+    if lo >= hi:
+        return False
     edges = [edge for edge in (*one.edges, *other.edges) if edge.box[0] <= hi and lo <= edge.box[2]]
     polys = [*stops(edges), *(whole_numbers(meeting(e, f)) for e, f in pairs)]
     return any(overlap_on(one, other, x) for x in samples(polys, lo, hi))
@@ -1294,9 +1314,9 @@ def overlap_on(one: Region, other: Region, x: Fraction) -> bool:
     """True if the interiors meet on a vertical line: between two neighbouring heights it is inside both."""
     both = ((k, height) for k, region in enumerate((one, other)) for edge in region.edges for height in edge.heights(x))
     inside = [False, other.outside]
-    for here, following in pairwise([*sorted(both, key=cmp_to_key(compared_heights)), None]):
+    for here, above in pairwise(sorted(both, key=cmp_to_key(compared_heights))):
         inside[here[0]] ^= True
-        if all(inside) and compared_heights(here, following):
+        if all(inside) and compared_heights(here, above):
             return True
     return False
 
@@ -1308,26 +1328,27 @@ def are_nearer(one: Edge, other: Edge, gap: Fraction) -> bool:
     """True if two edges meet, or if they or their beginnings are nearer than a gap on a line that is normal to both."""
     if one.common_points(other):
         return True
-    pairs = [((edge, c, r), (f, d, s)) for edge, f in [(one, other)] for c, r in one.rounds for d, s in other.rounds]
+    pairs = [((one, *circle), (other, *another)) for circle in one.rounds for another in other.rounds]
     for edge, straight in ((one, other), (other, one)):
-        v = straight.chord
-        for c, r in edge.rounds if not straight.center else ():
-            share = dot(minus(c, straight.p), v) / dot(v, v)
+        p, v = straight.p, straight.chord
+        for c, r in () if straight.center else edge.rounds:
+            share = dot(minus(c, p), v) / dot(v, v)
             if 0 <= share <= 1:
-                pairs.append(((edge, c, r), (straight, (straight.p[0] + share * v[0], straight.p[1] + share * v[1]), ZERO)))
-    return any(circles_are_nearer(e, f, gap) for e, f in pairs)
+                pairs.append(((edge, c, r), (straight, (p[0] + share * v[0], p[1] + share * v[1]), ZERO)))
+    return any(rounds_are_nearer(*pair, gap) for pair in pairs)
 
-def circles_are_nearer(one: tuple[Edge, Point, Fraction], other: tuple[Edge, Point, Fraction], gap: Fraction) -> bool:
-    """True if two circles, of which the arcs are parts, or points are nearer than a gap on the line of their centers."""
+def rounds_are_nearer(one: tuple[Edge, Point, Fraction], other: tuple[Edge, Point, Fraction], gap: Fraction) -> bool:
+    """True if points of two edges on the line through the centers of their circles are nearer than a gap."""
     (e, c, r), (f, d, s) = one, other
     away = minus(d, c)
     if (square := dot(away, away)) == 0:
         return r == s == 0  # else ends of arcs are as near
-    sides = [[k for k in (1, -1) if edge.points_to((k * away[0], k * away[1]))] if q else [1] for edge, _, q in (one, other)]
-    for i in sides[0]:
-        for j in sides[1]:
+    for i in (1, -1) if r else (1,):
+        for j in (1, -1) if s else (1,):
             if all(root_sign(-gap, (k, square), (k * j, s), (-k * i, r)) < 0 for k in (1, -1)):
-                return True
+                ways = [(way * away[0], way * away[1]) for way in (i, j)]
+                if (not r or e.points_to(ways[0])) and (not s or f.points_to(ways[1])):
+                    return True
     return False
 
 @lru_cache(maxsize=1 << 12)
@@ -1354,48 +1375,41 @@ def contact_squares(radii: tuple[Fraction, ...]) -> tuple[Poly, ...]:
 def vanishing(n: Poly, m: Poly, *radii: Fraction) -> Iterator[Poly]:
     """Yield polynomials with zeros where n / m is the square of a sum of square roots with any signs."""
     for p in contact_squares(tuple(sorted(radii))):
-        total, power = (p[-1],), (1,)
+        total: Poly = (p[-1],)
+        power: Poly = (1,)
         for c in reversed(p[:-1]):
             power = times(power, m)
             total = combined((1, c), times(total, n), power)
         yield total
 
-class Edges:
-    """An edge of the robot on its course, and one of a wall, with the radius of their growths."""
+def contacts(course: Course, one: Edge, other: Edge, gap: Fraction) -> Iterator[Poly]:
+    """Yield polynomials with zeros wherever a contact of an edge of the robot and one of a wall may begin or end: where
+    ends are on lines or circles, or lines and circles touch; or where they are at a distance, the gap.
+    """
+    wide = [gap**2] if gap else []
+    turned = primitive(course.moving[0])  # divides squares of distances, and heights in the robot's frame
+    for c, r in one.rounds:
+        for d, s in other.rounds:
+            if radii := [q for q in (r, s, *wide) if q]:
+                yield from vanishing(*distance(course, c, d, turned), *radii)
+    back = padded([quotient(p, turned) for p in course.back])
+    for mine, straight, polys in ((one, other, course.moving), (other, one, back)):
+        if straight.center is None:
+            l, m, k = whole_numbers(straight.equation[1:])
+            for c, r in mine.rounds:
+                x, y, z = homogeneous(c)
+                height = combined((k * z, l * x + m * y, m * x - l * y, l * z, m * z), *polys)
+                width = times(((l * l + m * m) * z * z,), times(polys[0], polys[0]))
+                radii = [q for q in (r, *wide) if q]
+                yield from vanishing(times(height, height), width, *radii) if radii else [height]
 
-    def __init__(self, course: Course, one: Edge, other: Edge, gap: Fraction) -> None:
-        self.course, self.one, self.other, self.gap = course, one, other, gap
-
-    def events(self) -> Iterator[Poly]:
-        """Yield polynomials with zeros wherever a contact may begin or end: where ends are on lines or circles, or lines
-        and circles touch; if grown, where they are at that distance.
-        """
-        wide = [self.gap**2] if self.gap else []
-        turned = primitive(self.course.moving[0])  # divides squares of distances, and heights in the robot's frame
-        back = [quotient(p, turned) for p in self.course.back]
-        for c, r in self.one.rounds:
-            for d, s in self.other.rounds:
-                if radii := [q for q in (r, s, *wide) if q]:
-                    yield from vanishing(*self.apart(c, d, turned), *radii)
-        for mine, straight, polys in (
-            (self.one, self.other, self.course.moving), (self.other, self.one, padded(back))
-        ):  # fmt: skip
-            if straight.center is None:
-                l, m, k = whole_numbers(straight.equation[1:])
-                for c, r in mine.rounds:
-                    x, y, z = homogeneous(c)
-                    height = combined((k * z, l * x + m * y, m * x - l * y, l * z, m * z), *polys)
-                    radii, by = [q for q in (r, *wide) if q], ((l * l + m * m) * z * z,)
-                    square = times(polys[0], polys[0])
-                    yield from vanishing(times(height, height), times(by, square), *radii) if radii else [height]
-
-    def apart(self, one: Point, other: Point, turned: Poly) -> tuple[Poly, Poly]:
-        """Square of the distance of a point of the robot and one of a wall, as a quotient."""
-        (x, y, z), (a, b, c), (W, C, S, X, Y) = homogeneous(one), homogeneous(other), self.course.moving
-        right = combined((c * z, c * x, -c * y, -a * z), X, C, S, W)
-        up = combined((c * z, c * x, c * y, -b * z), Y, S, C, W)
-        square = combined((1, 1), times(right, right), times(up, up))
-        return quotient(square, turned), times((c * c * z * z,), times(W, quotient(W, turned)))[: len(W)]
+def distance(course: Course, one: Point, other: Point, turned: Poly) -> tuple[Poly, Poly]:
+    """Square of the distance of a point of the robot and one of a wall, as a quotient of polynomials."""
+    (x, y, z), (a, b, c), (W, C, S, X, Y) = homogeneous(one), homogeneous(other), course.moving
+    right = combined((c * z, c * x, -c * y, -a * z), X, C, S, W)
+    up = combined((c * z, c * x, c * y, -b * z), Y, S, C, W)
+    square = combined((1, 1), times(right, right), times(up, up))
+    return quotient(square, turned), times((c * c * z * z,), times(W, quotient(W, turned)))
 
 def homogeneous(p: Point) -> tuple[int, int, int]:
     """Integers (x, y, z) that stand for (x / z, y / z)."""
@@ -1446,9 +1460,10 @@ class RoundWorld:
         return None
 
     def later(self, part: Region, course: Course) -> Fraction | None:
-        """Likewise for one part, free at u = 0: halve until few edges are near each other, and try all that may differ."""
+        """Some u for one part, free at u = 0: intervals are halved until little may happen; then samples decide."""
         pieces = [piece_around(edge, part.grown) for edge in part.edges]
         pairs: dict[tuple[int, int], Pair] = {}
+        events: dict[tuple[int, int], set[Poly]] = {}
         todo = [(ALL, [list(range(len(self.edges))) for _ in pieces])]
         while todo:
             (lo, hi), walls = todo.pop()
@@ -1459,27 +1474,30 @@ class RoundWorld:
                     pairs[i, k] = pairs.get((i, k)) or Pair(course, piece, self.pieces[k])
                 left[i] = [k for k in left[i] if not pairs[i, k].has_room((lo, hi))]
             close = [(i, k) for i, ks in enumerate(left) for k in ks]
-            if len(close) > FEW and hi - lo > SHORT:
-                todo += [((lo, middle), left), ((middle, hi), left)]
-            elif close:
-                events = [
-                    p
-                    for i, k in close
-                    for p in Edges(course, part.edges[i], self.edges[k][1], part.grown + self.edges[k][0].grown).events()
-                    if may_vanish(p, (lo, hi))
-                ]
-                there = list({id(self.edges[k][0]): self.edges[k][0] for _, k in close}.values())
-                for u in samples(events, lo, hi):
-                    if self.overlaps(part, course, u, there):
-                        return u
+            halves = [((lo, middle), left), ((middle, hi), left)] if hi - lo > SHORT else []
+            if len(close) > MANY and halves:
+                todo += halves
+                continue
+            for i, k in close:
+                wall, edge = self.edges[k]
+                if (i, k) not in events:
+                    events[i, k] = set(map(primitive, contacts(course, part.edges[i], edge, part.grown + wall.grown)))
+            polys = {p for pair in close for p in events[pair] if may_vanish(p, (lo, hi))}
+            if len(polys) > FEW and halves:
+                todo += halves
+                continue
+            there = list({id(wall): wall for wall in (self.edges[k][0] for _, k in close)}.values())
+            for u in samples(polys, lo, hi) if there else ():
+                if self.overlaps(part, course, u, there):
+                    return u
         return None
 
-FEW = 4  # pairs of edges for which an interval is not halved
+MANY, FEW = 64, 8  # pairs of edges, and events, for which an interval is not halved
 
 def may_vanish(p: Poly, interval: Interval) -> bool:
-    """False if a polynomial certainly has no zero in an interval."""
-    coefficients = mapped(p, interval)
-    return min(coefficients, default=0) <= 0 <= max(coefficients, default=0)
+    """False if a polynomial certainly has no zero in an interval, or is zero all the time."""
+    coefficients = mapped(p, interval) if p else [1]
+    return min(coefficients) <= 0 <= max(coefficients)
 
 def region_around(shape: Polygon | Round) -> Region:
     rings = shape.edges if isinstance(shape, Round) else [[Edge(*e) for e in edges_of(ring)] for ring in shape.rings]
@@ -1573,7 +1591,7 @@ class PathAnswer(Answer):
         super().__init__(data, decimals=REQUIRED, motions=REQUIRED, disc=[], vehicle=None)
         self.vehicle = None if self.got["vehicle"] is None else Vehicle(self.got["vehicle"])
         self.disc: Ring = [numbers(p, "disc", 2) for p in items(self.got["disc"], "disc")]  # type: ignore[misc]
-        refuse_if(self.disc and (not self.clearance or len(self.disc) < 3), '"clearance" and "disc" belong together')
+        refuse_if(self.disc and (not self.clearance or len(self.disc) < 3), "disc: expected a polygon and a clearance")
         one_of(self.got["decimals"], "decimals", "free", "approximate")
         self.motions = [self.read_motion(k, m) for k, m in enumerate(items(self.got["motions"], "motions"))]
         refuse_if(self.effect(self.decimals) > self.size / 10**9, "the decimals lead elsewhere")
@@ -2243,7 +2261,7 @@ class Unreached(Answer):
         refuse_if(not self.vehicle.forward_only, "vehicle: expected a car without reverse gear")
         self.at = one_of(self.got["at"], "at", "start", "goal")
         rings = [items(ring, "pieces", 3) for ring in items(self.got["pieces"], "pieces", 1)]
-        self.pieces = [[numbers(point, "pieces", 2) for point in ring] for ring in rings]
+        self.pieces = [[read_point(point, "pieces") for point in ring] for ring in rings]
         names = ("corner", "side", "step", "columns", "rows", "slices")
         grid = members(self.got["grid"], "grid", **dict.fromkeys(names, REQUIRED))
         self.corner = numbers(grid["corner"], "corner", 2)
@@ -2308,7 +2326,7 @@ class Spread:
     def listed_row(self, k: int, j: int) -> int:
         first = (k * self.answer.rows + j) * self.answer.columns
         part = self.answer.bits[first // 8 : (first + self.answer.columns + 7) // 8]
-        return int.from_bytes(part, "little") >> first % 8 & self.full
+        return int((int.from_bytes(part, "little") >> first % 8) & self.full)
 
     def joined(self, rows: Sequence[int]) -> int:
         return int.from_bytes(b"".join(row.to_bytes(self.width // 8, "little") for row in rows), "little")
@@ -2327,7 +2345,7 @@ class Spread:
     def meets(self, ahead: Point, box: Fractions, x: Any, y: Any, half: Any) -> bool:
         """Whether a square about (x, y) meets a rectangle ahead of the origin."""
         (c, s), (least, most, wide), reach = ahead, box, half * (abs(ahead[0]) + abs(ahead[1])) + self.safe
-        return least - reach <= c * x + s * y <= most + reach and abs(c * y - s * x) <= wide + reach
+        return bool(least - reach <= c * x + s * y <= most + reach and abs(c * y - s * x) <= wide + reach)
 
     def around(self, ahead: Point, box: Fractions, half: Any) -> list[Fraction]:
         """Bounds x0, x1, y0, y1 of the middles of squares that meet a rectangle."""
