@@ -375,7 +375,7 @@ def is_convex(rings: list[Ring]) -> bool:
 def is_around_disc(ring: Ring, radius: Fraction) -> bool:
     """True if a ring is convex, with a disc about the origin inside."""
     sides = ((cross(p, q), minus(q, p)) for p, q in edges_of(ring))
-    return len(ring) > 2 and is_convex([ring]) and all(h > 0 and h * h >= radius**2 * dot(u, u) for h, u in sides)
+    return is_convex([ring]) and all(h > 0 and h * h >= radius**2 * dot(u, u) for h, u in sides)
 
 # === Round shapes: rings of segments and of arcs of circles ===
 def root_sign(a: Fraction, *roots: tuple[int, Fraction]) -> int:
@@ -1662,10 +1662,8 @@ def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
         said = "its decimals are not free, as it claims, or the robot is where it may not be"
         worlds[said] = world.roomier(answer.leeway())
     if answer.clearance:
-        refute_if(
-            isinstance(world, World) and not is_around_disc(answer.disc, answer.clearance),
-            "disc: it is not convex, or not around a disc of that radius",
-        )
+        is_wrong = isinstance(world, World) and (not answer.disc or not is_around_disc(answer.disc, answer.clearance))
+        refute_if(is_wrong, "disc: it is not convex, or not around a disc of that radius")
         there = world.larger(answer.disc) if isinstance(world, World) else world.grown(answer.clearance)
         worlds["the robot is nearer to something than the clearance"] = there
     for said, there in worlds.items():
