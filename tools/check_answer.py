@@ -24,6 +24,11 @@ between them meets a piece, where the robot touches something. So "interior" pro
 "closed" ones have contacts of a robot strictly inside the real one: where it touches, the real one overlaps. A
 clearance is kept by a robot larger by a polygon around a disc; it is not if a robot all nearer touches.
 
+Round shapes. Edges are segments and arcs of circles, perhaps grown by a disc. At one pose two shapes overlap if one of
+finitely many vertical lines has a part inside both, or if edges are nearer than they are grown. Along a motion this
+changes only where ends are on lines or circles, or these touch, at polynomials' zeros. Numbers with square roots are
+compared as integers, with as many digits as tell them from zero.
+
 Vehicles. A car drives along forward, or turns about a pole on the line of its axle: signs of rationals decide. Contacts
 hold it if the first motion of every curvature overlaps something. Between neighbouring zeros of the rates one stands
 for all. A car without reverse gear does not reach a goal that is in no listed box if every step of travel from a listed

@@ -35,6 +35,8 @@ HOLE = Curved(box(-3, -3, 3, 3)[0], [Circle((0, 0), 1)])
 PEG = Curved([(-2, -1), (2, -1), Arc((2, 1), center=(2, 0)), (-2, 1), Arc((-2, -1), center=(-2, 0))])
 SLOT = Curved([(-9, -1), (9, -1), Arc((9, 1), center=(9, 0)), (-9, 1), Arc((-9, -1), center=(-9, 0))])
 SLAB = Curved([(0, 0), (2, 0), (2, 1), (0, 1)], grown="1/2")
+HAMMER = Curved([(0, 0), (3, -4), (2, 0)], grown="1/2")  # its lowest point, in the middle of a swing, is at -11/2
+SWING = Rotation((0, 0), {"tau": "-3/4"})
 ACROSS, TURN = Translation((6, 0)), Rotation((0, 0), {"tau": "inf"})
 
 
@@ -68,6 +70,10 @@ def read(scene: Scene) -> Any:
         (Scene(UNIT, workspace=Curved.circle((0, 0), 3 - EPS)), Pose(1, 0), Translation((1, 0)), False),
         (Scene(UNIT, bounds=(-2, -2, 2, 2), obstacles=[FLOOR]), Pose(-2, 1), Translation((4, 0)), True),
         (Scene(UNIT, bounds=(-2, -2, 2, 2), obstacles=[FLOOR]), Pose(-2, 1), Translation((4 + EPS, 0)), False),
+        (Scene(HAMMER, [box(-9, -9, 9, "-11/2")[0]]), Pose(0, 0), SWING, True),
+        (Scene(HAMMER, [box(-9, -9, 9, Fraction(-11, 2) + EPS)[0]]), Pose(0, 0), SWING, False),
+        (Scene(HAMMER, [Curved.circle((0, -7), "3/2")]), Pose(0, 0), SWING, True),
+        (Scene(HAMMER, [Curved.circle((0, -7), Fraction(3, 2) + EPS)]), Pose(0, 0), SWING, False),
     ],
 )
 def test_exact_fits_of_arcs_are_verified_and_the_least_overlap_is_not(
@@ -89,6 +95,13 @@ def test_a_clearance_is_that_of_a_robot_grown_by_a_disc(clearance: Any, height: 
     assert verified_in_a_file(Scene(UNIT, [FLOOR]), path).verified is keeps
 
 
+def test_a_clearance_from_a_round_wall_is_exact() -> None:
+    """The nearest points of disc and wall are beyond the disc's center, as that of the wall has it."""
+    path = Path(Pose(0, 0), [Translation(("6/5", "8/5"))], clearance=Fraction(1, 2))
+    for radius, keeps in ((Fraction(7, 2), True), (Fraction(7, 2) - EPS, False)):
+        assert verified_in_a_file(Scene(UNIT, workspace=Curved.circle((0, 0), radius)), path).verified is keeps
+
+
 def test_decimals_are_free_only_if_a_disc_of_their_leeway_is(tmp_path: FilePath) -> None:
     """The leeway of this path is 2^-52: a claim for a robot nearer than that is refuted by both."""
     third = Fraction(1, 3)
@@ -107,6 +120,7 @@ def test_decimals_are_free_only_if_a_disc_of_their_leeway_is(tmp_path: FilePath)
         assert code == 1 and "its decimals are not free" in line
 
 
+@pytest.mark.slow
 def test_a_path_along_arcs_and_changes_of_it_by_the_least_amounts() -> None:
     """A stadium in a corridor of its width turns in a room of radius sqrt(10), touching a disc."""
     scene, path = rounded()
@@ -215,6 +229,7 @@ def test_a_car_with_round_corners_can_drive_it() -> None:
 RANDOM = [kind(random.Random(seed)) for kind in fuzz_arcs.KINDS for seed in range(12)]
 
 
+@pytest.mark.slow
 def test_round_shapes_are_read_alike() -> None:
     """Hashes of scenes and boxes of robots: arcs through points, clockwise, with conjugate radii."""
     quarter = Arc((0, 1), center=(0, 0), conjugate=(0, 1))
