@@ -188,24 +188,20 @@ SOLID = [STADIUM, BAY, MOON, FILLET]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(12))
-def test_planned_paths_in_random_round_scenes_are_verified_by_both(seed: int) -> None:
-    rng = random.Random(seed)
-    robot = rng.choice([DISC, STADIUM, CAR, MOON, FILLET, Curved.circle((0, 0), "1/2")])
-    obstacles = [fuzz_arcs.moved([*shape.path], *fuzz_arcs.point(rng, 9)) for shape in rng.choices(SOLID, k=4)]
-    scene = Scene([robot], obstacles, workspace=Curved.circle((0, 0), 16))
-    poses = (Pose(*fuzz_arcs.point(rng, 11), f"{rng.randint(0, 359)}deg") for _ in range(40))
-    free = [pose for pose in poses if ArcWorld(scene).is_free(place_of(pose, 1))]
+def test_planned_paths_in_random_round_scenes_are_verified_by_both() -> None:
     planned = 0
-    for clearance in ({}, {"clearance": "1/16"}):
-        try:
-            answer = plan(scene, free[0], free[1], improve=0, **clearance)  # type: ignore[arg-type]
-        except (CfreeError, ValueError):
-            continue
+    for seed in range(12):
+        rng = random.Random(seed)
+        robot = rng.choice([DISC, STADIUM, CAR, MOON, FILLET, Curved.circle((0, 0), "1/2")])
+        obstacles = [fuzz_arcs.moved([*shape.path], *fuzz_arcs.point(rng, 9)) for shape in rng.choices(SOLID, k=4)]
+        scene = Scene(robot, obstacles, workspace=Curved.circle((0, 0), 16))
+        poses = (Pose(*fuzz_arcs.point(rng, 11), f"{rng.randint(0, 359)}deg") for _ in range(40))
+        start, goal, *_ = (pose for pose in poses if ArcWorld(scene).is_free(place_of(pose, 1)))
+        answer = plan(scene, start, goal, improve=0, clearance=rng.choice([None, "1/16"]))
         if isinstance(answer, Path) and answer.scene is None:
             planned += 1
             assert verified_in_a_file(scene, answer).verified
-    assert planned or len(free) < 40
+    assert planned > 8
 
 
 @pytest.mark.slow
