@@ -1657,7 +1657,7 @@ def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
     """Sentence that states the result."""
     world: World | RoundWorld = RoundWorld(scene) if scene.is_round else World(scene)
     only = "; its decimals are approximate"
-    refuse_if(scene.is_round and any(motion.slide for motion in answer.motions), "a slide among round shapes")
+    refute_if(scene.is_round and any(motion.slide for motion in answer.motions), "slides are for polygons")
     answer.check_moved(world)
     check_pose(world, answer.start, "start")
     check_pose(world, answer.goal, "goal")

@@ -14,7 +14,7 @@ import pytest
 from shapely.affinity import affine_transform
 
 import fuzz_arcs
-from answers import rounded, text_of
+from answers import rounded, tee, text_of
 from arc_shapes import BAY, CAR, DISC, FILLET, MOON, STADIUM, dense
 from arc_shapes import SHAPES as MANY_SHAPES
 from cfree import Car, Curved, Path, Pose, Rotation, Scene, Translation, load_scene, plan, save
@@ -298,6 +298,12 @@ def test_answers_about_polygons_for_round_shapes_are_refused_in_one_line(tmp_pat
     save(plan(scene), tmp_path / "proof.json")
     code, line = check_answer.verdict(scene_text(scene), (tmp_path / "proof.json").read_text())
     assert code == 2 and "about polygons" in line and "`cfree verify` reads it" in line
+
+
+def test_slides_among_round_shapes_are_refuted_by_both() -> None:
+    scene, path = tee()
+    beside = replace(scene, obstacles=[Curved.circle((50, 50), 1)], obstacle_names=None)
+    assert not verified_in_a_file(beside, path).verified
 
 
 def test_signs_of_sums_of_square_roots_are_exact() -> None:
