@@ -24,6 +24,11 @@ between them meets a piece, where the robot touches something. So "interior" pro
 "closed" ones have contacts of a robot strictly inside the real one: where it touches, the real one overlaps. A
 clearance is kept by a robot larger by a polygon around a disc; it is not if a robot all nearer touches.
 
+Round shapes. Edges are segments and arcs of circles, perhaps grown by a disc. At one pose two shapes overlap if one of
+finitely many vertical lines has a part inside both, or if edges are nearer than they are grown. Along a motion this
+changes only where ends are on lines or circles, or these touch, at polynomials' zeros. Numbers with square roots are
+compared as integers, with as many digits as tell them from zero.
+
 Vehicles. A car drives along forward, or turns about a pole on the line of its axle: signs of rationals decide. Contacts
 hold it if the first motion of every curvature overlaps something. Between neighbouring zeros of the rates one stands
 for all. A car without reverse gear does not reach a goal that is in no listed box if every step of travel from a listed
@@ -85,7 +90,7 @@ LARGEST = 10**150  # largest coordinate
 MAX_BITS = 1110  # bits of a scene's coordinates over their common denominator
 QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")
 BITS = 1300  # bits of angles: there may be 1024 in front of the point
-REQUIRED, ROUND = object(), {"circle", "ellipse", "path", "grown"}  # keys of shapes that are no polygons
+REQUIRED, ROUND = object(), {"circle", "ellipse", "path", "grown"}  # keys of round shapes
 
 def decoded(text: str) -> Any:
     """A JSON value: decimals as `Decimal`, integers as int."""
@@ -106,7 +111,7 @@ def members(value: Any, place: str, /, **known: Any) -> dict[str, Any]:
     """Members of an object; `known` holds the keys, each with its default."""
     refuse_if(not isinstance(value, dict), f"{place}: expected an object")
     for key in value:
-        refuse_if(key not in known, f"{place}: unknown key {key!a}" + "; `cfree verify` reads it" * (key in ROUND))
+        refuse_if(key not in known, f"{place}: unknown key {key!a}")
     for key, default in known.items():
         refuse_if(default is REQUIRED and key not in value, f"{place}: {key!a} is missing")
     return {key: value.get(key, default) for key, default in known.items()}
@@ -141,6 +146,10 @@ def number(value: Any, place: str) -> Fraction:
 
 def numbers(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     return tuple(number(item, place) for item in items(value, place, count, count))
+
+def read_point(value: Any, place: str) -> tuple[Fraction, Fraction]:
+    x, y = numbers(value, place, 2)
+    return x, y
 
 def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     """Numbers that are not in quotes."""
@@ -274,6 +283,16 @@ class Polygon:
         refuse_if(self.unit.bit_length() > MAX_BITS, f"{place}: its common denominator is too long")
         check_rings(self.integers(self.unit), place)
 
+    @property
+    def words(self) -> list[str]:
+        """Its rings in the text of a scene's hash."""
+        return [" ".join(map(str, chain(*ring))) for ring in self.rings]
+
+    @property
+    def box(self) -> tuple[Fraction, ...]:
+        xs, ys = zip(*self.rings[0], strict=True)
+        return min(xs), min(ys), max(xs), max(ys)
+
     def integers(self, scale: int) -> list[Ring]:
         """Its rings times a multiple of all denominators."""
         return [scaled(ring, scale) for ring in self.rings]
@@ -363,16 +382,303 @@ def is_around_disc(ring: Ring, radius: Fraction) -> bool:
     sides = ((cross(p, q), minus(q, p)) for p, q in edges_of(ring))
     return is_convex([ring]) and all(h > 0 and h * h >= radius**2 * dot(u, u) for h, u in sides)
 
+# === Round shapes: rings of segments and of arcs of circles ===
+def root_sign(a: Fraction, *roots: tuple[int, Fraction]) -> int:
+    """Sign of a + the sum of s sqrt(k) for all pairs (s, k), s = 1, 0 or -1.
+
+    Over a common denominator all numbers are integers. The value and its conjugates, which have other signs of the n
+    roots, are at most `most`, and their product is an integer. So if it is not 0, it is at least 1 / most^(2^n - 1).
+    """
+    roots = tuple((s, k) for s, k in roots if s and k)
+    unit = math.lcm(a.denominator, *(k.denominator for _, k in roots))
+    n, squares = int(a * unit), [(s, int(k * unit * unit)) for s, k in roots]
+    most = abs(n) + sum(math.isqrt(k) + 1 for _, k in squares)
+    bits, enough = 32, most.bit_length() * (2 ** len(squares) - 1) + 4
+    while True:
+        total = (n << bits) + sum(s * math.isqrt(k << 2 * bits) for s, k in squares)  # each off by less than 1
+        if abs(total) >= max(1, len(squares)):
+            return sign(total)
+        if bits >= enough or not squares:
+            return 0
+        bits = min(8 * bits, enough)
+
+class Edge:
+    """A segment from p to q; or an arc of at most a right angle, counter-clockwise if turn is 1, clockwise if it is -1.
+
+    Its rounds are circles: its beginning, with no radius, and that of the arc. Their radii are given squared.
+    """
+
+    def __init__(self, p: Point, q: Point, center: Point | None = None, turn: int = 0) -> None:
+        self.p, self.q, self.center, self.turn, self.chord = p, q, center, turn, minus(q, p)
+        self.corners, self.rounds = [p, q], [(p, ZERO)]
+        if center is None:
+            self.equation = 0, -self.chord[1], self.chord[0], cross(p, q)
+        else:
+            begin, end = minus(p, center), minus(q, center)
+            self.square = dot(begin, begin)
+            share = self.square / (self.square + dot(begin, end))  # to where both tangents meet
+            self.corners.append((center[0] + share * (begin[0] + end[0]), center[1] + share * (begin[1] + end[1])))
+            self.rounds.append((center, self.square))
+            self.equation = 1, -2 * center[0], -2 * center[1], dot(center, center) - self.square
+        (*xs,), (*ys,) = zip(*self.corners, strict=True)
+        self.box = min(xs), min(ys), max(xs), max(ys)
+
+    def moved(self, place: Fractions) -> Edge:
+        """The edge after a rotation, by cosine and sine, and a translation."""
+        x, y, c, s = place
+
+        def there(p: Point) -> Point:
+            return x + c * p[0] - s * p[1], y + s * p[0] + c * p[1]
+
+        return Edge(there(self.p), there(self.q), self.center and there(self.center), self.turn)
+
+    def is_near(self, other: Edge, gap: Fraction) -> bool:
+        """True if boxes around them are no farther apart than a gap."""
+        (a, b, c, d), (e, f, g, h) = self.box, other.box
+        return bool(a <= g + gap and e <= c + gap and b <= h + gap and f <= d + gap)
+
+    def points_to(self, v: Point) -> bool:
+        """True if the arc has a point in this direction from its center: one on the outer side of its chord."""
+        assert self.center
+        a, b = cross(self.chord, minus(self.center, self.p)), cross(self.chord, v)
+        return self.turn * root_sign(a, (sign(b), b * b * self.square / dot(v, v))) <= 0
+
+    def stops_at(self, x: Fraction) -> bool:
+        """True if the edge begins at this x, or its circle has a vertical tangent."""
+        return x == self.p[0] or bool(self.center and self.square == (x - self.center[0]) ** 2)
+
+    def heights(self, x: Fraction) -> list[tuple[Fraction, int, Fraction]]:
+        """All (a, s, k) for which (x, a + s sqrt(k)) is on the edge; x is that of no end and of no vertical tangent."""
+        (px, py), (qx, _), (u, v) = self.p, self.q, self.chord
+        if self.center is None:
+            return [(py + (x - px) * v / u, 0, ZERO)] if (px < x) != (qx < x) else []
+        cy, k = self.center[1], self.square - (x - self.center[0]) ** 2
+        a = u * (cy - py) - v * (x - px)
+        up_and_down = (1, -1) if k > 0 else ()
+        return [(cy, s, k) for s in up_and_down if self.turn * root_sign(a, (s * sign(u), u * u * k)) < 0]
+
+    def common_points(self, other: Edge) -> list[tuple[Point, Point, Fraction]]:
+        """All (p, v, k) for which p + v sqrt(k) is on both; of edges on one line or circle, ends alone."""
+        if self.center is None and other.center:
+            return other.common_points(self)
+        (_, *first), (f, *second) = self.equation, other.equation
+        if f:
+            second = [a - b for a, b in zip(first, second, strict=True)]
+        l, m, k = second
+        places: list[tuple[Point, Point, Fraction]] = []
+        if self.center:
+            n, h = l * l + m * m, -(l * self.center[0] + m * self.center[1] + k)
+            if n and (rest := self.square - h * h / n) >= 0:
+                foot, along = (self.center[0] + h * l / n, self.center[1] + h * m / n), (-m, l)
+                places = [(foot, (s * along[0], s * along[1]), rest / n) for s in ((1, -1) if rest else (1,))]
+            on_one = not n and not k
+        else:
+            a, b, c = first
+            d = a * m - b * l
+            places = [((Fraction(b * k - c * m) / d, Fraction(c * l - a * k) / d), (ZERO, ZERO), ZERO)] if d else []
+            on_one = not d and l * self.p[0] + m * self.p[1] + k == 0
+        if on_one:
+            places = [(p, (ZERO, ZERO), ZERO) for p in (self.p, self.q, other.p, other.q)]
+        return [place for place in places if self.holds(*place) and other.holds(*place)]
+
+    def holds(self, p: Point, v: Point, k: Fraction) -> bool:
+        """True if p + v sqrt(k), a point of its line or circle, is on the edge."""
+        def side_of(value: Any, other: Any) -> int:
+            return root_sign(value, (sign(other), other * other * k))
+        u, away = self.chord, minus(p, self.p)
+        if self.center:
+            return self.turn * side_of(cross(u, away), cross(u, v)) <= 0
+        return side_of(dot(u, away), dot(u, v)) >= 0 >= side_of(dot(u, away) - dot(u, u), dot(u, v))
+
+def meeting(one: Edge, other: Edge) -> list[Fraction]:
+    """Polynomial in x, with a zero wherever two edges meet: without y, and in place of two circles one and a line."""
+    if one.center is None and other.center:
+        one, other = other, one
+    (e, L, M, K), (f, l, m, k) = one.equation, other.equation
+    if not e:
+        return [K * m - M * k, L * m - M * l]
+    if f:
+        l, m, k = L - l, M - m, K - k
+    return [k * k - M * m * k + K * m * m, 2 * l * k + L * m * m - M * m * l, m * m + l * l]
+
+def whole_numbers(p: Sequence[Any]) -> Poly:
+    """A polynomial, times its common denominator."""
+    unit = math.lcm(*(c.denominator for c in p))
+    return tuple(int(c * unit) for c in p)
+
+def clear_line(edges: Sequence[Edge], ring: Sequence[Edge]) -> Fraction:
+    """Some x on which a ring has points, and no edge begins or has a vertical tangent."""
+    low, high, parts = min(edge.box[0] for edge in ring), max(edge.box[2] for edge in ring), 1
+    while True:
+        parts *= 2
+        for x in (low + (high - low) * Fraction(k, parts) for k in range(1, parts, 2)):
+            if not any(edge.stops_at(x) for edge in edges) and any(edge.heights(x) for edge in ring):
+                return Fraction(x)
+
+def stops(edges: Iterable[Edge]) -> Iterator[Poly]:
+    """Yield polynomials in x with zeros at all ends and vertical tangents."""
+    for edge in edges:
+        yield whole_numbers([-edge.p[0], ONE])
+        if edge.center:
+            yield whole_numbers([edge.center[0] ** 2 - edge.square, -2 * edge.center[0], ONE])
+
+@dataclass
+class Region:
+    """All that rings go around an odd number of times, an even number if `outside`; and what is nearer than `grown`."""
+
+    rings: Sequence[Sequence[Edge]]
+    grown: Fraction = ZERO
+    outside: bool = False
+
+    def __post_init__(self) -> None:
+        self.edges = list(chain.from_iterable(self.rings))
+        boxes = [edge.box for edge in self.edges]
+        self.box = tuple(f(box[k] for box in boxes) for k, f in enumerate((min, min, max, max)))
+
+    def moved(self, place: Fractions) -> Region:
+        return Region([[edge.moved(place) for edge in ring] for ring in self.rings], self.grown)
+
+def differ(p: Point, v: Point, k: Fraction, q: Point) -> bool:
+    """True if p + v sqrt(k) is another point than q."""
+    return any(root_sign(a - b, (sign(c), c * c * k)) for a, b, c in zip(p, q, v, strict=True))
+
+class Round:
+    """A round shape of a scene. Its rings are named by the ends of their edges."""
+
+    def __init__(self, curves: Sequence[tuple[str, list[Edge]]], grown: Fraction, place: str) -> None:
+        self.words, self.edges, self.grown = [words for words, _ in curves], [edges for _, edges in curves], grown
+        self.rings = [[edge.p for edge in edges] for edges in self.edges]
+        numbers = [c for edges in self.edges for e in edges for p in (e.p, e.center) if p for c in p]
+        self.unit = math.lcm(grown.denominator, *(c.denominator for c in numbers))
+        refuse_if(self.unit.bit_length() > MAX_BITS, f"{place}: its common denominator is too long")
+        refuse_if(not all(self.edges), f"{place}: a ring without edges")
+        every = list(chain.from_iterable(self.edges))
+        for i, edge in enumerate(every):
+            for other in every[:i]:
+                joints = [a.q for a, b in ((edge, other), (other, edge)) if a.q == b.p]
+                touched = edge.common_points(other) if edge.is_near(other, ZERO) else []
+                folded = len(joints) == 2 and (edge.center, other.center) in ((None, None), (edge.center, edge.center))
+                wrong = folded or any(all(differ(*place, q) for q in joints) for place in touched)
+                refuse_if(wrong, f"{place}: edges that cross, overlap or touch")
+        for k, hole in enumerate(self.edges[1:], 1):
+            x = clear_line(every, hole)
+            a, s, r = next(height for edge in hole for height in edge.heights(x))
+            for m, ring in enumerate(self.edges):
+                below = sum(root_sign(a - b, (s, r), (-t, q)) > 0 for edge in ring for b, t, q in edge.heights(x))
+                refuse_if(m != k and below % 2 != (m == 0), f"{place}: a hole outside, or in another")
+
+    @property
+    def box(self) -> list[Fraction]:
+        """Box around the outer ring, and its growth (docs/answer-format.md, "Round shapes")."""
+        return [s * (extreme(self.edges[0], k, s) + self.grown) for s in (-1, 1) for k in (0, 1)]
+
+def extreme(edges: Sequence[Edge], axis: int, s: int) -> Fraction:
+    """The greatest coordinate on an axis, or that of its negative; where it is a square root, rounded up."""
+    greatest = max(s * edge.p[axis] for edge in edges)
+    for edge in edges:
+        if edge.center:
+            way = (Fraction(s), ZERO) if axis == 0 else (ZERO, Fraction(s))
+            begin, end = minus(edge.p, edge.center), minus(edge.q, edge.center)
+            if edge.turn * cross(begin, way) > 0 < edge.turn * cross(way, end):
+                n, d = edge.square.as_integer_ratio()
+                root = Fraction(math.isqrt(n), math.isqrt(d))
+                scale = 1 << 2 * (60 + max(0, d.bit_length() - n.bit_length()))
+                above = Fraction(math.isqrt(n * scale // d) + 1, math.isqrt(scale))
+                greatest = max(greatest, s * edge.center[axis] + (root if root * root == edge.square else above))
+    return Fraction(greatest)
+
+def read_round(value: dict[str, Any], place: str, **more: Any) -> Round:
+    got = members(value, place, circle=None, ellipse=None, path=None, outer=None, holes=[], grown=None, **more)
+    grown = ZERO if got["grown"] is None else number(got["grown"], f"{place}.grown")
+    refuse_if(grown < 0, f"{place}.grown: expected a length")
+    outer = {key: got[key] for key in ("circle", "ellipse", "path", "outer") if got[key] is not None}
+    curves = [read_curve(ring, place, "outer") for ring in [outer]]
+    curves += [read_curve(ring, place) for ring in items(got["holes"], f"{place}.holes")]
+    straight = all(edge.center is None for _, edges in curves for edge in edges)
+    refuse_if(grown and not straight, f"{place}.grown: expected a polygon")
+    return Round(curves, grown, place)
+
+def read_curve(value: Any, place: str, *more: str) -> tuple[str, list[Edge]]:
+    """A ring in the words of docs/answer-format.md, "Round shapes", and its edges."""
+    known = dict.fromkeys(("circle", "ellipse", "path", *more))
+    got = members({"path": value} if isinstance(value, list) else value, place, **known)
+    refuse_if(sum(member is not None for member in got.values()) != 1, f"{place}: expected one of circle, path")
+    refuse_if(got["ellipse"] is not None, f"{place}: an ellipse; `cfree verify` reads it")
+    if got["circle"] is not None:
+        circle = members(got["circle"], place, center=REQUIRED, radius=REQUIRED)
+        (x, y), radius = read_point(circle["center"], place), number(circle["radius"], place)
+        refuse_if(radius <= 0, f"{place}: expected a radius above 0")
+        return arc((x + radius, y), (x + radius, y), (x, y), (ZERO, radius), place)
+    path = items(got["outer"] if got["path"] is None else got["path"], place, 1)
+    refuse_if(got["path"] is None and not all(isinstance(p, list) for p in path), f"{place}.outer: expected points")
+    pieces: list[tuple[str, list[Edge]]] = []
+    begin = end = read_point(path[0], place)
+    for item in path[1:]:
+        if isinstance(item, dict):
+            pieces.append(read_arc(end, item, place))
+            end = pieces[-1][1][-1].q
+        else:
+            begun, end = end, read_point(item, place)
+            pieces += [line(begun, end)] if begun != end else []
+    pieces += [line(end, begin)] if begin != end else []
+    return " ".join(words for words, _ in pieces), [edge for _, edges in pieces for edge in edges]
+
+def line(p: Point, q: Point) -> tuple[str, list[Edge]]:
+    return f"line {q[0]} {q[1]}", [Edge(p, q)]
+
+def read_arc(p: Point, value: Any, place: str) -> tuple[str, list[Edge]]:
+    """An arc that begins in p."""
+    segment = members(value, place, arc=None, bezier=None, spline=None)
+    for key, name in {"bezier": "a Bezier curve", "spline": "a spline"}.items():
+        refuse_if(segment[key] is not None, f"{place}: {name}; `cfree verify` reads it")
+    optional = dict.fromkeys(("through", "center", "conjugate"))
+    got = members(segment["arc"], f"{place}.arc", to=REQUIRED, clockwise=False, **optional)
+    q, clockwise = read_point(got["to"], place), one_of(got["clockwise"], f"{place}.clockwise", False, True)
+    refuse_if((got["through"] is None) == (got["center"] is None), f"{place}: expected one of through, center")
+    if got["through"] is None:
+        center = read_point(got["center"], place)
+    else:
+        refuse_if(clockwise or got["conjugate"] is not None, f"{place}: clockwise, conjugate: of arcs about a center")
+        center, left = circle_through(p, read_point(got["through"], place), q, place)
+        clockwise = left < 0
+    u = minus(p, center)
+    v = (-u[1], u[0]) if got["conjugate"] is None else read_point(got["conjugate"], place)
+    against = got["conjugate"] is not None and cross(u, v) < 0
+    return arc(p, q, center, v if clockwise == against else (-v[0], -v[1]), place)
+
+def arc(p: Point, q: Point, center: Any, v: Point, place: str) -> tuple[str, list[Edge]]:
+    """The arc from p to q on center + u cos t + v sin t: right angles, and the rest. From p to p it is a whole turn."""
+    u, end = minus(p, center), minus(q, center)
+    is_circular = dot(u, v) == 0 and dot(u, u) == dot(v, v)
+    refuse_if(not is_circular, f"{place}: an arc of an ellipse; `cfree verify` reads it")
+    turn, square, begin, points = sign(cross(u, v)), dot(u, u), u, [p]
+    refuse_if(not turn or dot(end, end) != square, f"{place}: an arc whose end is not on it")
+    while (p == q and len(points) < 5) or dot(begin, end) <= 0 or turn * cross(begin, end) < 0:
+        begin = -turn * begin[1], turn * begin[0]
+        points.append((center[0] + begin[0], center[1] + begin[1]))
+    rest = turn * cross(begin, end) / (square + dot(begin, end))
+    words = " ".join(map(str, ["arc", *center, *u, *v, len(points) - 1, rest]))
+    return words, [Edge(a, b, center, turn) for a, b in pairwise(points + [q] * (rest != 0))]
+
+def circle_through(p: Point, q: Point, r: Point, place: str) -> tuple[Point, Fraction]:
+    """The center, and above 0 if the circle is counter-clockwise."""
+    u, v = minus(q, p), minus(r, p)
+    left = cross(u, v)
+    refuse_if(left == 0, f"{place}: three points of an arc on one line")
+    a, b = dot(u, u) / (2 * left), dot(v, v) / (2 * left)
+    return (p[0] + a * v[1] - b * u[1], p[1] + b * u[0] - a * v[0]), left
+
 # === Scenes ===
 class Scene:
     """A robot of polygons, obstacles, perhaps a workspace, bounds, start and goal."""
 
     def __init__(
-        self, robot: list[Polygon], obstacles: list[Polygon], workspace: Polygon | None, bounds: Fractions | None
-    ) -> None:
+        self, robot: list[Any], obstacles: list[Any], workspace: Any, bounds: Fractions | None
+    ) -> None:  # all shapes are a Polygon or a Round
         self.robot, self.obstacles, self.workspace, self.bounds = robot, obstacles, workspace, bounds
         self.asked: dict[str, list[Pose]] = {}  # any one of them
         polygons = [*robot, *obstacles, *filter(None, [workspace])]
+        self.is_round = any(isinstance(polygon, Round) for polygon in polygons)
         self.scale = math.lcm(*(p.unit for p in polygons), *(b.denominator for b in bounds or ()))
         coordinates = [c for p in polygons for ring in p.rings for point in ring for c in point]
         largest = max(abs(c) for c in (*coordinates, *(bounds or ())))
@@ -382,8 +688,8 @@ class Scene:
     @property
     def box(self) -> tuple[Fraction, ...]:
         """Box around the robot, in its frame."""
-        xs, ys = zip(*(point for part in self.robot for point in part.rings[0]), strict=True)
-        return min(xs), min(ys), max(xs), max(ys)
+        boxes = [part.box for part in self.robot]
+        return tuple(f(box[k] for box in boxes) for k, f in enumerate((min, min, max, max)))
 
     @property
     def sha256(self) -> str:
@@ -392,8 +698,8 @@ class Scene:
         kinds = ("robot", self.robot), ("obstacle", self.obstacles), ("workspace", filter(None, [self.workspace]))
         for word, polygon in ((word, polygon) for word, polygons in kinds for polygon in polygons):
             lines.append(word)
-            for k, ring in enumerate(polygon.rings):
-                lines.append(" ".join(["hole" if k else "outer", *map(str, chain(*ring))]))
+            lines += [f"{'hole' if k else 'outer'} {ring}" for k, ring in enumerate(polygon.words)]
+            lines += [f"grown {polygon.grown}"] if isinstance(polygon, Round) and polygon.grown else []
         lines += [f"bounds {' '.join(map(str, self.bounds))}"] if self.bounds else []
         return hashlib.sha256("".join(f"{line}\n" for line in lines).encode("ascii")).hexdigest()
 
@@ -406,11 +712,12 @@ def read_scene(data: Any) -> Scene:
     robot, obstacles = ([each] if is_ring(each) else each for each in (got["robot"], got["obstacles"]))
     robot = [robot] if isinstance(robot, dict) else items(robot, "robot", 1)
     scene = Scene(
-        [read_polygon(part, f"robot[{k}]") for k, part in enumerate(robot)],
-        [read_polygon(o, f"obstacles[{k}]", name=None) for k, o in enumerate(items(obstacles, "obstacles"))],
-        None if got["workspace"] is None else read_polygon(got["workspace"], "workspace"),
+        [read_shape(part, f"robot[{k}]") for k, part in enumerate(robot)],
+        [read_shape(o, f"obstacles[{k}]", name=None) for k, o in enumerate(items(obstacles, "obstacles"))],
+        None if got["workspace"] is None else read_shape(got["workspace"], "workspace"),
         None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
     )
+    refuse_if(getattr(scene.workspace, "grown", 0), "workspace: expected the ring of its lines and arcs, not grown")
     refuse_if(got["goal"] is not None and bool(got["goals"]), "goals: there is a goal, too")
     if got["vehicle"] is not None:
         Vehicle(got["vehicle"])
@@ -423,6 +730,10 @@ def is_ring(value: Any) -> bool:
     """True if a list begins with a point: a polygon without holes may be written as its ring alone."""
     first = value[0] if isinstance(value, list) and value else None
     return isinstance(first, list) and bool(first) and not isinstance(first[0], (list, dict))
+
+def read_shape(value: Any, place: str, **more: Any) -> Polygon | Round:
+    is_round = isinstance(value, dict) and value.keys() & ROUND
+    return (read_round if is_round else read_polygon)(value, place, **more)
 
 def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
     got = members({"outer": value} if is_ring(value) else value, place, outer=REQUIRED, holes=[], **more)
@@ -615,6 +926,11 @@ class Root:
 
     def compared(self, other: Root) -> int:
         """-1 if less, 0 if equal, 1 if greater than another number."""
+        for _ in range(24):
+            if self.hi < other.lo or other.hi < self.lo or self.lo == self.hi == other.lo == other.hi:
+                return sign(self.lo - other.lo)
+            self.narrow()
+            other.narrow()
         if self.lo <= other.hi and other.lo <= self.hi:
             # equality: this is the only root of the other's polynomial between other.lo and other.hi
             low, high = (self.sign((-end.numerator, end.denominator)) for end in (other.lo, other.hi))
@@ -899,6 +1215,10 @@ class Pair:
         """True if one side certainly has all of the other piece on its outer side, all the time; False may be wrong."""
         return any(all(is_nowhere_positive(p, interval) for p in self.heights(i)) for i in range(len(self.sides)))
 
+    def has_room(self, interval: Interval) -> bool:
+        """True if one side certainly has all of the other piece at some distance on its outer side, all the time."""
+        return any(all(max(mapped(p, interval)) < 0 for p in self.heights(i)) for i in range(len(self.sides)))
+
     def overlaps(self, u: Fraction) -> bool:
         return all(any(sign_at(p, u) > 0 for p in self.heights(i)) for i in range(len(self.sides)))
 
@@ -906,7 +1226,7 @@ class Pair:
         """True if the pieces have a point in common, at u = 0."""
         return all(any(p[0] >= 0 for p in self.heights(i)) for i in range(len(self.sides)))
 
-def beyond(world: World, course: Course) -> Iterator[Poly]:
+def beyond(world: World | RoundWorld, course: Course) -> Iterator[Poly]:
     """Polynomials, positive where the reference point is out of the bounds, or a corner of the robot out of the box."""
     W, C, S, X, Y = course.moving
     lines = ((-1, 0, 1), (0, -1, 1), (1, 0, -1), (0, 1, -1))  # l x + m y + k b > 0 is beyond
@@ -914,14 +1234,16 @@ def beyond(world: World, course: Course) -> Iterator[Poly]:
         b, unit = bound.as_integer_ratio()
         yield combined((l * unit, m * unit, k * b), X, Y, W)
     for (l, m, k), b in zip(lines, world.box, strict=False):
-        for x, y, z in (corner for part in world.robot for corner in part.corners):
+        for x, y, z in (corner for part in world.robot for corner in part.corners):  # type: ignore[union-attr]
             yield combined((l * z, m * z, k * b * z, l * x + m * y, m * x - l * y), X, Y, W, C, S)
 
-def collision(world: World, course: Course) -> Fraction | None:
+def collision(world: World | RoundWorld, course: Course) -> Fraction | None:
     """Some u at which the robot is where it may not be; None is a proof that there is none."""
     for p in beyond(world, course):
         if (place := positive_place(p)) is not None:
             return place
+    if isinstance(world, RoundWorld):
+        return world.collision(course)
     for part in world.robot:
         pairs: dict[int, Pair] = {}
         todo = [(ALL, list(range(len(world.walls))))]
@@ -965,9 +1287,231 @@ def touches(world: World, pose: Pose) -> bool:
     pairs = ((part, k) for part in world.robot for k in near(world, course, part, ALL, walls))
     return any(Pair(course, part, world.walls[k]).touches() for part, k in pairs)
 
-def check_pose(world: World, pose: Pose, what: str) -> None:
+def check_pose(world: World | RoundWorld, pose: Pose, what: str) -> None:
     if collision(world, next(STANDING.courses(pose, world.scale))) is not None:
         raise RefutedError(f"{what}: {pose} is forbidden")
+
+# === Round shapes: poses and motions ===
+# One vertical line between any two neighbouring x of ends, vertical tangents and crossings stands for all of these: the
+# edges have one order there. Grown shapes overlap if edges are nearer than both growths together, or the shapes do.
+
+def overlap(one: Region, other: Region) -> bool:
+    """True if the interiors of two regions meet; the first is bounded."""
+    gap = one.grown + other.grown
+    (lo, bottom, hi, top), (left, below, right, above) = one.box, other.box
+    if not other.outside:
+        if lo > right + gap or left > hi + gap or bottom > above + gap or below > top + gap:
+            return False
+        lo, hi = max(lo, left), min(hi, right)
+    pairs = [(e, f) for e in one.edges for f in other.edges if e.is_near(f, gap)]
+    if gap:
+        if any(are_nearer(e, f, gap) for e, f in pairs):
+            return True
+        every = one.edges + other.edges  # none of one's meets one of the other, so one line through each ring is enough
+        return any(overlap_on(one, other, clear_line(every, ring)) for ring in (*one.rings, *other.rings))
+    if lo >= hi:
+        return False
+    edges = [edge for edge in (*one.edges, *other.edges) if edge.box[0] <= hi and lo <= edge.box[2]]
+    polys = [*stops(edges), *(whole_numbers(meeting(e, f)) for e, f in pairs)]
+    return any(overlap_on(one, other, x) for x in samples(polys, lo, hi))
+
+def overlap_on(one: Region, other: Region, x: Fraction) -> bool:
+    """True if the interiors meet on a vertical line: between two neighbouring heights it is inside both."""
+    both = ((k, height) for k, region in enumerate((one, other)) for edge in region.edges for height in edge.heights(x))
+    inside = [False, other.outside]
+    for here, above in pairwise(sorted(both, key=cmp_to_key(compared_heights))):
+        inside[here[0]] ^= True
+        if all(inside) and compared_heights(here, above):
+            return True
+    return False
+
+def compared_heights(one: Any, other: Any) -> int:
+    (_, (a, s, k)), (_, (b, t, q)) = one, other
+    return root_sign(a - b, (s, k), (-t, q))
+
+def are_nearer(one: Edge, other: Edge, gap: Fraction) -> bool:
+    """True if two edges meet, or if they or their beginnings are nearer than a gap on a line that is normal to both."""
+    if one.common_points(other):
+        return True
+    pairs = [((one, *circle), (other, *another)) for circle in one.rounds for another in other.rounds]
+    for edge, straight in ((one, other), (other, one)):
+        p, v = straight.p, straight.chord
+        for c, r in () if straight.center else edge.rounds:
+            share = dot(minus(c, p), v) / dot(v, v)
+            if 0 <= share <= 1:
+                pairs.append(((edge, c, r), (straight, (p[0] + share * v[0], p[1] + share * v[1]), ZERO)))
+    return any(rounds_are_nearer(*pair, gap) for pair in pairs)
+
+def rounds_are_nearer(one: tuple[Edge, Point, Fraction], other: tuple[Edge, Point, Fraction], gap: Fraction) -> bool:
+    """True if points of two edges on the line through the centers of their circles are nearer than a gap."""
+    (e, c, r), (f, d, s) = one, other
+    away = minus(d, c)
+    if (square := dot(away, away)) == 0:
+        return r == s == 0  # else ends of arcs are as near
+    for i in (1, -1) if r else (1,):
+        for j in (1, -1) if s else (1,):
+            if all(root_sign(-gap, (k, square), (k * j, s), (-k * i, r)) < 0 for k in (1, -1)):
+                ways = [(way * away[0], way * away[1]) for way in (i, j)]
+                if (not r or e.points_to(ways[0])) and (not s or f.points_to(ways[1])):
+                    return True
+    return False
+
+@lru_cache(maxsize=1 << 12)
+def contact_squares(radii: tuple[Fraction, ...]) -> tuple[Poly, ...]:
+    """Polynomials whose zeros are the squares of +-sqrt(k) +-sqrt(k') ... for all k given."""
+    sums: list[tuple[Any, ...]] = [(ZERO, ONE)]
+    for k in radii:
+        n, d = k.as_integer_ratio()
+        root = Fraction(math.isqrt(n), math.isqrt(d))
+        shifted = []
+        for p in sums:  # p(x + sqrt(k)) is even + odd sqrt(k)
+            even, odd = [ZERO] * len(p), [ZERO] * len(p)
+            for i, c in enumerate(p):
+                for j in range(i + 1):
+                    (odd if j % 2 else even)[i - j] += c * math.comb(i, j) * k ** (j // 2)
+            if root * root == k:
+                shifted += [tuple(a + s * root * b for a, b in zip(even, odd, strict=True)) for s in (1, -1)]
+            else:
+                shifted.append(combined((1, -k), times(even, even), times(odd, odd)))  # type: ignore[arg-type]
+        sums = shifted
+    mirrored = (times(p, [-c if j % 2 else c for j, c in enumerate(p)])[::2] for p in sums)  # p(x) p(-x) in x^2
+    return tuple({squarefree(whole_numbers(p)) for p in mirrored})
+
+def vanishing(n: Poly, m: Poly, *radii: Fraction) -> Iterator[Poly]:
+    """Yield polynomials with zeros where n / m is the square of a sum of square roots with any signs."""
+    for p in contact_squares(tuple(sorted(radii))):
+        total: Poly = (p[-1],)
+        power: Poly = (1,)
+        for c in reversed(p[:-1]):
+            power = times(power, m)
+            total = combined((1, c), times(total, n), power)
+        yield total
+
+def contacts(course: Course, one: Edge, other: Edge, gap: Fraction) -> Iterator[Poly]:
+    """Yield polynomials with zeros wherever a contact of an edge of the robot and one of a wall may begin or end: where
+    ends are on lines or circles, or lines and circles touch; or where they are at a distance, the gap.
+    """
+    wide = [gap**2] if gap else []
+    turned = primitive(course.moving[0])  # divides squares of distances, and heights in the robot's frame
+    for c, r in one.rounds:
+        for d, s in other.rounds:
+            if radii := [q for q in (r, s, *wide) if q]:
+                yield from vanishing(*distance(course, c, d, turned), *radii)
+    back = padded([quotient(p, turned) for p in course.back])
+    for mine, straight, polys in ((one, other, course.moving), (other, one, back)):
+        if straight.center is None:
+            l, m, k = whole_numbers(straight.equation[1:])
+            for c, r in mine.rounds:
+                x, y, z = homogeneous(c)
+                height = combined((k * z, l * x + m * y, m * x - l * y, l * z, m * z), *polys)
+                width = times(((l * l + m * m) * z * z,), times(polys[0], polys[0]))
+                radii = [q for q in (r, *wide) if q]
+                yield from vanishing(times(height, height), width, *radii) if radii else [height]
+
+def distance(course: Course, one: Point, other: Point, turned: Poly) -> tuple[Poly, Poly]:
+    """Square of the distance of a point of the robot and one of a wall, as a quotient of polynomials."""
+    (x, y, z), (a, b, c), (W, C, S, X, Y) = homogeneous(one), homogeneous(other), course.moving
+    right = combined((c * z, c * x, -c * y, -a * z), X, C, S, W)
+    up = combined((c * z, c * x, c * y, -b * z), Y, S, C, W)
+    square = combined((1, 1), times(right, right), times(up, up))
+    return quotient(square, turned), times((c * c * z * z,), times(W, quotient(W, turned)))
+
+def homogeneous(p: Point) -> tuple[int, int, int]:
+    """Integers (x, y, z) that stand for (x / z, y / z)."""
+    z = math.lcm(p[0].denominator, p[1].denominator)
+    return int(p[0] * z), int(p[1] * z), z
+
+class RoundWorld:
+    """A robot and walls of edges; the outside of the workspace is a wall."""
+
+    scale = 1
+
+    def __init__(self, scene: Scene) -> None:
+        self.robot, self.bounds = [region_around(part) for part in scene.robot], list(scene.bounds or ())
+        self.walls = [region_around(part) for part in scene.obstacles]
+        if scene.workspace:
+            self.walls.append(Region(region_around(scene.workspace).rings, outside=True))
+        self.box: list[int] = []
+        self.edges = [(wall, edge) for wall in self.walls for edge in wall.edges]
+        self.pieces = [piece_around(edge, wall.grown) for wall, edge in self.edges]
+        self.boxes = [box_around(piece.corners) for piece in self.pieces]
+
+    def grown(self, by: Fraction) -> RoundWorld:
+        """World of a robot that a disc makes larger."""
+        world = copy(self)
+        world.robot = [Region(part.rings, part.grown + by) for part in self.robot]
+        return world
+
+    def roomier(self, leeway: Fraction) -> RoundWorld:
+        """The same, in bounds that are smaller by as much on each side."""
+        world = self.grown(leeway)
+        world.bounds = [b + (leeway if k < 2 else -leeway) for k, b in enumerate(self.bounds)]
+        if self.bounds and (world.bounds[0] >= world.bounds[2] or world.bounds[1] >= world.bounds[3]):
+            raise RefutedError("its decimals are not free, as it claims: of smaller bounds nothing would be left")
+        return world
+
+    def overlaps(self, part: Region, course: Course, u: Fraction, walls: Iterable[Region]) -> bool:
+        W, C, S, X, Y = (value(p, u) for p in course.moving)
+        moved = part.moved((X / W, Y / W, C / W, S / W))
+        return any(overlap(moved, wall) for wall in walls)
+
+    def collision(self, course: Course) -> Fraction | None:
+        """Some u at which a part of the robot overlaps a wall; None is a proof that there is none."""
+        for part in self.robot:
+            if self.overlaps(part, course, ZERO, self.walls):
+                return ZERO
+            if len(course.moving[0]) > 1 and (u := self.later(part, course)) is not None:
+                return u
+        return None
+
+    def later(self, part: Region, course: Course) -> Fraction | None:
+        """Some u for one part, free at u = 0: intervals are halved until little may happen; then samples decide."""
+        pieces = [piece_around(edge, part.grown) for edge in part.edges]
+        pairs: dict[tuple[int, int], Pair] = {}
+        events: dict[tuple[int, int], set[Poly]] = {}
+        todo = [(ALL, [list(range(len(self.edges))) for _ in pieces])]
+        while todo:
+            (lo, hi), walls = todo.pop()
+            left, middle = [], (lo + hi) / 2
+            for i, (piece, listed) in enumerate(zip(pieces, walls, strict=True)):
+                left.append(near(self, course, piece, (lo, hi), listed))  # type: ignore[arg-type]
+                for k in left[i]:
+                    pairs[i, k] = pairs.get((i, k)) or Pair(course, piece, self.pieces[k])
+                left[i] = [k for k in left[i] if not pairs[i, k].has_room((lo, hi))]
+            close = [(i, k) for i, ks in enumerate(left) for k in ks]
+            halves = [((lo, middle), left), ((middle, hi), left)] if hi - lo > SHORT else []
+            if len(close) > MANY and halves:
+                todo += halves
+                continue
+            for i, k in close:
+                wall, edge = self.edges[k]
+                if (i, k) not in events:
+                    events[i, k] = set(map(primitive, contacts(course, part.edges[i], edge, part.grown + wall.grown)))
+            polys = {p for pair in close for p in events[pair] if may_vanish(p, (lo, hi))}
+            if len(polys) > FEW and halves:
+                todo += halves
+                continue
+            there = list({id(wall): wall for wall in (self.edges[k][0] for _, k in close)}.values())
+            for u in samples(polys, lo, hi) if there else ():
+                if self.overlaps(part, course, u, there):
+                    return u
+        return None
+
+MANY, FEW = 64, 8  # pairs of edges, and events, for which an interval is not halved
+
+def may_vanish(p: Poly, interval: Interval) -> bool:
+    """False if a polynomial certainly has no zero in an interval, or is zero all the time."""
+    coefficients = mapped(p, interval) if p else [1]
+    return min(coefficients) <= 0 <= max(coefficients)
+
+def region_around(shape: Polygon | Round) -> Region:
+    rings = shape.edges if isinstance(shape, Round) else [[Edge(*e) for e in edges_of(ring)] for ring in shape.rings]
+    return Region(rings, shape.grown if isinstance(shape, Round) else ZERO)
+
+def piece_around(edge: Edge, by: Fraction) -> Piece:
+    """Convex polygon around an edge, larger by a square."""
+    square = (by, by), (-by, by), (by, -by), (-by, -by)
+    return Piece(convex_hull((x + dx, y + dy) for x, y in edge.corners for dx, dy in square))
 
 # === Answers: exact numbers, and the decimals beside them (docs/answer-format.md, "Decimals") ===
 class Answer:
@@ -975,6 +1519,7 @@ class Answer:
 
     def __init__(self, data: dict[str, Any], **more: Any) -> None:
         refuse_if(data.get("exact") is None, "decimals alone are not read here; cfree also saves exact numbers")
+        refuse_if("polygons" in data, "it is about polygons, not about the round shapes; `cfree verify` reads it")
         more |= dict.fromkeys(("answer", "scene", "start", "goal", "exact"), REQUIRED) | {"whole": {}, "moved": None}
         self.got = got = members(data, "answer", version=1, units="", frame="world", clearance=None, **more)
         one_of(got["version"], "version", 1)
@@ -1026,7 +1571,7 @@ class Answer:
         """Text of an end, with the pose from which it was moved, if it was."""
         return str(getattr(self, name)) + (f" [moved from {self.asked[name]}]" if name in self.asked else "")
 
-    def check_moved(self, world: World) -> None:
+    def check_moved(self, world: World | RoundWorld) -> None:
         """Check that no free pose is moved. Places and poses with a clearance are not checked."""
         for name, pose in self.asked.items() if not self.clearance else ():
             is_free = pose.tau != "any" and collision(world, next(STANDING.courses(pose, world.scale))) is None
@@ -1051,7 +1596,7 @@ class PathAnswer(Answer):
         super().__init__(data, decimals=REQUIRED, motions=REQUIRED, disc=[], vehicle=None)
         self.vehicle = None if self.got["vehicle"] is None else Vehicle(self.got["vehicle"])
         self.disc: Ring = [numbers(p, "disc", 2) for p in items(self.got["disc"], "disc")]  # type: ignore[misc]
-        refuse_if(bool(self.clearance) != (len(self.disc) > 2), '"clearance" and "disc" belong together')
+        refuse_if(self.disc and (not self.clearance or len(self.disc) < 3), "disc: expected a polygon and a clearance")
         one_of(self.got["decimals"], "decimals", "free", "approximate")
         self.motions = [self.read_motion(k, m) for k, m in enumerate(items(self.got["motions"], "motions"))]
         refuse_if(self.effect(self.decimals) > self.size / 10**9, "the decimals lead elsewhere")
@@ -1110,7 +1655,9 @@ class PathAnswer(Answer):
 
 def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
     """Sentence that states the result."""
-    world, only = World(scene), "; its decimals are approximate"
+    world: World | RoundWorld = RoundWorld(scene) if scene.is_round else World(scene)
+    only = "; its decimals are approximate"
+    refute_if(scene.is_round and any(motion.slide for motion in answer.motions), "slides are for polygons")
     answer.check_moved(world)
     check_pose(world, answer.start, "start")
     check_pose(world, answer.goal, "goal")
@@ -1120,9 +1667,10 @@ def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
         said = "its decimals are not free, as it claims, or the robot is where it may not be"
         worlds[said] = world.roomier(answer.leeway())
     if answer.clearance:
-        if not is_around_disc(answer.disc, answer.clearance):
-            raise RefutedError("disc: it is not convex, or not around a disc of that radius")
-        worlds["the robot is nearer to something than the clearance"] = world.larger(answer.disc)
+        is_wrong = isinstance(world, World) and (not answer.disc or not is_around_disc(answer.disc, answer.clearance))
+        refute_if(is_wrong, "disc: it is not convex, or not around a disc of that radius")
+        there = world.larger(answer.disc) if isinstance(world, World) else world.grown(answer.clearance)
+        worlds["the robot is nearer to something than the clearance"] = there
     for said, there in worlds.items():
         check_pose(there, answer.start, f"start: {said}")
     pose = answer.start
@@ -1716,7 +2264,7 @@ class Unreached(Answer):
         refuse_if(not self.vehicle.forward_only, "vehicle: expected a car without reverse gear")
         self.at = one_of(self.got["at"], "at", "start", "goal")
         rings = [items(ring, "pieces", 3) for ring in items(self.got["pieces"], "pieces", 1)]
-        self.pieces = [[numbers(point, "pieces", 2) for point in ring] for ring in rings]
+        self.pieces = [[read_point(point, "pieces") for point in ring] for ring in rings]
         names = ("corner", "side", "step", "columns", "rows", "slices")
         grid = members(self.got["grid"], "grid", **dict.fromkeys(names, REQUIRED))
         self.corner = numbers(grid["corner"], "corner", 2)
@@ -1781,7 +2329,7 @@ class Spread:
     def listed_row(self, k: int, j: int) -> int:
         first = (k * self.answer.rows + j) * self.answer.columns
         part = self.answer.bits[first // 8 : (first + self.answer.columns + 7) // 8]
-        return int.from_bytes(part, "little") >> first % 8 & self.full
+        return int((int.from_bytes(part, "little") >> first % 8) & self.full)
 
     def joined(self, rows: Sequence[int]) -> int:
         return int.from_bytes(b"".join(row.to_bytes(self.width // 8, "little") for row in rows), "little")
@@ -1800,7 +2348,7 @@ class Spread:
     def meets(self, ahead: Point, box: Fractions, x: Any, y: Any, half: Any) -> bool:
         """Whether a square about (x, y) meets a rectangle ahead of the origin."""
         (c, s), (least, most, wide), reach = ahead, box, half * (abs(ahead[0]) + abs(ahead[1])) + self.safe
-        return least - reach <= c * x + s * y <= most + reach and abs(c * y - s * x) <= wide + reach
+        return bool(least - reach <= c * x + s * y <= most + reach and abs(c * y - s * x) <= wide + reach)
 
     def around(self, ahead: Point, box: Fractions, half: Any) -> list[Fraction]:
         """Bounds x0, x1, y0, y1 of the middles of squares that meet a rectangle."""
@@ -1967,6 +2515,8 @@ def verdict(scene: str, answer: str) -> tuple[int, str]:
         }  # fmt: skip
         parsed = kinds[one_of(data.get("answer") if isinstance(data, dict) else None, "answer", *kinds)](data)
         part = parsed.check_asked(world)
+        is_path = isinstance(parsed, PathAnswer)
+        refuse_if(world.is_round and not is_path, "a proof among round shapes; `cfree verify` reads it")
         if isinstance(parsed, Held):
             proved = check_held(parsed, part)
         elif isinstance(parsed, Unreached):

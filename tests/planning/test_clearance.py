@@ -22,7 +22,7 @@ from cfree.verify.inside import is_near, strictly_inside
 from cfree.verify.leeway import is_around_disc
 from compared import scene_of
 from flood import flood
-from second_opinion import verified_in_a_file
+from second_opinion import verified, verified_in_a_file
 from shapes import KINDS, PlainScene, Shape, box, random_scene
 
 SQUARE = box("-1/2", "-1/2", "1/2", "1/2")[0]
@@ -227,7 +227,7 @@ def test_files_say_it(tmp_path: FilePath) -> None:
     [
         ("0.3", '"clearance": "3/10"', '"clearance": "0"', "clearance: expected a length above 0"),
         ("0.3", '"disc": [[', '"disc": [["x", ', "disc"),
-        ("0.3", '"clearance": "3/10",', "", '"clearance" and "disc", a polygon around it, belong together'),
+        ("0.3", '"clearance": "3/10",', "", '"disc" is a polygon around a disc of the radius "clearance"'),
         ("0.6", '"clearance": "3/5",', "", '"clearance" belongs to as many "cores" as "smaller_robot"'),
     ],
 )
@@ -238,3 +238,21 @@ def test_files_that_do_not_say_it_well(clearance: str, old: str, new: str, messa
     file.write_text(file.read_text().replace(old, new))
     with pytest.raises(cfree.FormatError, match=message):
         load(file)
+
+
+def test_files_among_round_shapes_have_a_clearance_without_a_polygon(tmp_path: FilePath) -> None:
+    scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), [[(-9, -9), (9, -9), (9, 0), (-9, 0)]])
+    path, file = plan(scene, (-3, 3, 0), (3, 3, 0), clearance="1/2", improve=0), tmp_path / "path.json"
+    save(path, file)
+    assert load(file) == path and "disc" not in json.loads(file.read_text())
+    assert cfree.verify.answer(scene, file).verified
+
+
+def test_a_clearance_among_polygons_needs_a_polygon_around_its_disc(tmp_path: FilePath) -> None:
+    file = tmp_path / "answer.json"
+    save(plan(gate(), UP, DOWN, clearance="0.3"), file)
+    data = json.loads(file.read_text())
+    del data["disc"]
+    file.write_text(json.dumps(data))
+    result = verified(gate(), file)
+    assert not result.verified and {finding.kind for finding in result.findings} == {"clearance"}

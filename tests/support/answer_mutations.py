@@ -9,13 +9,14 @@ import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path as FilePath
 from typing import Any
 
 import second_opinion
-from answers import corridor, distances, separations, tee, text_of
+from answers import corridor, distances, rounded, separations, tee, text_of
 from cfree import (
     FormatError,
     FreeSpace,
@@ -32,6 +33,7 @@ from cfree import (
     free_space,
 )
 from cfree.collision import Touch
+from cfree.collision.arcs import arcs_of
 from cfree.collision.motion import Motion
 from cfree.errors import InvalidPoseError
 from cfree.formats.answers.answer_file import load_answer
@@ -421,11 +423,18 @@ def is_true(scene: Scene, answer: Path | Separated) -> bool:
     if isinstance(answer, Path):
         ends = scene.start in (None, answer.start) and scene.goal in (None, answer.goal)
         least = clearance(answer, scene) if answer.clearance else None
-        return ends and answer.is_free(MotionChecker(scene)) and (not least or least.found >= 0.999 * answer.clearance)
+        return ends and _is_free(answer, scene) and (not least or least.found >= 0.999 * answer.clearance)
     if answer.clearance:  # apart for a robot that is larger by a little more
         scene = with_robot(scene, grown(scene, answer.clearance * Fraction("1.001")), scene.bounds)
     cells = space_of(scene).locate([answer.start, answer.goal]).tolist()
     return min(cells) != -1 and cells[0] != cells[1]
+
+
+def _is_free(path: Path, scene: Scene) -> bool:
+    arcs = arcs_of(scene) if scene.curved else None
+    if arcs is None:
+        return path.is_free(MotionChecker(scene))
+    return all(arcs.is_motion_free(pose, motion) for pose, motion in zip(path.poses, path.motions, strict=False))
 
 
 @cache
@@ -445,7 +454,7 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
     """Count the checks that reject mutants; "" counts those verified, and true. Paths also without requested ends."""
     rng = random.Random(mutate.__name__)
     goods: list[tuple[Scene, Path | Separated]] = (
-        [corridor()]
+        [corridor(), rounded()]
         if mutate in OF_PATHS
         else [tee()]
         if mutate in OF_SLIDES
@@ -465,7 +474,7 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
                     bad = repaired(scene, bad)
             counts[verdict(scene, bad)] += 1
             if isinstance(good, Path):
-                counts[verdict(with_robot(scene, scene.robot, scene.bounds), bad)] += 1
+                counts[verdict(replace(scene, start=None, goal=None), bad)] += 1
     return counts
 
 

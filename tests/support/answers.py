@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path as FilePath
 
 from cfree import (
+    Curved,
     Path,
     Pose,
     Rotation,
@@ -23,6 +24,7 @@ from cfree import (
     separation,
 )
 from cfree.collision import Touch
+from cfree.curves import Arc
 from cfree.scene.scene import with_ends
 from compared import scene_of
 from shapes import PlainScene, box, l_shape
@@ -38,6 +40,17 @@ def corridor() -> tuple[Scene, Path]:
     scene = scene_of(PlainScene([ROD], walls, bounds=(0, 0, 10, 22)))
     path = Path(Pose(0, 0), [up, round_it, *quarter, *on], scene=scene)
     return with_ends(scene, path.start, path.goal), path
+
+
+def rounded() -> tuple[Scene, Path]:
+    """A stadium in corridors as wide as it: it turns in a room of radius sqrt(10), and touches a disc."""
+    arcs = Arc((1, 3), center=(0, 0)), Arc((-3, 1), center=(0, 0))
+    room = Curved([(-9, -1), (-3, -1), arcs[0], (1, 9), (-1, 9), (-1, 3), arcs[1], (-9, 1)])
+    robot = Curved([(-1, -1), (1, -1), Arc((1, 1), center=(1, 0)), (-1, 1), Arc((-1, -1), center=(-1, 0))])
+    path = Path(Pose(-5, 0), [Translation((5, 0)), Rotation((0, 0), {"tau": 1}), Translation((0, 5))])
+    disc = Curved.circle(("5/2", 0), "1/2")
+    scene = Scene(robot, [disc], workspace=room, start=path.start, goal=path.goal)
+    return scene, replace(path, scene=scene)
 
 
 def tee() -> tuple[Scene, Path]:

@@ -53,7 +53,7 @@ def verified(scene: Scene, file: FilePath) -> Verification:
 
 def verified_in_a_file(scene: Scene, answer: Path | Proof) -> Verification:
     """Verification of an answer in memory, which is saved first."""
-    known = replace(answer, scene=scene) if isinstance(answer, Path) else answer
+    known = replace(answer, scene=scene) if isinstance(answer, Path) and answer.curved is None else answer
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder, "answer.json")
         save(known, file)

@@ -16,7 +16,7 @@ from answer_mutations import (
     tried,
     verdict,
 )
-from answers import corridor, distances, separations, tee, text_of
+from answers import corridor, distances, rounded, separations, tee, text_of
 
 
 @pytest.mark.slow
@@ -32,6 +32,6 @@ def test_one_wrong_thing_is_rejected_or_still_true(mutate: Mutation) -> None:
 
 @pytest.mark.slow
 def test_what_is_right_is_verified() -> None:
-    for scene, answer in (corridor(), tee(), *separations(), *distances()):
+    for scene, answer in (corridor(), rounded(), tee(), *separations(), *distances()):
         assert verdict(scene, json.loads(text_of(answer))) == ""
         assert cfree.verify.answer(scene, answer).proved

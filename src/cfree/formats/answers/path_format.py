@@ -264,8 +264,8 @@ class PathModel(AnswerModel):
 
     @model_validator(mode="after")
     def _has_a_disc(self) -> Self:
-        if bool(self.clearance) != (len(self.disc) > 2):
-            raise Fault('"clearance" and "disc", a polygon around it, belong together; give both, or neither')
+        if self.disc and not (self.clearance and len(self.disc) > 2):
+            raise Fault('"disc" is a polygon around a disc of the radius "clearance"; give both, or leave out the disc')
         return self
 
     @cached_property

@@ -46,7 +46,9 @@ def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> st
     if path.vehicle:
         head["vehicle"] = vehicle_record(path.vehicle)
     if path.clearance:
-        head |= {"clearance": _exactly(path.clearance), "disc": [_exactly(point) for point in path.disc]}
+        head["clearance"] = _exactly(path.clearance)
+    if path.disc:
+        head["disc"] = [_exactly(point) for point in path.disc]
     lines = ",\n".join(f"  {json_line(_record(k, motion, decimals))}" for k, motion in enumerate(path.motions))
     members = [*(f'"{key}": {json_line(value)}' for key, value in head.items()), f'"motions": [\n{lines}\n]']
     return "{" + ",\n ".join(members) + "}\n"
