@@ -225,4 +225,4 @@ def test_the_core_and_the_checker_agree_at_contacts_and_beside_them() -> None:
         assert cfree.is_free(scene, start) is world.is_free(place_of(start, 1))
         motion = random_motion(rng)
         is_free = world.collision(Course(place_of(start, 1), motion, 1)) is None
-        assert cfree.collision.is_free_motion(scene, start, motion) is is_free
+        assert cfree.is_free_motion(scene, start, motion) is is_free
