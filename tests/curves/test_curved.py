@@ -133,3 +133,15 @@ def test_polygons_stay_what_they_are() -> None:
     assert mixed.curved and mixed.outer(0.1).obstacles[0] == plain.obstacles[0]
     assert mixed.outer(0.1).obstacle_names == ("a", "b")
     assert np.allclose(mixed.outer(0.1).obstacles[1].vertices.mean(axis=0), 9)
+
+
+@pytest.mark.parametrize("far", [10**400, "1e400"], ids=["int", "text"])
+def test_numbers_beyond_doubles_are_refused(far: Any) -> None:
+    makers = (
+        lambda: cfree.Curved.circle((0, 0), far),
+        lambda: cfree.Curved.circle((far, 0), 1),
+        lambda: cfree.Curved([(0, 0), (1, 0), (1, 1)], grown=far),
+    )
+    for make in makers:
+        with pytest.raises(cfree.InvalidPolygonError, match="beyond"):
+            make()

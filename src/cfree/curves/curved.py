@@ -82,10 +82,14 @@ class Curved(Shown):
             object.__setattr__(self, name, value)
         if self.grown < 0:
             raise InvalidPolygonError(f"grown: {grown}; give a length, 0 or more")
-        if self.grown:
-            self._base()
-        else:
-            self.outer(self.size / ROUGH)
+        try:
+            error = self.size / ROUGH
+            if self.grown:
+                self._base()
+            else:
+                self.outer(error)
+        except OverflowError:
+            raise InvalidPolygonError("a coordinate is beyond the range of doubles; scale the shape") from None
 
     @staticmethod
     @checked
