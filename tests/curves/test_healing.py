@@ -95,6 +95,50 @@ def test_a_stadium_by_bulges_becomes_one_of_its_width() -> None:
     assert math.isclose(float(healed.box[3] - healed.box[1]), float(exact.box[3] - exact.box[1]), abs_tol=1e-8)
 
 
+def test_half_turns_in_two_arcs_become_tangent() -> None:
+    """A rounded box whose corners meet, as SVG draws it."""
+    path = [
+        (0, 0),
+        (6, 0),
+        Arc((8, "2.000000000001"), through=("7.41421356237", "0.58578643763")),
+        Arc((6, 4), through=("7.41421356237", "3.41421356237")),
+        (0, 4),
+    ]
+    healed = Curved(path).healed(1e-9)
+    assert tangent_joints(healed) == (2, 2)
+    assert [piece.center for piece in healed.curves[0] if isinstance(piece, Span)] == [(6, 2)]
+
+
+def test_exactly_tangent_arcs_stay_at_any_tolerance() -> None:
+    radius = Fraction("0.30000000001")
+    path = [(0, 0), (2 - radius, 0), Arc((2, radius), center=(2 - radius, radius)), (2, 3), (0, 3)]
+    for tolerance in (1e-9, 1e-3, 10.0, 1e300):
+        assert Curved(path).healed(tolerance).path == Curved(path).path
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 0.1, 1e9])
+def test_no_end_moves_farther_than_the_rounding_needs(tolerance: float) -> None:
+    shape = Curved(rounded_polygon([(0, 0), (5, 0), (6, 3), (3, 1.7), (0.3, 4)], 0.25, 7))
+    healed = shape.healed(tolerance)
+    assert tangent_joints(healed) == (10, 10)
+    for one, other in zip(shape.curves[0], healed.curves[0], strict=True):
+        assert math.dist(map(float, one.end), map(float, other.end)) < 2e-6  # type: ignore[union-attr]
+
+
+def test_arcs_that_need_more_stay_and_others_are_healed() -> None:
+    path = [
+        (0, 0),
+        (4, 0),
+        Arc(("5", "1"), through=("4.70710678", "0.29289322")),
+        (5, 4),
+        Arc((4, 5), through=("4.71", "4.71")),
+        (0, 5),
+    ]
+    healed = Curved(path).healed(1e-6)
+    assert tangent_joints(healed) == (4, 2)
+    assert healed.path[2].center == (4, 1) and healed.curves[0][3] == Curved(path).curves[0][3]  # type: ignore[union-attr,index]
+
+
 def test_what_is_not_nearly_tangent_stays() -> None:
     bay = Curved([(-2, -2), (2, -2), (2, 0), (1, 0), Arc((-1, 0), center=(0, 0), clockwise=True), (-2, 0)])
     assert bay.healed().path == bay.path

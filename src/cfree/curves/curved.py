@@ -14,7 +14,7 @@ from functools import lru_cache
 from typing import Any
 
 from cfree.arguments import checked
-from cfree.curves.healing import healed_ring
+from cfree.curves.healing import Change, healed_ring
 from cfree.curves.hulls import FINEST, Outline, polygon_of
 from cfree.curves.pieces import Box, Frame, box_of, drawn_of, hull_points, is_proved
 from cfree.curves.rings import Circle, Ellipse, GivenRing, Piece, Point, Span, exact_ring, given_ring
@@ -187,19 +187,19 @@ class Curved(Shown):
         return self._polygons(error, inside=True)
 
     @checked
-    def healed(self, tolerance: float = 1e-9) -> Curved:
+    def healed(self, tolerance: float | None = None) -> Curved:
         """Return the shape with arcs exactly tangent to lines where they are nearly so, as rounded decimals leave them.
 
         Parameters
         ----------
-        tolerance : float
-            Angle to the tangents, in radians, and the part of a radius by which it may change. Ends of lines move by
-            little more than this part of the size. A ring where more is needed stays as it is.
+        tolerance : float, optional
+            Ends of pieces and middles of arcs move by this length at most; an arc that needs more stays as it is. The
+            default is a billionth of the size.
 
         Notes
         -----
         Lines at such arcs get directions that are rational unit vectors; axis-parallel ones stay as they are. Radii
-        become the simplest numbers within the tolerance.
+        become simple numbers. Corners of more than 0.01 radians stay.
 
         Examples
         --------
@@ -209,15 +209,7 @@ class Curved(Shown):
         >>> arc.center[1], arc.to != bend.to
         (Fraction(1, 1), True)
         """
-        if not 0 < tolerance < 0.01:
-            raise ValueError(f"tolerance {tolerance}: give an angle above 0 and below 0.01")
-        if self.grown:
-            return self
-        rings = [
-            healed_ring(pieces, tolerance, self.size) or ring
-            for pieces, ring in zip(self.curves, (self.path, *self.holes), strict=True)
-        ]
-        return Curved(rings[0], rings[1:])
+        return healed_with_changes(self, self.size * 1e-9 if tolerance is None else tolerance)[0]
 
     def _polygons(self, error: float, *, inside: bool) -> tuple[Polygon, ...]:
         if not self.least_error <= error < math.inf:
@@ -265,6 +257,23 @@ class Curved(Shown):
             raise UnsupportedError("grown: of polygons only; give the larger circle, or a path of points")
         outer, *holes = rings
         return Polygon(outer, holes)  # type: ignore[arg-type]
+
+
+def healed_with_changes(shape: Curved, tolerance: float) -> tuple[Curved, list[Change]]:
+    """Return the shape that `Curved.healed` returns, and its arcs that changed."""
+    if not 0 < tolerance < math.inf:
+        raise ValueError(f"tolerance {tolerance}: give a length above 0")
+    if shape.grown:
+        return shape, []
+    rings, changes = [], []
+    for pieces, ring in zip(shape.curves, (shape.path, *shape.holes), strict=True):
+        healed, its = healed_ring(pieces, tolerance) or (ring, [])
+        rings.append(healed)
+        changes += its
+    try:
+        return (Curved(rings[0], rings[1:]), changes) if changes else (shape, [])
+    except InvalidPolygonError:  # a tolerance as large as the shape
+        return shape, []
 
 
 @lru_cache(KEPT)

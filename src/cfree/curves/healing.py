@@ -9,17 +9,30 @@ middles; axis-parallel and Pythagorean ones stay.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Arc, Bezier, Cubic, GivenRing, Piece, Segment, Span
 from cfree.exact.number import ExactPoint, simplest_between
 
-MOST_MOVED = 64  # tolerances that an end may move: more if lines are nearly parallel
+WIDEST_CORNER = 0.01  # angle of a corner that is still taken for rounding
+CORNER_SHARE = 8  # a corner is rounding if moving its pieces' ends by this many tolerances could make it
+CHOICE_SHARE = 16  # directions are chosen within this part of the tolerance
+MOST_TURN = Fraction(1, 10**9)  # and within this, so that numbers stay short
+ROUNDING = Fraction(1, 2**48)  # relative error of a radius in doubles
 
 
-def healed_ring(pieces: Sequence[Piece], tolerance: float, size: float) -> GivenRing | None:
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One healed arc: a place, and the largest move of its ends and its middle."""
+
+    at: ExactPoint
+    size: float
+
+
+def healed_ring(pieces: Sequence[Piece], tolerance: float) -> tuple[GivenRing, list[Change]] | None:
     """Return a ring whose arcs are exactly tangent where they nearly are, or None if there is nothing to heal.
 
     Parameters
@@ -27,88 +40,213 @@ def healed_ring(pieces: Sequence[Piece], tolerance: float, size: float) -> Given
     pieces : sequence of Line, Span and Cubic
         A closed ring.
     tolerance : float
-        Angle to the tangents, in radians; part of the radius by which it may change.
-    size : float
-        Size of the shape.
+        Ends of pieces, and middles of arcs, move by this much at most.
     """
+    runs = _runs(pieces, tolerance)
+    whole = [_joined(run) for run in runs]
+    arcs = {k for k in range(len(whole)) if len(whole) > 2 and _is_tangent(whole, k, tolerance)}
+    while arcs := _movable(whole, arcs):
+        ends, centers, bad = _places(whole, arcs, tolerance)
+        if not bad:
+            changes = _changes(runs, whole, ends, centers)
+            bad = {k for k, change in changes.items() if change.size > tolerance}
+        if not bad:
+            new = [k for k, center in centers.items() if _is_new(whole[k], center, ends[k])]
+            healed = [changes[k] for k in sorted(new)]
+            return (_path(runs, whole, ends, centers), healed) if healed else None
+        arcs -= _near(bad, arcs, len(whole))
+    return None
+
+
+def _near(bad: set[int], arcs: set[int], count: int) -> set[int]:
+    """Return the arcs nearest to pieces that cannot be placed within the tolerance."""
+    near = bad & arcs
+    return near or {k for k in arcs if {(k + j) % count for j in (-2, -1, 1, 2)} & bad}
+
+
+def _runs(pieces: Sequence[Piece], tolerance: float) -> list[list[Piece]]:
+    """Return the pieces in order; successive arcs of one circle, half a turn at most together, are one run."""
+    count, is_within = len(pieces), isinstance(pieces[-1], Span)  # then its first piece may be within a run
+    first = next((k for k in range(count) if not isinstance(pieces[k], Span)), 0) if is_within else 0
+    runs: list[list[Piece]] = []
+    for k in range(first, first + count):
+        piece = pieces[k % count]
+        if runs and _continues(runs[-1], piece, tolerance):
+            runs[-1].append(piece)
+        else:
+            runs.append([piece])
+    return runs
+
+
+def _continues(run: list[Piece], piece: Piece, tolerance: float) -> bool:
+    """True if a piece goes on along the circle of a run of arcs, to half a turn at most."""
+    arcs = [arc for arc in (*run, piece) if isinstance(arc, Span) and _is_circular(arc)]
+    if len(arcs) <= len(run):
+        return False
+    first, last = arcs[0], arcs[-1]
+    return (
+        _cross(first.u, first.v) * _cross(last.u, last.v) > 0
+        and _distance(first.center, last.center) <= tolerance
+        and abs(math.hypot(*map(float, first.u)) - math.hypot(*map(float, last.u))) <= tolerance
+        and sum(map(_sweep, arcs)) <= math.pi + WIDEST_CORNER
+    )
+
+
+def _joined(run: Sequence[Piece]) -> Piece:
+    """Return the one piece of a run: its first arc, continued through the angles of the others."""
+    arc = run[0]
+    if len(run) == 1 or not isinstance(arc, Span):
+        return arc
+    quarters, rest = arc.quarters, arc.rest
+    for other in run[1:]:
+        assert isinstance(other, Span)
+        quarters += other.quarters
+        rest = (rest + other.rest) / (1 - rest * other.rest)
+        if rest >= 1:
+            quarters, rest = quarters + 1, (rest - 1) / (rest + 1)
+    return Span(arc.center, arc.u, arc.v, quarters, rest)
+
+
+def _movable(pieces: Sequence[Piece], arcs: set[int]) -> set[int]:
+    """Return the arcs whose lines can get rational directions: each such line ends at a line, or at such an arc."""
     count = len(pieces)
-    arcs = {k for k in range(count) if count > 2 and _is_tangent(pieces, k, tolerance)}
     while True:
         lines = {j % count for k in arcs for j in (k - 1, k + 1)}
-        moved = {k for k in lines if _exact_unit(_vector(pieces[k])) is None}
-        # a line that moves needs a line, or an arc that follows it, at both ends
         stuck = {
             k
-            for k in moved
-            if any(j % count not in arcs and not isinstance(pieces[j % count], Line) for j in (k - 1, k + 1))
+            for k in lines
+            if _exact_unit(_vector(pieces[k])) is None
+            and any(j % count not in arcs and not isinstance(pieces[j % count], Line) for j in (k - 1, k + 1))
         }
         if not stuck:
-            break
+            return arcs
         arcs = {k for k in arcs if not {(k - 1) % count, (k + 1) % count} & stuck}
-    if not arcs:
-        return None
-    on = {k: _line(pieces[k], tolerance) for k in range(count) if isinstance(pieces[k], Line)}
-    for k in on:
-        if k not in lines:
-            on[k] = pieces[k].start, _vector(pieces[k])  # type: ignore[union-attr]
-    ends: dict[int, ExactPoint] = {}  # the end of each piece
+
+
+def _places(
+    pieces: Sequence[Piece], arcs: set[int], tolerance: float
+) -> tuple[dict[int, ExactPoint], dict[int, ExactPoint], set[int]]:
+    """Return the new ends of pieces, the new centers of arcs, and the pieces that have no place."""
+    count = len(pieces)
+    lines = {j % count for k in arcs for j in (k - 1, k + 1)}
+    on = {
+        k: _line(piece, tolerance) if k in lines else (piece.start, _vector(piece))
+        for k, piece in enumerate(pieces)
+        if isinstance(piece, Line)
+    }
+    moved = {k for k in lines if _exact_unit(_vector(pieces[k])) is None}
+    ends: dict[int, ExactPoint] = {}
     centers: dict[int, ExactPoint] = {}
+    bad: set[int] = set()
     for k in arcs:
         arc = pieces[k]
         assert isinstance(arc, Span)
-        place = _tangent_arc(arc, on[(k - 1) % count], on[(k + 1) % count], tolerance)
+        place = _tangent_arc(arc, on[(k - 1) % count], on[(k + 1) % count])
         if place is None:
-            return None
-        ends[(k - 1) % count], ends[k], centers[k] = place
+            bad.add(k)
+        else:
+            ends[(k - 1) % count], ends[k], centers[k] = place
     for k in range(count):
         j = (k + 1) % count
-        if k not in ends and {k, j} & moved:
-            if not _cross(on[k][1], on[j][1]):
-                return None
-            ends[k] = _meeting(on[k], on[j])
-    far = MOST_MOVED * tolerance * size
-    if any(math.dist(map(float, p), map(float, _end(pieces[k]))) > far for k, p in ends.items()):
-        return None
-    return _path(pieces, ends, centers)
+        if not {k, j} & arcs and {k, j} & moved:
+            if _cross(on[k][1], on[j][1]):
+                ends[k] = _meeting(on[k], on[j])
+            else:
+                bad |= {k, j} & moved
+    return ends, centers, bad
 
 
-def _path(pieces: Sequence[Piece], ends: dict[int, ExactPoint], centers: dict[int, ExactPoint]) -> GivenRing:
-    path: list[Segment] = [ends.get(len(pieces) - 1, _end(pieces[-1]))]
+def _changes(
+    runs: Sequence[Sequence[Piece]],
+    pieces: Sequence[Piece],
+    ends: Mapping[int, ExactPoint],
+    centers: Mapping[int, ExactPoint],
+) -> dict[int, Change]:
+    """Return the largest move of each piece that has a new end or center."""
+    changes = {}
     for k, piece in enumerate(pieces):
-        end = ends.get(k, _end(piece))
-        match piece:
-            case Line():
-                path.append(end)
-            case Cubic(points):
-                path.append(Bezier(points[1:]))
-            case Span() if k in centers:
-                path.append(Arc(end, center=centers[k], clockwise=_cross(piece.u, piece.v) < 0))
-            case Span():
-                path.append(Arc(end, center=piece.center, conjugate=piece.v, clockwise=_cross(piece.u, piece.v) < 0))
+        before, after = _end(runs[k - 1][-1]), _end(runs[k][-1])
+        start, end = ends.get(k - 1 if k else len(pieces) - 1, before), ends.get(k, after)
+        moves = [_distance(start, before), _distance(end, after)]
+        if k in centers and isinstance(piece, Span):
+            middle = _middle(piece.center, before, after, _cross(piece.u, piece.v) > 0)
+            moves.append(math.dist(middle, _middle(centers[k], start, end, _cross(piece.u, piece.v) > 0)))
+        if k in centers or any(moves):
+            # doubles hide moves of less than a rounding; that of the center is about the same
+            least = _distance(centers[k], piece.center) if k in centers and isinstance(piece, Span) else 0.0
+            changes[k] = Change(start, max(moves) or least)
+    return changes
+
+
+def _is_new(arc: Piece, center: ExactPoint, end: ExactPoint) -> bool:
+    return isinstance(arc, Span) and (center, end) != (arc.center, arc.end)
+
+
+def _middle(center: ExactPoint, start: ExactPoint, end: ExactPoint, left: bool) -> tuple[float, float]:
+    """Return the middle of an arc of about half a turn or less, relative to the origin, in doubles."""
+    (x, y), (p, q) = _float(_minus(start, center)), _float(_minus(end, center))
+    sign = 1.0 if left else -1.0
+    turn = math.atan2(sign * (x * q - y * p), x * p + y * q) % math.tau / 2
+    c, s = math.cos(turn), sign * math.sin(turn)
+    return float(center[0]) + c * x - s * y, float(center[1]) + s * x + c * y
+
+
+def _path(
+    runs: Sequence[Sequence[Piece]],
+    pieces: Sequence[Piece],
+    ends: Mapping[int, ExactPoint],
+    centers: Mapping[int, ExactPoint],
+) -> GivenRing:
+    path: list[Segment] = [ends.get(len(runs) - 1, _end(runs[-1][-1]))]
+    for k, run in enumerate(runs):
+        end, arc = ends.get(k, _end(run[-1])), pieces[k]
+        if k in centers and isinstance(arc, Span):
+            path.append(Arc(end, center=centers[k], clockwise=_cross(arc.u, arc.v) < 0))
+        elif isinstance(arc, Line):
+            path.append(end)
+        else:
+            path += map(_segment, run)
     return tuple(path)
+
+
+def _segment(piece: Piece) -> Segment:
+    if isinstance(piece, Cubic):
+        return Bezier(piece.points[1:])
+    assert isinstance(piece, Span)
+    return Arc(piece.end, center=piece.center, conjugate=piece.v, clockwise=_cross(piece.u, piece.v) < 0)
 
 
 def _is_tangent(pieces: Sequence[Piece], k: int, tolerance: float) -> bool:
     """True if a piece is a circular arc of at most half a turn, nearly tangent to lines before and after it."""
     arc, before, after = pieces[k], pieces[k - 1], pieces[(k + 1) % len(pieces)]
-    if not (isinstance(arc, Span) and isinstance(before, Line) and isinstance(after, Line)):
+    if not (isinstance(arc, Span) and isinstance(before, Line) and isinstance(after, Line) and _is_circular(arc)):
         return False
-    if _dot(arc.u, arc.v) or _dot(arc.u, arc.u) != _dot(arc.v, arc.v):
-        return False
-    sweep = arc.quarters * math.pi / 2 + 2 * math.atan(float(arc.rest))
     back = _minus(arc.end, arc.center)
     leaving = (-back[1], back[0]) if _cross(arc.u, arc.v) > 0 else (back[1], -back[0])
-    return sweep <= math.pi + tolerance and all(
-        _dot(v, w) > 0 and abs(_cross(v, w)) <= tolerance * _dot(v, w)
-        for v, w in ((arc.v, _vector(before)), (leaving, _vector(after)))
+    lines = _vector(before), _vector(after)
+    shortest = min(math.hypot(*_float(v)) for v in (*lines, _minus(arc.end, _start(arc))))
+    widest = min(WIDEST_CORNER, CORNER_SHARE * tolerance / shortest)
+    return _sweep(arc) <= math.pi + widest and all(
+        _dot(v, w) > 0 and abs(_cross(v, w)) <= widest * _dot(v, w) for v, w in ((arc.v, lines[0]), (leaving, lines[1]))
     )
 
 
+def _is_circular(arc: Span) -> bool:
+    return not _dot(arc.u, arc.v) and _dot(arc.u, arc.u) == _dot(arc.v, arc.v)
+
+
+def _sweep(arc: Span) -> float:
+    return arc.quarters * math.pi / 2 + 2 * math.atan(float(arc.rest))
+
+
 def _tangent_arc(
-    arc: Span, before: tuple[ExactPoint, ExactPoint], after: tuple[ExactPoint, ExactPoint], tolerance: float
+    arc: Span, before: tuple[ExactPoint, ExactPoint], after: tuple[ExactPoint, ExactPoint]
 ) -> tuple[ExactPoint, ExactPoint, ExactPoint] | None:
     """Return start, end and center of an arc that is tangent to two lines with rational unit directions."""
     (a, d), (b, e) = before, after
+    touching = ((_start(arc), a, d), (arc.end, b, e))
+    if not any(_cross(_minus(p, q), v) or _dot(_minus(p, arc.center), v) for p, q, v in touching):
+        return _start(arc), arc.end, arc.center
     turn = 1 if _cross(arc.u, arc.v) > 0 else -1
     inward = (-turn * d[1], turn * d[0])
     sine, cosine = turn * _cross(d, e), _dot(d, e)
@@ -120,11 +258,22 @@ def _tangent_arc(
         return start, _along(start, 2 * radius, inward), _along(start, radius, inward)
     if sine < 0:
         return None
-    middle = Fraction(math.sqrt(_dot(arc.u, arc.u)))
-    radius = simplest_between(middle * (1 - Fraction(tolerance)), middle * (1 + Fraction(tolerance)))
-    corner, length = _meeting(before, after), radius * sine / (1 + cosine)
+    corner = _meeting(before, after)
+    radius = _radius(arc, corner, (1 + cosine) / sine)
+    length = radius * sine / (1 + cosine)
     start = _along(corner, -length, d)
     return start, _along(corner, length, e), _along(start, radius, inward)
+
+
+def _radius(arc: Span, corner: ExactPoint, ratio: Fraction) -> Fraction:
+    """Return the simplest radius about as near to the arc's own as those are that its two ends have.
+
+    The ends of a tangent arc are a radius divided by `ratio` away from the corner of its lines.
+    """
+    radii = [Fraction(math.sqrt(_dot(arc.u, arc.u)))]
+    radii += [Fraction(_distance(p, corner)) * ratio for p in (_start(arc), arc.end)]
+    spread = min(2 * (max(radii) - min(radii)) + radii[0] * ROUNDING, radii[0] * Fraction(WIDEST_CORNER))
+    return simplest_between(min(radii) - spread, max(radii) + spread)
 
 
 def _line(piece: Piece, tolerance: float) -> tuple[ExactPoint, ExactPoint]:
@@ -137,7 +286,8 @@ def _line(piece: Piece, tolerance: float) -> tuple[ExactPoint, ExactPoint]:
     while not (x > 0 and -x < y <= x):
         x, y, quarters = y, -x, quarters + 1
     half = Fraction(math.tan(math.atan2(y, x) / 2))
-    t = simplest_between(half - Fraction(tolerance) / 4, half + Fraction(tolerance) / 4)
+    by = min(Fraction(tolerance) / Fraction(math.hypot(x, y)) / CHOICE_SHARE, MOST_TURN)
+    t = simplest_between(half - by, half + by)
     x, y = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
     for _ in range(quarters):
         x, y = -y, x
@@ -167,6 +317,14 @@ def _end(piece: Piece) -> ExactPoint:
 def _vector(piece: Piece) -> ExactPoint:
     assert isinstance(piece, Line)
     return _minus(piece.end, piece.start)
+
+
+def _distance(a: ExactPoint, b: ExactPoint) -> float:
+    return math.hypot(*_float(_minus(a, b)))
+
+
+def _float(vector: ExactPoint) -> tuple[float, float]:
+    return float(vector[0]), float(vector[1])
 
 
 def _minus(a: ExactPoint, b: ExactPoint) -> ExactPoint:

@@ -18,7 +18,7 @@ from typing import Any, Literal
 
 from cfree.arguments import checked
 from cfree.collector import collection_paused
-from cfree.curves.curved import Curved
+from cfree.curves.curved import Curved, healed_with_changes
 from cfree.errors import InvalidPolygonError
 from cfree.exact.half_angle import Angle
 from cfree.exact.number import Number, to_fraction
@@ -34,25 +34,28 @@ from cfree.formats.text.number_text import number_text
 from cfree.formats.units import METRES, factor, unit_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.goals import Goal
-from cfree.scene.reading import Note, together
+from cfree.scene.reading import Item, Note, Notes, together
 from cfree.scene.scene import AnyShape, Scene, default_name
 from cfree.vehicles.vehicle import Vehicle
 
 _TEXTS = ("name", "note", "units", "source")
 _LEAST, _MOST = Fraction(1, 10**300), Fraction(10**300)
 """Range of tolerances in the file's unit, so that they are doubles."""
+_HEALED = "arc made exactly tangent"
 EXPORTS = (".geojson", ".svg", ".dxf")
 _SETTINGS = (*_TEXTS, "bounds", "start", "goal", "goals", "vehicle", "check", "version")
 
 
 @checked
-def load_scene(path: str | PathLike[str]) -> Scene:
+def load_scene(path: str | PathLike[str], *, heal: float = 0.0) -> Scene:
     """Read a scene from a file of any kind that `load_shapes` reads.
 
     Parameters
     ----------
     path : path
         JSON files are recognised by their content, all others by their suffix.
+    heal : float
+        Arcs of round shapes become exactly tangent where this moves them by no more, as for `load_shapes`.
 
     Returns
     -------
@@ -71,6 +74,8 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     >>> scene.start.x
     Fraction(-3, 1)
     """
+    if heal:
+        return read_shapes(path, Reading(curves=True, heal=heal)).scene()
     with collection_paused():
         content = read_file(path, Reading(curves=True))
         return content if isinstance(content, Scene) else content.scene()
@@ -87,6 +92,7 @@ def load_shapes(
     scale: Number | None = None,
     join: float | None = None,
     join_holes: bool = False,
+    heal: float = 0.0,
     strokes: float | Literal["ignore", "drawn"] = "ignore",
     repair: bool | None = None,
     holes: Literal["outlines", "nested"] = "outlines",
@@ -123,6 +129,10 @@ def load_shapes(
         Greatest gap of a drawing that is closed; 0 closes none. The default is a millionth of the drawing's size.
     join_holes : bool
         Outlines that a larger `join` closes may be holes. By default they are solid, whatever was meant.
+    heal : float
+        Arcs of round shapes become exactly tangent to their lines where rounding leaves a tiny corner and ends and
+        middles of arcs move by no more than this length, in the scene's unit. 0 heals none. Polygons have no arcs: of
+        a drawing give `curves` as well.
     strokes : float, "ignore" or "drawn"
         Unfilled lines are walls of this width, or of the width drawn; by default closed ones are solids, and open ones
         forbid nothing.
@@ -183,7 +193,26 @@ def read_shapes(path: str | PathLike[str], reading: Reading, progress: Progress 
     with collection_paused():
         content = read_file(path, drawn, progress)
         shapes = shapes_in(content, os.fspath(path)) if isinstance(content, Scene) else content
-        return replace(_sized(shapes, reading.units, reading.scale), padding=to_fraction(reading.padding))
+        sized = _healed(_sized(shapes, reading.units, reading.scale), reading.heal)
+        return replace(sized, padding=to_fraction(reading.padding))
+
+
+def _healed(shapes: Shapes, heal: float) -> Shapes:
+    """Return shapes whose arcs are exactly tangent where this moves them by no more than a length, with notes."""
+    if not heal:
+        return shapes
+    notes, result = Notes(), []
+    for shape in shapes.shapes:
+        if isinstance(shape.polygon, Curved):
+            polygon, changes = healed_with_changes(shape.polygon, heal)
+            where = shape.name or shape.role
+            shape = replace(shape, polygon=polygon)
+            for change in changes:
+                place = float(change.at[0]), float(change.at[1])
+                item = Item("", place, change.size)
+                notes.add(Note("mended", _HEALED, "near", 1, where, place, change.size, (item,)))
+        result.append(shape)
+    return replace(shapes, shapes=tuple(result), reading=together(shapes.reading, notes))
 
 
 def _sized(shapes: Shapes, units: str, scale: Fraction | None) -> Shapes:

@@ -60,6 +60,7 @@ def check(scene: Path, picture: Path | None, as_json: bool) -> None:
 @click.command(cls=drawing.Command, epilog=examples(
     "cfree convert plan.svg scene.json",
     "cfree convert part.dxf scene.json --tolerance 0.01 --role DIMENSIONS=ignore",
+    "cfree convert part.dxf scene.json --heal 1e-6",
     "cfree convert map.yaml scene.json --robot nav2_params.yaml",
     'cfree convert map.yaml scene.json --unknown free --robot "[[0.3, 0.2], [-0.3, 0.2], [-0.3, -0.2], [0.3, -0.2]]"',
     "cfree convert scene.json scene.svg",

@@ -58,6 +58,7 @@ class Reading:
     units: str = ""  # unit of a file that names none
     scale: Fraction | None = None  # lengths are multiplied by this
     curves: bool = False  # outlines with curves become round shapes, not polygons
+    heal: float = 0.0  # arcs of round shapes become exactly tangent if that moves them by no more; 0: none does
     map_rules: Literal["strict", "nav2", "nav2-old", "ros1"] = "strict"
     occupied: int | None = None  # cells of a map from this value up, of 100, are occupied
     free_thresh: float | None = None  # in place of the map's
@@ -69,7 +70,7 @@ class Reading:
     def __post_init__(self) -> None:
         if self.tolerance is not None and not 0 < self.tolerance < math.inf:
             raise ValueError(f"tolerance: {self.tolerance} is no length; give one above 0")
-        for name in ("join", "min_area", "padding", "despeckle"):
+        for name in ("join", "heal", "min_area", "padding", "despeckle"):
             value = getattr(self, name)
             if value is not None and not 0 <= value < math.inf:
                 raise ValueError(f"{name}: {value}; give 0 or more")
