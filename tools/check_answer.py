@@ -2196,8 +2196,24 @@ class Contacts:
             yield ZERO, ONE
             yield ZERO, -ONE
 
-    def changes(self, v: Fraction) -> tuple[Fraction | None, bool]:
-        """Length of a straight way up to where a sign may change; and whether one may at its beginning."""
+    def is_held(self, gears: Sequence[int]) -> bool:
+        """True if no motion but a straight one keeps the contacts, and none leaves."""
+        signs = ((self.sign(v, w), w) for v, w in self.controls(gears, any_vehicle=False))
+        return all(held < 0 or (held == 0 and w == 0) for held, w in signs)
+
+    def goes_on(self, v: Fraction, rail: list[Pose], gears: Sequence[int]) -> bool:
+        """True if the rail has a pose straight ahead, and no other motion begins between the two."""
+        (c, s), pose = self.axle.rotation, self.pose
+        others = [(other.x - pose.x, other.y - pose.y) for other in rail if other.tau == pose.tau]
+        end = min((d for x, y in others if c * y == s * x and (d := v * (c * x + s * y)) > 0), default=None)
+        if end is None:
+            return False
+        ends = sorted({ZERO, end, *(length for length in self.changes(v) if 0 < length < end)})
+        between = [self.moved(v * length) for length in (*ends[1:-1], *((a + b) / 2 for a, b in pairwise(ends)))]
+        return all(there in rail or Contacts(self.world, self.vehicle, there).is_held(gears) for there in between)
+
+    def changes(self, v: Fraction) -> list[Fraction]:
+        """Lengths of straight ways up to where a sign may change."""
         course = next(self.motion(v, ZERO).courses(self.pose, self.world.scale))
         sides = (pair.heights(i) for pair in self.pairs(course) for i in range(len(pair.sides)))
         heights = chain(beyond(self.world, course), *sides)
@@ -2207,7 +2223,7 @@ class Contacts:
             for x, y, z in wall.corners:
                 by = Fraction(x, z * self.world.scale) - self.axle.x, Fraction(y, z * self.world.scale) - self.axle.y
                 found.append((c * by[0] + s * by[1]) / v)
-        return min((length for length in found if length > 0), default=None), ZERO in found
+        return found
 
     def moved(self, length: Fraction) -> Pose:
         c, s = self.axle.rotation
@@ -2228,9 +2244,7 @@ def check_held(answer: Held, scene: Scene) -> str:
             refute_if(leaves > 0, f"rail {k}: a first motion leaves")
             if leaves < 0:
                 continue
-            ahead, is_end = (None, True) if w else contacts.changes(v)
-            asked = [] if ahead is None else [ahead, ahead / 2] if is_end else [ahead]
-            goes_on = asked and all(contacts.moved(v * length) in answer.rail for length in asked)
+            goes_on = w == 0 and contacts.goes_on(v, answer.rail, gears)
             refute_if(not goes_on, f"rail {k}: it can go on along its contacts, which is not in the answer")
     if answer.of == "paths":
         contacts = Contacts(world, answer.vehicle, answer.rail[0])

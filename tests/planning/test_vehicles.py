@@ -396,6 +396,16 @@ def test_contacts_that_hold_only_polygons_around_shapes_leave_the_question_open(
         plan(curved, goal=[(0, 6, 0), (9, 9, 0)], vehicle=Car(4), improve=0)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("height", ["1.8", "2.5"])
+def test_a_rail_in_a_hall_with_a_niche_is_verified_whatever_pieces_the_checkers_cut_it_into(height: str) -> None:
+    hall = [(0, 0), (30, 0), (30, height), (20, height), (20, 10), (0, 10)]
+    body = [("-1", "-0.9"), (3, "-0.9"), (3, "0.9"), ("-1", "0.9")]
+    proof = plan(scene := Scene(body, [], workspace=hall), (3, 5, 0), (26, "0.9", 0), vehicle=Car(4))
+    assert isinstance(proof, Stuck) and proof.at == "goal"
+    assert verified_in_a_file(scene, proof).verified
+
+
 def test_stuck_has_no_truth_value_and_is_saved_and_loaded(tmp_path: Any) -> None:
     scene = Scene(ROBOT, FLUSH, start=(0, 0, 0), goal=(0, 6, 0), vehicle=Car((4, 5), gears="forward"))
     answer = plan(scene)

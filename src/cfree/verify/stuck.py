@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 HELD = "held by contacts"
 ZERO, ONE = Fraction(0), Fraction(1)
 BOUNDS, WORKSPACE = -1, -2  # numbers of obstacles
-FAR = 2.0**40  # robot reaches: no event beyond is looked for
 
 Point = tuple[Fraction, Fraction]
 Ring = list[Point]
@@ -74,7 +73,7 @@ def stuck_findings(proof: Stuck, world: World) -> Iterator[Finding]:
             yield Finding(HELD, f"rail {k}", "the robot touches nothing there")
             return
         for control in held.controls(pairs):
-            sign = min(max(min(h.sign(control) for h in edge) for edge in edges) for _, edges in pairs)
+            sign = held.sign(pairs, control)
             v, w = control
             how = f"{'ahead' if v > 0 else 'back' if v < 0 else 'in place'}, turning {float(w):g} on {abs(float(v)):g}"
             if sign > 0:
@@ -165,40 +164,56 @@ class _Held:
             yield ZERO, -ONE
 
     def goes_on(self, pose: Pose, control: Control) -> bool:
-        """True if the rail has the next place on a line at which something may change, and a pose on the way there.
-
-        The pose itself will do, if nothing changes at it.
-        """
-        ahead, changes_here = self._next(pose, control[0])
-        if ahead is None:
-            return False
+        """True if the rail has a pose ahead on a line, and no other motion begins between the two."""
         axle = pose @ self.vehicle.frame
+        c, s = axle.cos * control[0], axle.sin * control[0]
+        others = [(other.x - pose.x, other.y - pose.y) for other in self.rail if other.tau == pose.tau]
+        ahead = [c * x + s * y for x, y in others if c * y == s * x]
+        end = min((length for length in ahead if length > 0), default=None)
+        if end is None:
+            return False
+        events = sorted({ZERO, end, *(e for e in self._events(pose, control[0], end) if 0 < e < end)})
+        lengths = [*events[1:-1], *((a + b) / 2 for a, b in pairwise(events))]
+        return all(
+            self._is_held(Pose(pose.x + c * length, pose.y + s * length, {"tau": pose.tau})) for length in lengths
+        )
 
-        def moved(length: Fraction) -> Pose:
-            by = control[0] * length
-            return Pose(pose.x + axle.cos * by, pose.y + axle.sin * by, {"tau": pose.tau})
+    def _is_held(self, pose: Pose) -> bool:
+        """True if no motion but a straight one begins at a pose."""
+        pairs = self.pairs(pose)
+        return bool(pairs) and all(
+            sign < 0 or (sign == 0 and w == 0) for (v, w) in self.controls(pairs) for sign in [self.sign(pairs, (v, w))]
+        )
 
-        return moved(ahead) in self.rail and (not changes_here or moved(ahead / 2) in self.rail)
+    def sign(self, pairs: list[tuple[int, list[list[Height]]]], control: Control) -> int:
+        """1 if a control parts all pairs, 0 if some keep touching, -1 if some overlap; from 0 on."""
+        return min(max(min(h.sign(control) for h in edge) for edge in edges) for _, edges in pairs)
 
-    def _next(self, pose: Pose, gear: Fraction) -> tuple[Fraction | None, bool]:
-        """Return the length of a straight way on which no sign changes before its end; and if one may at its start."""
-        within = 4 * self.reach
-        while within < FAR * self.reach:
-            lengths = list[Fraction]()
-            for other in (ring for _, ring in self.around(pose, within)):
-                lengths += [x / gear for x, _ in other]
-                for part in self.robot:
-                    for ring, points, sense in ((other, part, 1), (part, other, -1)):
-                        for (ax, ay), (bx, by) in zip(ring, [*ring[1:], ring[0]], strict=True):
-                            if by != ay:
-                                speed = -sense * gear * (by - ay)
-                                lengths += [-((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / speed for x, y in points]
-            lengths += [-room / (gear * ey) for (_, ey), room in self.rooms(pose) if ey]
-            ahead = min((length for length in lengths if length > 0), default=None)
-            if ahead is not None and ahead <= within:
-                return ahead, ZERO in lengths
-            within *= 4
-        return None, True
+    def _events(self, pose: Pose, gear: Fraction, end: Fraction) -> Iterator[Fraction]:
+        """Yield the lengths of straight ways, up to an end, at which a sign of a pair may change.
+
+        Signs of a pair matter only where the boxes of its pieces meet.
+        """
+        for other in (ring for _, ring in self.around(pose, float(end))):
+            for part in self.robot:
+                if not _is_beside(part, other):
+                    continue
+                events = [x / gear for x, _ in other]
+                for ring, points, sense in ((other, part, 1), (part, other, -1)):
+                    for (ax, ay), (bx, by) in zip(ring, [*ring[1:], ring[0]], strict=True):
+                        if by != ay:
+                            speed = -sense * gear * (by - ay)
+                            events += [-((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / speed for x, y in points]
+                (x0, x1), (u0, u1) = ((min(x for x, _ in ring), max(x for x, _ in ring)) for ring in (part, other))
+                first, last = sorted(((u0 - x1) / gear, (u1 - x0) / gear))
+                yield from (length for length in events if first <= length <= last)
+        yield from (-room / (gear * ey) for (_, ey), room in self.rooms(pose) if ey)
+
+
+def _is_beside(part: Ring, other: Ring) -> bool:
+    """True if the boxes of two rings meet somewhere when one moves along the x-axis."""
+    (low, high), (least, most) = ((min(y for _, y in ring), max(y for _, y in ring)) for ring in (part, other))
+    return low <= most and least <= high
 
 
 def _edges(ring: Ring, points: Ring, sense: int) -> list[list[Height]]:
