@@ -201,6 +201,36 @@ def test_the_contacts_of_a_stuck_vehicle_are_marked_with_what_it_touches() -> No
         assert sorted(abs(line[1] - line[0])[1] for line in lines) == pytest.approx([2, 2])
 
 
+def test_the_places_that_a_car_without_reverse_gear_reaches_are_shaded() -> None:
+    alley = [(0, 0), (12, 0), (12, 4), (0, 4)]
+    robot, ends = [(-0.5, -0.5), (1.5, -0.5), (1.5, 0.5), (-0.5, 0.5)], {"start": (3, 2, 0), "goal": (3, 2, "180deg")}
+    scene = Scene(robot, [], workspace=alley, vehicle=Car(3, gears="forward"), **ends)
+    proof = plan(scene, improve=0)
+    assert isinstance(proof, cfree.Unreachable)
+    figure = proof.plot(scene)
+    (ax,) = figure.axes
+    assert figure.texts[0].get_text() == "unreachable without reverse gear, proved"
+    drawn = artists(ax)
+    assert "wheels" in drawn
+    (boxes,) = ax.images
+    shaded, (left, _, low, _) = boxes.get_array(), boxes.get_extent()
+    side = float(proof.grid.side)
+    for k, reached in ((proof.pose, True), (Pose(11.9, 0.1), False)):
+        column, row = int((float(k.x) - left) / side), int((float(k.y) - low) / side)
+        assert bool(shaded[row, column]) is reached if not np.ma.is_masked(shaded[row, column]) else not reached
+
+
+def test_long_numbers_leave_the_name_of_the_axis_inside_of_the_figure() -> None:
+    hall = [(0, 0), (24000, 0), (24000, 18000), (0, 18000)]
+    robot = [(0, 0), (6000, 0), (6000, 2000), (0, 2000)]
+    scene = Scene(robot, [], workspace=hall, start=(0, 0, 0), goal=(15000, 15000, 0), units="mm")
+    path = plan(scene, improve=0)
+    assert isinstance(path, Path)
+    for figure in (path.plot(scene, cfree.boundary(scene)), picture(scene)):
+        box = figure.axes[0].yaxis.get_tightbbox()
+        assert box is not None and box.x0 > 0
+
+
 def test_a_corner_on_a_wall_is_one_contact_and_all_poses_of_a_rail_are_drawn() -> None:
     walls = [[(-20, -3), (20, -3), (20, -1), (-20, -1)], *([(x, -3), (x + 2, -3), (x + 2, 4), (x, 4)] for x in (-7, 5))]
     scene = Scene(BODY, walls, start=(0, 0, 0), goal=(-13, 12, 0), vehicle=Car(4, axle=(-1, 0)))

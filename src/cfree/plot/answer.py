@@ -44,11 +44,12 @@ from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_l
 from cfree.plot.reading import plot_shapes, with_record
 from cfree.plot.strips import strips
 from cfree.plot.stuck import picture_of_stuck
+from cfree.plot.unreachable import picture_of_unreachable
 from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
 from cfree.scene.naming import all_placed, numbered, placed
-from cfree.scene.scene import Scene, box_of, robot_radius, with_ends
+from cfree.scene.scene import Scene, box_of, robot_radius
 from cfree.words import MOST_NAMES, listed
 
 Floats = NDArray[np.float64]
@@ -119,8 +120,8 @@ def picture(
     ----------
     answer : Path, Separated, Stuck, Unreachable, AllSeparated, UndecidedError, Scene or Shapes
         The first of several proofs is drawn. The contacts of a vehicle that is stuck are marked, and all poses that it
-        reaches; of one without reverse gear, the scene with its start and goal. Of an `UndecidedError` its path is
-        drawn, which proves that a vehicle has one. A scene is drawn as by `plot_workspace`, round shapes with many
+        reaches; of one without reverse gear, the places of its axle point in the proof. Of an `UndecidedError` its path
+        is drawn, which proves that a vehicle has one. A scene is drawn as by `plot_workspace`, round shapes with many
         edges.
         Over a scene or shapes the record of reading is drawn: lost lines red, guessed outlines hatched in orange,
         joined gaps as dots.
@@ -169,7 +170,7 @@ def picture(
     if isinstance(answer, AllSeparated):
         answer = answer.proofs[0]
     if isinstance(answer, Unreachable):
-        return picture(with_ends(_scene_of(answer, scene), answer.start, answer.goal))
+        return picture_of_unreachable(answer, _scene_of(answer, scene))
     if isinstance(answer, Stuck):
         return picture_of_stuck(answer, _scene_of(answer, scene))
     headline, details = "", ""

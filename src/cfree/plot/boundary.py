@@ -33,6 +33,7 @@ from cfree.scene.scene import Scene
 from cfree.words import counted
 
 CORNER = 0.9  # share of an axis that has numbers
+EDGE = 4.0  # pixels between the edge of a figure and the name of an axis
 SLIMMEST = 0.4  # least ratio of a window's shorter side to the longer one
 
 
@@ -307,6 +308,21 @@ def set_window(ax: Axes, window: Window, units: str) -> None:
     space_numbers(ax)
     ax.set_xlabel(with_unit("x", units))
     ax.set_ylabel(with_unit("y", units))
+    keep_inside(ax)
+
+
+def keep_inside(ax: Axes) -> None:
+    """Move axes to the right where long numbers push the name of the axis out of the figure."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    figure = ax.figure
+    if not isinstance(figure.canvas, FigureCanvasAgg) or figure.get_layout_engine() is not None:
+        return
+    names = ax.yaxis.get_tightbbox()
+    outside = EDGE - names.x0 if names is not None else 0.0
+    if outside > 0:
+        place, by = ax.get_position(original=True), outside / figure.bbox.width
+        ax.set_position((place.x0 + by, place.y0, place.width, place.height))
 
 
 def space_numbers(ax: Axes) -> None:

@@ -21,7 +21,7 @@ from cfree.paths.clearance import Clearance, distances_beside, least_clearance, 
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import SAME, Travel, ghosts
-from cfree.plot.boundary import around, new_axes, plain, roomy, set_window, with_unit
+from cfree.plot.boundary import around, keep_inside, new_axes, plain, roomy, set_window, with_unit
 from cfree.plot.gears import Gears, draw_axle_track, draw_legend, draw_stands, draw_vehicle
 from cfree.plot.labels import BODY, GHOST, LINE, Labels
 from cfree.plot.looks import looks, of_polygons
@@ -249,6 +249,7 @@ def _draw_scale(ax: Any, track: Track) -> None:
     beside.set_ylabel(with_unit("clearance", track.scene.units))
     if track.least is not None:
         beside.axhline(track.least.found, color=BARRIER, linewidth=2)
+    keep_inside(ax)
 
 
 def statement(track: Track) -> str:
