@@ -1,7 +1,4 @@
-"""Make the pictures of vehicles in README.md and docs: `python tools/parking_images.py`, with the extra `test`.
-
-The paths depend a little on the time that their improvement takes: look at the pictures before they are committed.
-"""
+"""Make the pictures of vehicles in README.md and docs: `python tools/parking_images.py`, with the extra `test`."""
 
 from fractions import Fraction
 from io import BytesIO
@@ -27,7 +24,7 @@ ROOT = Path(__file__).parents[1]
 SCENE, FOLDER = ROOT / "examples" / "scenes" / "parking_bay.json", ROOT / "docs" / "images"
 LARGER = Fraction("1.14")
 WINDOW = (-8.3, -0.3, 7.9, 9.5)
-SECONDS, SHARE = 30.0, 0.75  # of improvement; of the path at which the film's frame is
+SHARE = 0.75  # of the path at which the film's frame is
 TOUCHING = 0.03  # metres
 
 
@@ -150,7 +147,7 @@ def frame(scene: cfree.Scene, path: cfree.Path) -> Image.Image:
 
 if __name__ == "__main__":
     scene = cfree.load_scene(SCENE)
-    path = cfree.plan(scene, improve=SECONDS)
+    path = cfree.plan(scene)
     assert isinstance(path, cfree.Path)
     save(drawn(hero(scene, path)), "parking-bay.png", 1600)
     save(drawn(cfree.plot.plot_path(path, scene).figure), "vehicle.png", 1100)

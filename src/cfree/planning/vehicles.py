@@ -16,6 +16,7 @@ import time
 from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -60,6 +61,8 @@ GUIDED = Preferences(sideways=10, turning=3)  # of a path that is easily driven
 GUESSES = 5000  # of a search for another path of the robot
 IN_BOXES = 200_000  # motions looked at for a way without reverse gear, at each fineness of the boxes
 POSES, SEARCHES = 8000, 3  # of a search for one by two trees
+MANY_CUSPS = 4  # a path with more is compared with one that keeps less of the distance,
+MOST_DEARER = 1.5  # and left for it if it costs so many times as much
 FEW_CUSPS = 1  # a path with no more needs no other guide
 ROOMS = (4, 6, 8, 12, 16, 20, 24)  # binary exponents of a clearance that keeps a path off contacts, in robot radii
 PLACES = (Fraction(0), Fraction(1, 3), Fraction(1, 2), Fraction(2, 3))  # on a motion, at which contacts are looked for
@@ -365,12 +368,50 @@ def driven(question: Question, way: Sequence[Pose], reach: Reach | None = None) 
         If the budget of words does not suffice: the path exists, and the error has an estimate of its manoeuvres. Or if
         neither a path nor a proof was found for a car without reverse gear.
     """
+    improve, shares = question.options.improve, SHARES[question.options.objective]
+    begin = time.perf_counter()
+    end = begin + improve if improve else math.inf
+    found = _best(question, way, shares, begin, _middle(begin, end), reach)
+    if isinstance(found, Unreachable):
+        return found
+    drive, share = found
+    while improve != 0 and drive.cusps > MANY_CUSPS and share > 0:  # it may keep too much of the distance
+        now = time.perf_counter()
+        with suppress(UndecidedError):
+            nearer = _best(question, way, [s for s in shares if s < share], now, _middle(now, end))
+            if not isinstance(nearer, Unreachable) and _cost(drive) > MOST_DEARER * _cost(nearer[0]):
+                drive, share = nearer
+                continue
+        break
+    while time.perf_counter() < end < math.inf and not question.options.stop.is_set():
+        drive.run(BLOCK)
+    return _path(question, drive)
+
+
+def _middle(begin: float, end: float) -> float:
+    return begin + (end - begin) / 2
+
+
+def _best(
+    question: Question,
+    way: Sequence[Pose],
+    shares: Sequence[float],
+    begin: float,
+    end: float,
+    reach: Reach | None = None,
+) -> tuple[_core.Drive, float] | Unreachable:
+    """Return the cheapest shortened words along a path that keep one of some shares of its distance; and the share.
+
+    Raises
+    ------
+    UndecidedError
+        As `driven`.
+    """
     improve, objective = question.options.improve, question.options.objective
     drives, guides, shortfalls = list[_core.Drive](), list[tuple[Sequence[Pose], float]](), list[tuple[float, int]]()
-    begin = time.perf_counter()
     for preferences in (NONE, GUIDED):
         guide = way if preferences is NONE else _guide(question, way, preferences)
-        drive, share, reached = _followed(question, guide, objective)
+        drive, share, reached = _followed(question, guide, shares)
         if drive is None:
             shortfalls.append(reached)
             continue
@@ -378,6 +419,7 @@ def driven(question: Question, way: Sequence[Pose], reach: Reach | None = None) 
         guides.append((guide, share))
         if improve == 0 or drive.cusps <= FEW_CUSPS:
             break
+    most = max((share for _, share in guides), default=0.0)
     if not drives and reach is not None:
         searched = _searched(question, way, reach)
         if isinstance(searched, Unreachable):
@@ -388,9 +430,7 @@ def driven(question: Question, way: Sequence[Pose], reach: Reach | None = None) 
     if improve == 0:
         for drive in drives:
             drive.join_far()
-        return _path(question, min(drives, key=_cost))
-
-    end = begin + improve if improve else math.inf
+        return min(drives, key=_cost), most
 
     def further() -> Iterator[_core.Drive]:
         """Yield further words along the same paths, to be shortened with other random numbers; and along others."""
@@ -402,13 +442,13 @@ def driven(question: Question, way: Sequence[Pose], reach: Reach | None = None) 
                 if is_whole:
                     yield drive
             other = _other_way(question, way, seed) if improve and guides else None
-            new = _followed(question, other, objective)[0] if other else None
+            new = _followed(question, other, shares)[0] if other else None
             if new is not None:
                 yield new
 
     is_simple = max(drive.cusps for drive in drives) == 0
     others = iter(()) if is_simple else further()
-    return _path(question, min(_shortened(question, drives, others, begin, end), key=_cost))
+    return min(_shortened(question, drives, others, begin, end), key=_cost), most
 
 
 def _searched(question: Question, way: Sequence[Pose], reach: Reach) -> _core.Drive | Unreachable:
@@ -503,12 +543,12 @@ def _other_way(question: Question, way: Sequence[Pose], seed: int) -> Sequence[P
 
 
 def _followed(
-    question: Question, guide: Sequence[Pose], objective: Objective
+    question: Question, guide: Sequence[Pose], shares: Sequence[float]
 ) -> tuple[_core.Drive | None, float, tuple[float, int]]:
     """Follow a path with the greatest share of its distance that works; None, and the share of the path done."""
     best = (0.0, 0)
-    for share in SHARES[objective]:
-        is_whole, reached, drive = _driving(question, guide, share, objective).follow(WORDS, 0)
+    for share in shares:
+        is_whole, reached, drive = _driving(question, guide, share, question.options.objective).follow(WORDS, 0)
         if is_whole:
             return drive, share, (1.0, 0)
         best = max(best, (reached, len(drive.poses)))
