@@ -38,11 +38,21 @@ export function pose_verdict(columns: Columns, names: string[]): Verdict {
       text: `Forbidden: the robot overlaps ${owner! < 0 ? "the outside of " : ""}${obstacle_name(names, owner!)}.`,
     };
   }
+  const [, touched] = integers(columns, "touched");
+  if (touched !== undefined) return { tone: "touch", text: `Touching ${obstacle_name(names, touched)}. Allowed.` };
   const touching = bytes(columns, "touching.kind").length;
   if (touching === 0) return { tone: "good", text: "Free." };
   const said = Array.from({ length: Math.min(touching, 2) }, (_, k) => contact_words(columns, "touching", k, names));
   const rest = touching > 2 ? ` and ${touching - 2} more` : "";
   return { tone: "touch", text: `Touching: ${said.join("; ")}${rest}. Allowed.` };
+}
+
+// The boundary at the right is that of polygons around round shapes.
+export function around_words(scene: Columns, units: string): string {
+  const off = value(scene, "around");
+  return off >= 0
+    ? ` · round shapes are drawn as polygons around them, within ${off.toPrecision(2)}${units && ` ${units}`}`
+    : "";
 }
 
 function blocking(owners: number[], names: string[]): string {
@@ -81,6 +91,7 @@ function open_words(verdict: string, columns: Columns, vehicle: Vehicle | undefi
     return `${touches[1] === "start" ? "Start" : "Goal"}: the robot touches something. The page does not decide this for ${it}; use \`cfree plan\`.`;
   if (verdict === "contacts")
     return `A motion exists, but along contacts only. The page does not decide this for ${it}; use \`cfree plan\`.`;
+  if (verdict === "round") return "Undecided here for the round shapes: `cfree plan` decides more.";
   if (verdict === "narrow") return `A way of ${it} exists; the page cannot write it down: its passages are too narrow.`;
   if (verdict === "forward")
     return "A way exists with a reverse gear; none without one was found here: `cfree plan` may decide it.";

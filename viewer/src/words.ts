@@ -74,9 +74,83 @@ function ring(value: Json, place: string): string {
 // A list that begins with a point: a polygon without holes may be written as its ring alone.
 const is_ring = (value: Json): boolean =>
   Array.isArray(value) && Array.isArray(value[0]) && value[0].length > 0 && !Array.isArray(value[0][0]);
+const pair = (value: Json, place: string): string => {
+  const parts = list(value, place);
+  if (parts.length !== 2) fail(place, "two numbers", value);
+  return parts.map((c, i) => number(c, `${place}[${i}]`)).join(" ");
+};
+const OTHER_CURVES =
+  "the page takes lines and circular arcs; `cfree convert` with --outer writes polygons around others";
+
+// Refuse curves that have no exact form here.
+function only(of: Record<string, Json>, keys: string, place: string): void {
+  for (const key of Object.keys(of)) {
+    if (["ellipse", "bezier", "spline", "conjugate"].includes(key)) throw new Error(`${place}.${key}: ${OTHER_CURVES}`);
+    if (!keys.split(" ").includes(key))
+      throw new Error(`${place}: unknown key "${plain(key)}"; give one of ${keys.replaceAll(" ", ", ")}`);
+  }
+}
+
+function arc(value: Json, place: string): string {
+  const of = fields(value, place);
+  only(of, "to through center clockwise", place);
+  const to = pair(of.to, `${place}.to`);
+  if ((of.through === undefined) === (of.center === undefined)) fail(place, '"through" or "center"', value);
+  if (of.through !== undefined) {
+    if (of.clockwise) throw new Error(`${place}.clockwise: of arcs about a center; leave it out`);
+    return `arc ${to} through ${pair(of.through, `${place}.through`)}`;
+  }
+  if (of.clockwise !== undefined && typeof of.clockwise !== "boolean")
+    fail(`${place}.clockwise`, "true or false", of.clockwise);
+  return `arc ${to} about ${pair(of.center, `${place}.center`)} ${of.clockwise ? "right" : "left"}`;
+}
+
+// A closed path: a point, then points and arcs.
+function path(value: Json, place: string): string {
+  const items = list(value, place).map((item, k) => {
+    const here = `${place}[${k}]`;
+    if (Array.isArray(item) || k === 0) return pair(item, here);
+    const of = fields(item, here);
+    only(of, "arc", here);
+    return arc(of.arc, `${here}.arc`);
+  });
+  return `path ${items.join(" ")}`;
+}
+
+function curve(of: Record<string, Json>, place: string): string | undefined {
+  if (of.circle !== undefined) {
+    const circle = fields(of.circle, `${place}.circle`);
+    only(circle, "center radius", `${place}.circle`);
+    const radius = number(circle.radius, `${place}.circle.radius`);
+    return `circle ${pair(circle.center, `${place}.circle.center`)} ${radius}`;
+  }
+  return of.path === undefined ? undefined : path(of.path, `${place}.path`);
+}
+
+export const is_round = (of: object): boolean => ["circle", "ellipse", "path", "grown"].some((key) => key in of);
+
+function round(of: Record<string, Json>, place: string): string {
+  only(of, "name circle path outer holes grown", place);
+  if (["circle", "path", "outer"].filter((key) => of[key] !== undefined).length !== 1)
+    throw new Error(`${place}: give one of circle, path, outer`);
+  const holes = of.holes === undefined ? [] : list(of.holes, `${place}.holes`);
+  const hole = (value: Json, here: string) => {
+    if (Array.isArray(value)) return path(value, here);
+    const ring_of = fields(value, here);
+    only(ring_of, "circle path", here);
+    return curve(ring_of, here) ?? fail(here, '"circle" or "path"', value);
+  };
+  return [
+    curve(of, place) ?? path(of.outer, `${place}.outer`),
+    ...holes.map((value, k) => hole(value, `${place}.holes[${k}]`)),
+    ...(of.grown === undefined ? [] : [`grown ${number(of.grown, `${place}.grown`)}`]),
+  ].join(" ");
+}
+
 function polygon(value: Json, place: string): string {
   if (is_ring(value)) return ring(value, place);
   const of = fields(value, place);
+  if (is_round(of)) return round(of, place);
   const holes = of.holes === undefined ? [] : list(of.holes, `${place}.holes`);
   return [ring(of.outer, `${place}.outer`), ...holes.map((hole, k) => ring(hole, `${place}.holes[${k}]`))].join(" ");
 }
