@@ -16,6 +16,7 @@ constexpr int attempts = 400;  // to shorten a path
 // Among round shapes: errors of polygons, in parts of the robot's size; guesses of a search before and after the first proof is
 // tried; the work of all proofs.
 constexpr double shares[] = {0x1p-6, 0x1p-9, 0x1p-12};
+constexpr double share_to_drive = 0x1p-10;
 constexpr int few_guesses = 2000, many_guesses = 20'000;
 constexpr std::int64_t most_patches = 60'000;
 
@@ -258,10 +259,10 @@ void ask_pose(const World& world, const RationalPose& pose, Reply& reply) {
     if (pair) return reply.add("pair", std::vector<Index>(pair->begin(), pair->end()));
     reply.add("clearance", world.clearance(at));
     if (world.rounds) {
-        std::vector<Index> touched;
-        if (const auto collision = world.rounds->touching.first_collision(in_units(world, still(world, pose)))) {
-            const auto touching = pair_of(*world.rounds, *collision);
-            touched.assign(touching.begin(), touching.end());
+        std::vector<Index> touched = world.rounds->touched(in_units(world, still(world, pose)));
+        if (const auto& bounds = world.shapes.bounds) {
+            const auto& [x0, y0, x1, y1] = *bounds;
+            if (pose.x == x0 || pose.x == x1 || pose.y == y0 || pose.y == y1) touched.push_back(bounds_owner);
         }
         return reply.add("touched", touched);
     }
@@ -320,7 +321,9 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
     if (!std::holds_alternative<Poses>(answer)) return reply.text("verdict", world.rounds ? "round" : "unclear");
     const Poses& found = std::get<Poses>(answer);
     if (vehicle) {
-        const DrivenWay driving = driven(world, *vehicle, found, attempts);
+        std::optional<World> finer;  // a vehicle keeps more than the error of polygons
+        if (world.rounds) finer.emplace(world.rounds, world.rounds->polygons(share_to_drive, false), false);
+        const DrivenWay driving = driven(finer ? *finer : world, *vehicle, found, attempts);
         using enum DrivenWay::Verdict;
         const bool needs_contacts = driving.verdict == start_touches || driving.verdict == goal_touches || driving.verdict == contacts || driving.verdict == narrow;
         if (world.rounds && needs_contacts) return reply.text("verdict", "round");  // the polygons do not tell contacts

@@ -48,6 +48,15 @@ RatioPoint point_of(Words& words) {
 
 bool begins_ring(std::string_view word) { return word == "ring" || word == "path" || word == "circle" || word == "grown"; }
 
+// The second radius of an arc: the same length across the first, or it is that of an ellipse.
+void refuse_ellipse(Words& words, const GivenCurve& arc) {
+    words.next();
+    const RatioPoint v = point_of(words);
+    const Ratio ux = arc.start.x - arc.center.x, uy = arc.start.y - arc.center.y;
+    if (ux * v.x + uy * v.y != Ratio{0, 1} || ux * ux + uy * uy != v.x * v.x + v.y * v.y)
+        throw std::invalid_argument("an arc of an ellipse: the page takes lines and circular arcs; `cfree convert` with --outer writes polygons around others");
+}
+
 // "x y" is the end of a line, "arc x y about x y left" or ".. right" or "arc x y through x y" that of an arc. The ends are listed, too.
 std::vector<GivenCurve> path_of(Words& words, RatioRing& ends, bool& has_arcs) {
     std::vector<GivenCurve> curves;
@@ -68,6 +77,7 @@ std::vector<GivenCurve> path_of(Words& words, RatioRing& ends, bool& has_arcs) {
             else {
                 curves.push_back(arc_about(from, point, to, words.word() == "right"));
                 words.next();
+                if (words.word() == "conjugate") refuse_ellipse(words, curves.back());
             }
         } else if (to != from) curves.push_back({from, to});
         from = to;

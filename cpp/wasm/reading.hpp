@@ -2,7 +2,7 @@
 //
 //   robot ring x y x y .. ring ..   obstacle ring ..   workspace ring ..   bounds x0 y0 x1 y1
 //
-// A round shape has rings `circle x y radius` or `path x y ..`, where `arc x y about x y left` or `right` and `arc x y through x y`
+// A round shape has rings `circle x y radius` or `path x y ..`, where `arc x y about x y left` or `right`, and `conjugate x y` after it, and `arc x y through x y`
 // may stand for points; or `grown radius` after polygons.
 #pragma once
 #include <string_view>

@@ -10,7 +10,7 @@ namespace cfree {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr unsigned touch_bits = 80;                  // the growth that finds contacts, relative to the robot's size
+constexpr int touch_bits = 80;                       // the growth that finds contacts, relative to the robot's size
 constexpr double edges = 0.75, margin = 0.125;       // shares of an error: of the edges, and of vertices moved to the grid
 constexpr double most_error = 0.25, most_turn = pi / 4;  // relative to an arc's radius; of one edge
 constexpr int finer = 6;                             // divisions of an error by 4, where polygons cross themselves
@@ -71,9 +71,9 @@ ArcShape exact_of(const GivenShape& shape, const Ratio& more, bool is_outside) {
     return arc_shape(std::move(exact), whole(radius), scale, is_outside);
 }
 
-std::shared_ptr<const ArcScene> arcs_of(const GivenScene& given, const Ratio& more) {
+std::shared_ptr<const ArcScene> arcs_of(const GivenScene& given) {
     auto scene = std::make_shared<ArcScene>();
-    for (const auto& part : given.robot) scene->robot.push_back(exact_of(part, more, false));
+    for (const auto& part : given.robot) scene->robot.push_back(exact_of(part, zero, false));
     for (const auto& obstacle : given.obstacles) scene->obstacles.push_back(exact_of(obstacle, zero, false));
     if (given.workspace) scene->obstacles.push_back(exact_of(*given.workspace, zero, true));
     scene->bounds = given.bounds;
@@ -353,8 +353,20 @@ void Outlines::add(const GivenShape& of, const std::vector<std::shared_ptr<const
 }
 
 Rounds::Rounds(GivenScene given)
-    : scene(std::move(given)), motions(std::make_shared<const ArcMotionChecker>(arcs_of(scene, zero))), poses(motions->scene),
-      touching(arcs_of(scene, ratio_of(size_of(scene.robot)) * power_of_two(-static_cast<int>(touch_bits)))), size(size_of(scene.robot)) {}
+    : scene(std::move(given)), motions(std::make_shared<const ArcMotionChecker>(arcs_of(scene))), poses(motions->scene), size(size_of(scene.robot)) {
+    const Ratio more = ratio_of(size) * power_of_two(-touch_bits);
+    std::vector<ArcShape> robot;
+    for (const auto& part : scene.robot) robot.push_back(exact_of(part, more, false));
+    for (const auto& obstacle : motions->scene->obstacles)
+        apart.push_back(std::make_unique<const ArcMotionChecker>(std::make_shared<const ArcScene>(ArcScene{robot, {obstacle}, {}})));
+}
+
+std::vector<Index> Rounds::touched(const Motion& still) const {
+    std::vector<Index> obstacles;
+    for (std::size_t k = 0; k < apart.size(); ++k)
+        if (!apart[k]->is_free(still)) obstacles.push_back(owner(static_cast<Index>(k)));
+    return obstacles;
+}
 
 Index Rounds::owner(Index obstacle) const {
     if (obstacle < 0) return bounds_owner;

@@ -70,15 +70,18 @@ public:
     const GivenScene scene;
     const std::shared_ptr<const ArcMotionChecker> motions;
     const ArcPoseChecker poses;
-    // With the robot grown by less than doubles tell from 0: it collides where the robot touches.
-    const ArcMotionChecker touching;
     const double size;  // of the robot
 
     // Polygons around everything forbidden, or inside of it, with an error of a part of the robot's size. Throws
     // std::invalid_argument if a shape has none; obstacles without one inside are left out, and `off` is infinite.
     NearShapes polygons(double share, bool is_outward) const;
+    // Obstacles that the robot touches at a free pose, or the workspace. Distances below a 2^80th of its size count as 0.
+    std::vector<Index> touched(const Motion& still) const;
     // The obstacle's number in collisions, or bounds or workspace.
     Index owner(Index obstacle) const;
+
+private:
+    std::vector<std::unique_ptr<const ArcMotionChecker>> apart;  // of each obstacle and the robot, grown a little
 };
 
 }  // namespace cfree

@@ -29,6 +29,9 @@ export function contact_words(columns: Columns, prefix: string, k: number, names
     : `robot edge ${robot} on vertex ${corner} of ${where}`;
 }
 
+const joined = (some: string[]): string =>
+  some.length > 1 ? `${some.slice(0, -1).join(", ")} and ${some.at(-1)}` : some[0]!;
+
 export function pose_verdict(columns: Columns, names: string[]): Verdict {
   if (value(columns, "free") === 0) {
     const [part, owner] = integers(columns, "pair");
@@ -38,8 +41,12 @@ export function pose_verdict(columns: Columns, names: string[]): Verdict {
       text: `Forbidden: the robot overlaps ${owner! < 0 ? "the outside of " : ""}${obstacle_name(names, owner!)}.`,
     };
   }
-  const [, touched] = integers(columns, "touched");
-  if (touched !== undefined) return { tone: "touch", text: `Touching ${obstacle_name(names, touched)}. Allowed.` };
+  const touched = [...integers(columns, "touched")]; // among round shapes
+  if (touched.length) {
+    const some = touched.slice(0, 2).map((k) => obstacle_name(names, k));
+    if (touched.length > 2) some.push(`${touched.length - 2} more`);
+    return { tone: "touch", text: `Touching ${joined(some)}. Allowed.` };
+  }
   const touching = bytes(columns, "touching.kind").length;
   if (touching === 0) return { tone: "good", text: "Free." };
   const said = Array.from({ length: Math.min(touching, 2) }, (_, k) => contact_words(columns, "touching", k, names));
@@ -59,8 +66,7 @@ function blocking(owners: number[], names: string[]): string {
   const are_plain = owners.every((k) => k >= 0 && (names[k] ?? `obstacle ${k}`) === `obstacle ${k}`);
   const some = owners.slice(0, 4).map((k) => (are_plain ? String(k) : obstacle_name(names, k)));
   if (owners.length > 4) some.push(`${owners.length - 4} more`);
-  const joined = some.length > 1 ? `${some.slice(0, -1).join(", ")} and ${some.at(-1)}` : some[0]!;
-  return are_plain ? `obstacle${owners.length > 1 ? "s" : ""} ${joined}` : joined;
+  return are_plain ? `obstacle${owners.length > 1 ? "s" : ""} ${joined(some)}` : joined(some);
 }
 
 // The machine in a sentence, with its article.

@@ -85,7 +85,7 @@ const OTHER_CURVES =
 // Refuse curves that have no exact form here.
 function only(of: Record<string, Json>, keys: string, place: string): void {
   for (const key of Object.keys(of)) {
-    if (["ellipse", "bezier", "spline", "conjugate"].includes(key)) throw new Error(`${place}.${key}: ${OTHER_CURVES}`);
+    if (["ellipse", "bezier", "spline"].includes(key)) throw new Error(`${place}.${key}: ${OTHER_CURVES}`);
     if (!keys.split(" ").includes(key))
       throw new Error(`${place}: unknown key "${plain(key)}"; give one of ${keys.replaceAll(" ", ", ")}`);
   }
@@ -93,16 +93,19 @@ function only(of: Record<string, Json>, keys: string, place: string): void {
 
 function arc(value: Json, place: string): string {
   const of = fields(value, place);
-  only(of, "to through center clockwise", place);
+  only(of, "to through center clockwise conjugate", place);
   const to = pair(of.to, `${place}.to`);
   if ((of.through === undefined) === (of.center === undefined)) fail(place, '"through" or "center"', value);
   if (of.through !== undefined) {
-    if (of.clockwise) throw new Error(`${place}.clockwise: of arcs about a center; leave it out`);
+    for (const key of ["clockwise", "conjugate"])
+      if (of[key]) throw new Error(`${place}.${key}: of arcs about a center; leave it out`);
     return `arc ${to} through ${pair(of.through, `${place}.through`)}`;
   }
   if (of.clockwise !== undefined && typeof of.clockwise !== "boolean")
     fail(`${place}.clockwise`, "true or false", of.clockwise);
-  return `arc ${to} about ${pair(of.center, `${place}.center`)} ${of.clockwise ? "right" : "left"}`;
+  const side = of.clockwise ? "right" : "left";
+  const radius = of.conjugate === undefined ? "" : ` conjugate ${pair(of.conjugate, `${place}.conjugate`)}`;
+  return `arc ${to} about ${pair(of.center, `${place}.center`)} ${side}${radius}`;
 }
 
 // A closed path: a point, then points and arcs.
