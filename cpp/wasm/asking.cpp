@@ -18,7 +18,7 @@ constexpr int attempts = 400;  // to shorten a path
 constexpr double shares[] = {0x1p-6, 0x1p-9, 0x1p-12};
 constexpr double share_to_drive = 0x1p-10;
 constexpr int few_guesses = 2000, many_guesses = 20'000;
-constexpr std::int64_t most_patches = 60'000;
+constexpr std::int64_t most_patches = 60'000, few_patches = 20'000;  // in all; of a scene whose boundary is computed
 
 struct OutOfWork {};
 
@@ -233,7 +233,8 @@ Decided decided(World& world, const End& start, const End& goal) {
             if (auto way = searched(here, start, goal, few_guesses)) return std::move(*way);
         try {
             const auto known = KnownScene::of(here.shapes);
-            auto answer = Planner(known, here.radius).plan(start, goal, counted, Planner::Effort::few_surfaces);
+            const auto effort = known->patches() <= few_patches ? Planner::Effort::all : Planner::Effort::few_surfaces;
+            auto answer = Planner(known, here.radius).plan(start, goal, counted, effort);
             if (auto* proof = std::get_if<Separation>(&answer)) {
                 world.proved = here.near;
                 return std::move(*proof);

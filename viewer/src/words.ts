@@ -192,7 +192,7 @@ export function read_vehicle(value: Json, place = "vehicle"): FileVehicle | unde
     of.type === "car" || of.type === "differential"
       ? of.type
       : fail(`${place}.type`, '"car" or "differential"', of.type);
-  const keys = kind === "car" ? "type turning_radius axle heading gears" : "type axle heading";
+  const keys = kind === "car" ? "type turning_radius axle heading gears wheelbase" : "type axle heading";
   const unknown = Object.keys(of).find((key) => !keys.split(" ").includes(key));
   if (unknown !== undefined)
     throw new Error(
@@ -226,7 +226,10 @@ export function read_vehicle(value: Json, place = "vehicle"): FileVehicle | unde
       : of.gears === "forward"
         ? "forward"
         : fail(`${place}.gears`, '"both" or "forward"', of.gears);
-  return { kind, left, right, x, y, tau, gears };
+  if (of.wheelbase === undefined) return { kind, left, right, x, y, tau, gears };
+  const wheelbase = exact(of.wheelbase, `${place}.wheelbase`);
+  if (!is_radius(wheelbase)) fail(`${place}.wheelbase`, "a length above 0", of.wheelbase);
+  return { kind, left, right, x, y, tau, gears, wheelbase };
 }
 
 const RECORD = ["reading", "changed", "dropped"];

@@ -71,6 +71,7 @@ test("a vehicle is read exactly", () => {
   assert.deepEqual(vehicle('"type": "car", "turning_radius": 4.0, "axle": [-1.30, "1/9"]'), car);
   const other = '"type": "car", "turning_radius": [4, "9/2"], "heading": "-90deg", "gears": "forward"';
   assert.deepEqual(vehicle(other), { ...car, left: "4", right: "9/2", x: "0", y: "0", tau: "-1", gears: "forward" });
+  assert.equal(vehicle('"type": "car", "turning_radius": 4.0, "wheelbase": 2.70').wheelbase, "2.70");
   const drive = { kind: "differential", x: "0", y: "0", tau: "20/7", gears: "both" };
   assert.deepEqual(vehicle('"type": "differential", "heading": {"tau": "20/7"}'), drive);
   const heading = (angle) => vehicle(`"type": "differential", "heading": ${angle}`).tau;
@@ -88,6 +89,7 @@ test("what is no vehicle is refused with its place", () => {
   vehicle('"type": "differential", "axle": [1]', /^vehicle\.axle: expected two numbers/);
   vehicle('"type": "differential", "heading": 0.5', /^vehicle\.heading: give a multiple of 90deg/);
   vehicle('"type": "car", "turning_radius": 1, "gears": "back"', /^vehicle\.gears/);
+  vehicle('"type": "car", "turning_radius": 1, "wheelbase": 0', "vehicle.wheelbase: expected a length above 0, got 0");
 });
 
 test("round shapes are read with their numbers as written: circles, paths with arcs, grown polygons, round holes", () => {
