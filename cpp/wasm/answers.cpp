@@ -177,7 +177,7 @@ std::string motion(const RationalPose& a, const RationalPose& b, double& theta) 
     const HalfAngle turn = HalfAngle::along(a.half.q * b.half.q + a.half.p * b.half.p, a.half.q * b.half.p - a.half.p * b.half.q);
     const Ratio cot = reduced(turn.q, turn.p), half{1, 2};
     const Ratio x = half * (a.x + b.x - cot * dy), y = half * (a.y + b.y + cot * dx);
-    const double wide = turn.theta(), angle = wide > std::numbers::pi ? wide - 2 * std::numbers::pi : wide;
+    const double angle = turn.q.is_zero() ? std::numbers::pi : 2 * arc_tangent(nearest(turn.p, turn.q));  // small ones keep their digits
     theta += angle;
     return "{\"type\": \"rotation\", \"pole\": " + decimals(nearest(x.n, x.d), nearest(y.n, y.d)) + ", \"angle\": " + decimal(angle) + ", " + to() +
            ", \"exact\": {\"pole\": " + exact(x, y) + ", \"tau\": " + tau_of(turn) + "}}";
