@@ -17,7 +17,10 @@ namespace {
 cfree::Reply reply;
 std::string error;
 std::shared_ptr<cfree::World> world, drawn;  // one that decides, and one with the boundary: another with round shapes
-constexpr double decides = 0x1p-6, draws = 0x1p-6;  // errors of polygons, in parts of the robot's size
+// Errors of polygons, in parts of the robot's size: those that guide, and the least and the greatest of those that are drawn, which
+// are as fine as so many patches allow.
+constexpr double guides = 0x1p-6, finest = 0x1p-9, coarsest = 0x1p-6;
+constexpr std::int64_t most_patches = 6000;
 
 // Answer a call; 1 if it went well.
 int answer(const std::function<void()>& call) {
@@ -55,10 +58,14 @@ EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
         cfree::GivenScene read = cfree::scene_of(words);  // the one before stays if this is none
         if (read.is_round()) {
             const auto rounds = std::make_shared<const cfree::Rounds>(std::move(read));
-            cfree::NearShapes around = rounds->polygons(draws, true), inside = rounds->polygons(decides, false);
-            cfree::refuse_range(around.shapes), cfree::refuse_range(inside.shapes);
-            drawn = std::make_shared<cfree::World>(rounds, std::move(around), true);
-            world = std::make_shared<cfree::World>(rounds, std::move(inside), false);
+            const auto near = [&](double share, bool is_outward) {
+                cfree::NearShapes polygons = rounds->polygons(share, is_outward);
+                cfree::refuse_range(polygons.shapes);
+                return std::make_shared<cfree::World>(rounds, std::move(polygons), is_outward);
+            };
+            auto inside = near(guides, false), around = near(finest, true);
+            for (double share = 2 * finest; share <= coarsest && around->known->patches() > most_patches; share *= 2) around = near(share, true);
+            world = inside, drawn = around;
         } else {
             const cfree::SceneShapes shapes = read.polygons();
             cfree::refuse_range(shapes);
