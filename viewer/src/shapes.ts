@@ -1,6 +1,5 @@
 // A scene's text as polygons that can be edited: every number stays the decimal it is written as.
 import { LosslessNumber, parse } from "lossless-json";
-import { is_round } from "./words";
 
 export type Kind = "robot" | "obstacle" | "workspace";
 export interface Which {
@@ -21,7 +20,7 @@ const rings_of = (polygon: Fields): Rings =>
     (ring as Json[][]).map(([x, y]) => [text_of(x), text_of(y)]),
   );
 
-// Round shapes have no rings: all their points, in the order of the text.
+// Keys of a round shape under which there are points.
 const POINTS = ["outer", "holes", "path", "circle", "arc", "to", "through", "center"];
 const is_number = (value: Json) => typeof value === "string" || value instanceof LosslessNumber;
 const is_point = (value: Json): value is Json[] => Array.isArray(value) && value.length === 2 && value.every(is_number);
@@ -33,6 +32,9 @@ function with_points(value: Json, to: (point: Point) => Point): Json {
     Object.entries(value).map(([key, item]) => [key, POINTS.includes(key) ? with_points(item, to) : item]),
   );
 }
+
+export const is_round = (of: object): boolean => ["circle", "ellipse", "path", "grown"].some((key) => key in of);
+
 
 export function same(a: Which | undefined, b: Which | undefined): boolean {
   return a?.kind === b?.kind && a?.k === b?.k;

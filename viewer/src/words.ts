@@ -1,5 +1,6 @@
 // Scene files as words for the core: every number stays the text that it is in the file.
 import { LosslessNumber, parse } from "lossless-json";
+import { is_round } from "./shapes";
 import { is_number, is_radius, type Vehicle } from "./vehicle";
 
 export const MOST_BYTES = 16 << 20;
@@ -129,8 +130,6 @@ function curve(of: Record<string, Json>, place: string): string | undefined {
   }
   return of.path === undefined ? undefined : path(of.path, `${place}.path`);
 }
-
-export const is_round = (of: object): boolean => ["circle", "ellipse", "path", "grown"].some((key) => key in of);
 
 function round(of: Record<string, Json>, place: string): string {
   only(of, "name circle path outer holes grown", place);
