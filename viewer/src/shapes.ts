@@ -35,7 +35,6 @@ function with_points(value: Json, to: (point: Point) => Point): Json {
 
 export const is_round = (of: object): boolean => ["circle", "ellipse", "path", "grown"].some((key) => key in of);
 
-
 export function same(a: Which | undefined, b: Which | undefined): boolean {
   return a?.kind === b?.kind && a?.k === b?.k;
 }
