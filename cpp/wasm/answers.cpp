@@ -37,42 +37,117 @@ std::vector<Rational> ring(const Polygon& polygon, std::size_t r) {
     return points;
 }
 
-// Checkers that decide whether poses are free.
-std::string scene_text(const SceneShapes& shapes) {
+// The square root, exact if it is rational, else rounded up as in src/cfree/curves/pieces.py.
+Ratio root_above(const Ratio& square) {
+    const Int n = sqrt(square.n), d = sqrt(square.d);
+    if (n * n == square.n && d * d == square.d) return reduced(n, d);
+    const auto bits = [](const Int& x) { return x.is_zero() ? 0 : static_cast<int>(msb(x)) + 1; };
+    const int half = 60 + std::max(0, bits(square.d) - bits(square.n));
+    return reduced(sqrt(Int((square.n << static_cast<unsigned>(2 * half)) / square.d)) + 1, Int(1) << static_cast<unsigned>(half));
+}
+
+// Greatest coordinate of a quarter turn of an arc, on an axis or, for sign -1, against it; irrational ones rounded up.
+Ratio greatest(const GivenCurve& arc, const Ratio RatioPoint::*axis, int sign) {
+    const auto signed_of = [&](const Ratio& c) { return Ratio{c.n * sign, c.d}; };
+    const Ratio a = signed_of(arc.start.*axis - arc.center.*axis), b = signed_of(arc.end.*axis - arc.center.*axis);
+    const RatioPoint u{arc.start.x - arc.center.x, arc.start.y - arc.center.y}, w{arc.end.x - arc.center.x, arc.end.y - arc.center.y};
+    const auto rising = [&](const RatioPoint& p) {  // the derivative along the arc
+        return Int((axis == &RatioPoint::x ? Int(-p.y.n) : p.x.n) * sign * arc.turn);
+    };
+    Ratio most = std::max(a, b);
+    if (rising(u) > 0 && rising(w) < 0) most = root_above(u.x * u.x + u.y * u.y);
+    return signed_of(arc.center.*axis) + most;
+}
+
+std::string text_of(const GivenCurve& curve) {
+    const auto point = [](const RatioPoint& p) { return ' ' + text_of(p.x) + ' ' + text_of(p.y); };
+    if (curve.turn == 0) return " line" + point(curve.end);
+    const RatioPoint u{curve.start.x - curve.center.x, curve.start.y - curve.center.y};
+    const RatioPoint v = curve.turn > 0 ? RatioPoint{-u.y, u.x} : RatioPoint{u.y, -u.x};
+    return " arc" + point(curve.center) + point(u) + point(v) + ' ' + std::to_string(curve.quarters) + ' ' + text_of(curve.rest);
+}
+
+// The text that identifies a scene, as in src/cfree/scene/digest.py.
+class SceneWriter {
+public:
     std::string text = "cfree scene 1\n";
-    const auto add = [&](const char* word, const Polygon& polygon) {
+    void add(const char* word, const Polygon& polygon) {
         text += std::string(word) + '\n';
         for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
             text += r ? "hole" : "outer";
             for (const auto& [x, y] : ring(polygon, r)) text += ' ' + text_of(x) + ' ' + text_of(y);
             text += '\n';
         }
-    };
-    for (const auto& part : shapes.robot) add("robot", *part);
-    for (const auto& obstacle : shapes.obstacles) add("obstacle", *obstacle);
-    if (shapes.workspace) add("workspace", *shapes.workspace);
-    if (shapes.bounds) {
+    }
+    void add(const char* word, const GivenShape& shape) {
+        if (!shape.is_round) return add(word, *shape.polygon);
+        text += std::string(word) + '\n';
+        for (std::size_t r = 0; r < shape.rings.size(); ++r) {
+            text += r ? "hole" : "outer";
+            for (const auto& curve : shape.rings[r]) text += text_of(curve);
+            text += '\n';
+        }
+        if (!shape.grown.n.is_zero()) text += "grown " + text_of(shape.grown) + '\n';
+    }
+    void add(const std::optional<std::array<Ratio, 4>>& bounds) {
+        if (!bounds) return;
         text += "bounds";
-        for (const Ratio& x : *shapes.bounds) text += ' ' + text_of(x);
+        for (const Ratio& x : *bounds) text += ' ' + text_of(x);
         text += '\n';
     }
-    return text;
+};
+
+std::string scene_text(const SceneShapes& shapes) {
+    SceneWriter writer;
+    for (const auto& part : shapes.robot) writer.add("robot", *part);
+    for (const auto& obstacle : shapes.obstacles) writer.add("obstacle", *obstacle);
+    if (shapes.workspace) writer.add("workspace", *shapes.workspace);
+    writer.add(shapes.bounds);
+    return writer.text;
 }
 
-std::array<Ratio, 4> box_of(const SceneShapes& shapes) {
+std::string scene_text(const GivenScene& scene) {
+    SceneWriter writer;
+    for (const auto& part : scene.robot) writer.add("robot", part);
+    for (const auto& obstacle : scene.obstacles) writer.add("obstacle", obstacle);
+    if (scene.workspace) writer.add("workspace", *scene.workspace);
+    writer.add(scene.bounds);
+    return writer.text;
+}
+
+// The box around a robot.
+class Around {
+public:
     std::optional<std::array<Ratio, 4>> box;
-    for (const auto& part : shapes.robot)
-        for (const auto& [x, y] : ring(*part, 0)) {
-            if (!box) box = {x, y, x, y};
-            auto& [x0, y0, x1, y1] = *box;
-            x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
+    void add(const Ratio& x0, const Ratio& y0, const Ratio& x1, const Ratio& y1) {
+        if (!box) box = {x0, y0, x1, y1};
+        auto& [a, b, c, d] = *box;
+        a = std::min(a, x0), b = std::min(b, y0), c = std::max(c, x1), d = std::max(d, y1);
+    }
+};
+
+std::array<Ratio, 4> box_of(const World& world) {
+    Around all;
+    if (world.rounds)
+        for (const auto& part : world.rounds->scene.robot) {
+            const Ratio& r = part.grown;
+            const auto add = [&](const RatioPoint& p) { all.add(p.x - r, p.y - r, p.x + r, p.y + r); };
+            for (const auto& curve : part.rings.front()) {
+                add(curve.start), add(curve.end);
+                if (curve.turn != 0)
+                    for (const auto& arc : quarters_of(curve))
+                        all.add(-greatest(arc, &RatioPoint::x, -1), -greatest(arc, &RatioPoint::y, -1), greatest(arc, &RatioPoint::x, 1), greatest(arc, &RatioPoint::y, 1));
+            }
         }
-    return *box;
+    else
+        for (const auto& part : world.shapes.robot)
+            for (const auto& [x, y] : ring(*part, 0)) all.add(x, y, x, y);
+    return *all.box;
 }
 
 std::string head(const World& world, const char* kind, const RationalPose& start, const RationalPose& goal) {
     return std::string("{\"version\": 1,\n \"answer\": ") + quoted(kind) + ",\n \"scene\": {\"sha256\": \"{sha256}\", \"robot\": " +
-           listed(box_of(world.shapes), [](const Ratio& x) { return quoted(x); }) + "},\n \"start\": " + decimals(start.place()) + ",\n \"goal\": " +
+           listed(box_of(world), [](const Ratio& x) { return quoted(x); }) + "},\n \"start\": " + decimals(start.place()) + ",\n \"goal\": " +
            decimals(goal.place()) + ",\n \"exact\": {\"start\": " + exact(start) + ", \"goal\": " + exact(goal) + "}";
 }
 
@@ -102,7 +177,7 @@ std::string motion(const RationalPose& a, const RationalPose& b, double& theta) 
     const HalfAngle turn = HalfAngle::along(a.half.q * b.half.q + a.half.p * b.half.p, a.half.q * b.half.p - a.half.p * b.half.q);
     const Ratio cot = reduced(turn.q, turn.p), half{1, 2};
     const Ratio x = half * (a.x + b.x - cot * dy), y = half * (a.y + b.y + cot * dx);
-    const double wide = turn.theta(), angle = wide > std::numbers::pi ? wide - 2 * std::numbers::pi : wide;
+    const double angle = turn.q.is_zero() ? std::numbers::pi : 2 * arc_tangent(nearest(turn.p, turn.q));  // small ones keep their digits
     theta += angle;
     return "{\"type\": \"rotation\", \"pole\": " + decimals(nearest(x.n, x.d), nearest(y.n, y.d)) + ", \"angle\": " + decimal(angle) + ", " + to() +
            ", \"exact\": {\"pole\": " + exact(x, y) + ", \"tau\": " + tau_of(turn) + "}}";
@@ -150,6 +225,15 @@ std::string polygon_text(const Polygon& polygon) {
     std::string holes;
     for (std::size_t r = 1; r + 1 < polygon.offsets.size(); ++r) holes += (r > 1 ? ", " : "") + points(ring(polygon, r));
     return "{\"outer\": " + points(ring(polygon, 0)) + (holes.empty() ? "" : ", \"holes\": [" + holes + "]") + "}";
+}
+
+// The scene of polygons that a proof is about.
+std::string polygons_text(const SceneShapes& shapes) {
+    const auto all = [](const auto& polygons) { return listed(polygons, [](const auto& polygon) { return polygon_text(*polygon); }); };
+    std::string text = "{\"robot\": " + all(shapes.robot) + ", \"obstacles\": " + all(shapes.obstacles);
+    if (shapes.workspace) text += ", \"workspace\": " + polygon_text(*shapes.workspace);
+    if (shapes.bounds) text += ", \"bounds\": " + listed(*shapes.bounds, [](const Ratio& x) { return quoted(x); });
+    return text + "}";
 }
 
 std::string name(std::uint64_t code) {
@@ -203,7 +287,8 @@ std::string separation_text(const World& world, const World::Answer& answer, con
     for (const Index face : proof.surface.faces)
         obstacles.insert(features.obstacles.polygon[static_cast<std::size_t>(boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(face)]).obstacle)]);
     const auto same = [](const std::string& text) { return text; };
-    std::string text = head(world, "separated", answer.start, answer.goal) + ",\n \"of\": " + quoted(proof.is_closed ? "closed" : "interior") +
+    std::string text = head(world, "separated", answer.start, answer.goal) + (world.proved ? ",\n \"polygons\": " + polygons_text(world.proved->shapes) : "") +
+                       ",\n \"of\": " + quoted(proof.is_closed ? "closed" : "interior") +
                        ",\n \"obstacles\": " + listed(obstacles, [](Index k) { return std::to_string(k); });
     if (proof.is_closed) {
         text += ",\n \"smaller_robot\": " + listed(proof.of->shapes().robot, [](const auto& part) { return polygon_text(*part); });
@@ -218,7 +303,7 @@ std::string separation_text(const World& world, const World::Answer& answer, con
 void write_answer(const World& world, Reply& reply) {
     if (!world.answer) throw std::invalid_argument("there is no answer yet");
     const World::Answer& answer = *world.answer;
-    reply.text("scene", scene_text(world.shapes));
+    reply.text("scene", world.rounds ? scene_text(world.rounds->scene) : scene_text(world.shapes));
     if (const auto* proof = std::get_if<Separation>(&answer.found)) return reply.text("answer", separation_text(world, answer, *proof));
     const Poses& way = std::get<Poses>(answer.found);
     std::vector<std::string> motions;

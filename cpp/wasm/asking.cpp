@@ -13,6 +13,14 @@ namespace cfree {
 namespace {
 
 constexpr int attempts = 400;  // to shorten a path
+// Among round shapes: errors of polygons, in parts of the robot's size; guesses of a search before and after the first proof is
+// tried; the work of all proofs.
+constexpr double shares[] = {0x1p-6, 0x1p-9, 0x1p-12};
+constexpr double share_to_drive = 0x1p-10;
+constexpr int few_guesses = 2000, many_guesses = 20'000;
+constexpr std::int64_t most_patches = 60'000, few_patches = 20'000;  // in all; of a scene whose boundary is computed
+
+struct OutOfWork {};
 
 Motion still(const World& world, const RationalPose& pose) {
     const auto at = pose.configuration(*world.scene);
@@ -26,8 +34,23 @@ Index owner_of(const Shape& shape, const Owners& owners, Index piece) {
     return shape.piece_layer[static_cast<std::size_t>(piece)] == reference_layer ? bounds_owner : workspace_owner;
 }
 
+// A motion in the user's units.
+Motion in_units(const World& world, Motion motion) {
+    motion.unit *= world.scene->scale;
+    return motion;
+}
+
+std::array<Index, 2> pair_of(const Rounds& rounds, const ArcCollision& collision) {
+    const Index owner = rounds.owner(collision.obstacle);
+    return {owner == bounds_owner ? Index{-1} : collision.part, owner};
+}
+
 // Overlap of a pose: a part of the robot and an obstacle, bounds or workspace.
 std::optional<std::array<Index, 2>> overlap(const World& world, const RationalPose& pose) {
+    if (world.rounds) {
+        const auto collision = world.rounds->motions->first_collision(in_units(world, still(world, pose)));
+        return collision ? std::optional(pair_of(*world.rounds, *collision)) : std::nullopt;
+    }
     if (!world.known->is_within_limits(pose)) return std::array<Index, 2>{-1, world.shapes.bounds ? bounds_owner : workspace_owner};
     const auto found = world.checker->first_collision(still(world, pose));
     if (!found) return {};
@@ -145,10 +168,86 @@ void show_proof(const World& world, const Separation& proof, Reply& reply) {
     const SceneFeatures& features = *proof.of->features;
     std::set<Index> obstacles;
     for (const Index patch : glued.complex->boundary->trapezoids.patch)
-        obstacles.insert(features.obstacles.polygon[static_cast<std::size_t>(glued.complex->boundary->patches.contact(patch).obstacle)]);
+        obstacles.insert(world.obstacle(features.obstacles.polygon[static_cast<std::size_t>(glued.complex->boundary->patches.contact(patch).obstacle)]));
     reply.add("obstacles", std::vector<Index>(obstacles.begin(), obstacles.end()));
     reply.add("closed", proof.is_closed ? 1.0 : 0.0);
     show_surface(features, *glued.complex, world.radius, reply);
+}
+
+// The share of a translation among round shapes that is free: up to the contact, if it is at a short fraction, or nearly so.
+std::optional<Ratio> free_share(const World& world, const RationalPose& from, const RationalPose& to) {
+    const auto collision = world.rounds->motions->first_collision(in_units(world, motion_between(from.configuration(*world.scene), to.configuration(*world.scene))));
+    if (!collision) return {};
+    const Ratio simple = simplest_between(collision->low, collision->high);
+    const RationalPose end{from.x + simple * (to.x - from.x), from.y + simple * (to.y - from.y), from.half};
+    return world.checker->is_free(motion_between(from.configuration(*world.scene), end.configuration(*world.scene))) ? simple : collision->low;
+}
+
+// A path among round shapes: a simple one, or that of a search with some guesses.
+std::optional<Poses> searched(const World& world, const End& start, const End& goal, int most) {
+    if (start.pose == goal.pose) return Poses{start.pose};
+    FoundSlides none;
+    const FreeMotions motions(*world.scene, *world.checker, none);
+    const RationalPose turned{start.pose.x, start.pose.y, goal.pose.half}, moved{goal.pose.x, goal.pose.y, start.pose.half};
+    if (auto way = motions.first_free({{start.pose, goal.pose}, {start.pose, turned, goal.pose}, {start.pose, moved, goal.pose}})) {
+        way->erase(std::unique(way->begin(), way->end()), way->end());
+        return way;
+    }
+    const std::array ends{start.place, goal.place};
+    const Searcher searcher(world.known, ends, {world.radius});
+    const Route route = searcher.search(start, goal).run(most);
+    if (route.empty()) return {};
+    return searcher.poses(route);
+}
+
+using Decided = std::variant<std::monostate, Poses, Separation>;  // nothing: undecided
+
+Decided planned(const World& world, const End& start, const End& goal) {
+    auto answer = world.planner->plan(start, goal, {});
+    if (auto* way = std::get_if<Poses>(&answer)) return std::move(*way);
+    if (auto* proof = std::get_if<Separation>(&answer)) return std::move(*proof);
+    return {};
+}
+
+// A path among the polygons inside of round shapes, or one beside it, if it is free among these; else nothing.
+std::optional<Poses> mended(const World& world, const Poses& way) {
+    FoundSlides none;
+    const FreeMotions motions(*world.scene, *world.checker, none);
+    if (motions.join(way)) return way;
+    Poses beside = balanced(world, way, {world.radius});
+    return motions.join(beside) ? std::optional(std::move(beside)) : std::nullopt;
+}
+
+// A path among round shapes, or a proof among polygons inside of them, or neither. The world's polygons become finer.
+Decided decided(World& world, const End& start, const End& goal) {
+    std::int64_t left = most_patches;
+    Listener counted;
+    counted.spend = [&](std::int64_t patches) {
+        if ((left -= patches) < 0) throw OutOfWork();
+    };
+    for (std::size_t k = 0; k < std::size(shares); ++k) {
+        std::optional<World> finer;
+        if (k > 0) finer.emplace(world.rounds, world.rounds->polygons(shares[k], false), false);
+        World& here = finer ? *finer : world;
+        if (k == 0)
+            if (auto way = searched(here, start, goal, few_guesses)) return std::move(*way);
+        try {
+            const auto known = KnownScene::of(here.shapes);
+            const auto effort = known->patches() <= few_patches ? Planner::Effort::all : Planner::Effort::few_surfaces;
+            auto answer = Planner(known, here.radius).plan(start, goal, counted, effort);
+            if (auto* proof = std::get_if<Separation>(&answer)) {
+                world.proved = here.near;
+                return std::move(*proof);
+            }
+            if (const auto* way = std::get_if<Poses>(&answer))
+                if (auto better = mended(here, *way)) return std::move(*better);
+        } catch (const OutOfWork&) {
+            return {};
+        }
+        if (k == 0)
+            if (auto way = searched(here, start, goal, many_guesses)) return std::move(*way);
+    }
+    return {};
 }
 
 }  // namespace
@@ -160,6 +259,14 @@ void ask_pose(const World& world, const RationalPose& pose, Reply& reply) {
     reply.add("place", std::vector{at.x, at.y, at.theta});
     if (pair) return reply.add("pair", std::vector<Index>(pair->begin(), pair->end()));
     reply.add("clearance", world.clearance(at));
+    if (world.rounds) {
+        std::vector<Index> touched = world.rounds->touched(in_units(world, still(world, pose)));
+        if (const auto& bounds = world.shapes.bounds) {
+            const auto& [x0, y0, x1, y1] = *bounds;
+            if (pose.x == x0 || pose.x == x1 || pose.y == y0 || pose.y == y1) touched.push_back(bounds_owner);
+        }
+        return reply.add("touched", touched);
+    }
     if (!world.space) return;
     const ExactPose exact = pose.exact(*world.scene);
     reply.add("cells", world.space->cells_at(exact));
@@ -176,7 +283,7 @@ void ask_stop(const World& world, const RationalPose& from, const RationalPose& 
     FoundSlides none;
     const FreeMotions motions(*world.scene, *world.checker, none);
     const Ratio dx = to.x - from.x, dy = to.y - from.y;
-    const auto share = motions.free_share(from, dx, dy);
+    const auto share = world.rounds ? free_share(world, from, to) : motions.free_share(from, dx, dy);
     const Ratio u = share.value_or(Ratio{1, 1});
     reply.text("pose", words_of({from.x + u * dx, from.y + u * dy, from.half}));
     reply.add("share", nearest(u.n, u.d));
@@ -206,20 +313,24 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
             return reply.add("pair", std::vector<Index>(pair->begin(), pair->end()));
         }
     const End first{start, start.place()}, last{goal, goal.place()};
-    const Listener alone;
-    const auto answer = world.planner->plan(first, last, alone);
+    const auto answer = world.rounds ? decided(world, first, last) : planned(world, first, last);
     if (const auto* proof = std::get_if<Separation>(&answer)) {
         reply.text("verdict", "apart");
         world.answer = {start, goal, *proof, {}, {}};
         return show_proof(world, *proof, reply);
     }
-    if (!std::holds_alternative<Poses>(answer)) return reply.text("verdict", "unclear");
+    if (!std::holds_alternative<Poses>(answer)) return reply.text("verdict", world.rounds ? "round" : "unclear");
     const Poses& found = std::get<Poses>(answer);
     if (vehicle) {
-        const DrivenWay driving = driven(world, *vehicle, found, attempts);
+        std::optional<World> finer;  // a vehicle keeps more than the error of polygons
+        if (world.rounds) finer.emplace(world.rounds, world.rounds->polygons(share_to_drive, false), false);
+        const DrivenWay driving = driven(finer ? *finer : world, *vehicle, found, attempts);
+        using enum DrivenWay::Verdict;
+        const bool needs_contacts = driving.verdict == start_touches || driving.verdict == goal_touches || driving.verdict == contacts || driving.verdict == narrow;
+        if (world.rounds && needs_contacts) return reply.text("verdict", "round");  // the polygons do not tell contacts
         reply.text("verdict", words_of(driving.verdict));
-        if (driving.verdict == DrivenWay::Verdict::manoeuvres) reply.add("manoeuvres", driving.manoeuvres);
-        if (driving.verdict != DrivenWay::Verdict::path) return;
+        if (driving.verdict == manoeuvres) reply.add("manoeuvres", driving.manoeuvres);
+        if (driving.verdict != path) return;
         check(world, driving.way, {});
         show_path(world, driving.way, {}, reply);
         show_gears(world, *vehicle, driving.way, reply);

@@ -32,19 +32,6 @@ std::vector<End> ends_of(const Poses& way) {
     return ends;
 }
 
-// The path beside this one that keeps its distance, if it is free.
-Poses balanced(const World& world, const Poses& way, const Costs& costs) {
-    const std::vector<End> ends = ends_of(way);
-    std::vector<Place> places;
-    for (const End& end : ends) places.push_back(end.place);
-    const Searcher searcher(world.known, places, costs);
-    Shortcut better = searcher.balanced(ends);
-    better.run((costs.prefer() ? dear : 1) * checks * static_cast<int>(better.path().size() + std::min<std::size_t>(most_poses, way.size())));
-    better.merge();
-    Poses found = searcher.poses(better.path());
-    return found.front() == way.front() && found.back() == way.back() && is_free(world, found) ? found : way;
-}
-
 // The longer side of the box around the robot along the vehicle's forward direction.
 double length_of(const World& world, const GivenVehicle& vehicle) {
     const auto [c, s] = cosine_sine(vehicle.heading.theta());
@@ -109,13 +96,25 @@ std::vector<Drive> followed(const Wheels& wheels, const Poses& guide, long long 
 
 }  // namespace
 
+Poses balanced(const World& world, const Poses& way, const Costs& costs) {
+    const std::vector<End> ends = ends_of(way);
+    std::vector<Place> places;
+    for (const End& end : ends) places.push_back(end.place);
+    const Searcher searcher(world.known, places, costs);
+    Shortcut better = searcher.balanced(ends);
+    better.run((costs.prefer() ? dear : 1) * checks * static_cast<int>(better.path().size() + std::min<std::size_t>(most_poses, way.size())));
+    better.merge();
+    Poses found = searcher.poses(better.path());
+    return found.front() == way.front() && found.back() == way.back() && is_free(world, found) ? found : way;
+}
+
 DrivenWay driven(const World& world, const GivenVehicle& vehicle, const Poses& way, int attempts) {
     using enum DrivenWay::Verdict;
     const Wheels wheels{world, vehicle, length_of(world, vehicle)};
     if (way.front() == way.back()) return {path, {way.front()}};
     const bool begins = !wheels.has_room({way.front()}), ends = !wheels.has_room({way.back()}), touches = begins || ends;
     const Poses roomy = balanced(world, way, {world.radius});
-    if (!touches && !wheels.has_room(roomy)) return {world.known->barrier(way.front(), way.back(), {}) ? contacts : narrow};
+    if (!touches && !wheels.has_room(roomy)) return {!world.rounds && world.known->barrier(way.front(), way.back(), {}) ? contacts : narrow};
     std::vector<Drive> drives;
     std::pair<double, std::size_t> reached{};
     for (const bool is_easy : {false, true}) {

@@ -17,6 +17,9 @@ struct DrivenWay {
 // The ways are shortened by so many attempts each.
 DrivenWay driven(const World& world, const GivenVehicle& vehicle, const Poses& way, int attempts);
 
+// The path beside this one that keeps its distance, if it is free.
+Poses balanced(const World& world, const Poses& way, const Costs& costs);
+
 // Gear of each motion: 1 forward, -1 backward, 0 in place. Throws std::invalid_argument where the vehicle cannot do a motion.
 std::vector<Index> gears_of(const World& world, const GivenVehicle& vehicle, const Poses& way);
 

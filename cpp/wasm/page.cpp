@@ -16,7 +16,11 @@ namespace {
 
 cfree::Reply reply;
 std::string error;
-std::unique_ptr<cfree::World> world;
+std::shared_ptr<cfree::World> world, drawn;  // one that decides, and one with the boundary: another with round shapes
+// Errors of polygons, in parts of the robot's size: those that guide, and the least and the greatest of those that are drawn, which
+// are as fine as so many patches allow.
+constexpr double guides = 0x1p-6, finest = 0x1p-9, coarsest = 0x1p-6;
+constexpr std::int64_t most_patches = 6000;
 
 // Answer a call; 1 if it went well.
 int answer(const std::function<void()>& call) {
@@ -34,10 +38,12 @@ int answer(const std::function<void()>& call) {
     return 0;
 }
 
-cfree::World& given() {
-    if (!world) throw std::invalid_argument("no scene yet");
-    return *world;
+cfree::World& some(const std::shared_ptr<cfree::World>& which) {
+    if (!which) throw std::invalid_argument("no scene yet");
+    return *which;
 }
+cfree::World& given() { return some(world); }
+cfree::World& seen() { return some(drawn); }
 
 // None from an empty text.
 std::optional<cfree::GivenVehicle> driver(const char* vehicle) {
@@ -49,24 +55,39 @@ std::optional<cfree::GivenVehicle> driver(const char* vehicle) {
 extern "C" {
 EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
     return answer([&] {
-        world = std::make_unique<cfree::World>(cfree::shapes_of(words));  // the one before stays if this is none
-        cfree::show_scene(*world, reply);
+        cfree::GivenScene read = cfree::scene_of(words);  // the one before stays if this is none
+        if (read.is_round()) {
+            const auto rounds = std::make_shared<const cfree::Rounds>(std::move(read));
+            const auto near = [&](double share, bool is_outward) {
+                cfree::NearShapes polygons = rounds->polygons(share, is_outward);
+                cfree::refuse_range(polygons.shapes);
+                return std::make_shared<cfree::World>(rounds, std::move(polygons), is_outward);
+            };
+            auto inside = near(guides, false), around = near(finest, true);
+            for (double share = 2 * finest; share <= coarsest && around->known->patches() > most_patches; share *= 2) around = near(share, true);
+            world = inside, drawn = around;
+        } else {
+            const cfree::SceneShapes shapes = read.polygons();
+            cfree::refuse_range(shapes);
+            drawn = world = std::make_shared<cfree::World>(shapes);
+        }
+        cfree::show_scene(*drawn, reply);
     });
 }
 EMSCRIPTEN_KEEPALIVE int boundary() {
     return answer([] {
-        given().compute([](double share) { report_share(share); });
-        cfree::show_counts(given(), reply);
+        seen().compute([](double share) { report_share(share); });
+        cfree::show_counts(seen(), reply);
     });
 }
 EMSCRIPTEN_KEEPALIVE int columns() {
-    return answer([] { cfree::show_columns(given(), reply); });
+    return answer([] { cfree::show_columns(seen(), reply); });
 }
 EMSCRIPTEN_KEEPALIVE int mesh(double error_allowed, double most) {
-    return answer([&] { cfree::show_mesh(given(), error_allowed, most, reply); });
+    return answer([&] { cfree::show_mesh(seen(), error_allowed, most, reply); });
 }
 EMSCRIPTEN_KEEPALIVE int slice(double theta) {
-    return answer([&] { cfree::show_slice(given(), theta, reply); });
+    return answer([&] { cfree::show_slice(seen(), theta, reply); });
 }
 EMSCRIPTEN_KEEPALIVE int pose(const char* words) {
     return answer([&] { cfree::ask_pose(given(), cfree::pose_of(words), reply); });
@@ -84,10 +105,10 @@ EMSCRIPTEN_KEEPALIVE int stop(const char* from, const char* to) {
     return answer([&] { cfree::ask_stop(given(), cfree::pose_of(from), cfree::pose_of(to), reply); });
 }
 EMSCRIPTEN_KEEPALIVE int picked(int trapezoid, double x, double y, double theta) {
-    return answer([&] { cfree::show_contact(given(), trapezoid, {x, y, theta}, reply); });
+    return answer([&] { cfree::show_contact(seen(), trapezoid, {x, y, theta}, reply); });
 }
 EMSCRIPTEN_KEEPALIVE int cell(int which) {
-    return answer([&] { cfree::show_cell(given(), which, reply); });
+    return answer([&] { cfree::show_cell(seen(), which, reply); });
 }
 EMSCRIPTEN_KEEPALIVE int angle(double theta, int fine) {
     return answer([&] {

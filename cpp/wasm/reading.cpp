@@ -37,18 +37,77 @@ private:
     std::string_view rest, current;
 };
 
-std::shared_ptr<const Polygon> polygon_of(Words& words, const std::string& name) try {
-    std::vector<RatioRing> rings;
-    while (words.word() == "ring") {
-        words.next();
-        auto& ring = rings.emplace_back();
-        while (!words.ended() && words.word() != "ring" && words.word() != "robot" && words.word() != "obstacle" &&
-               words.word() != "workspace" && words.word() != "bounds") {
-            Ratio x = words.number();
-            ring.push_back({std::move(x), words.number()});
-        }
+bool begins_part(std::string_view word) {
+    return word == "robot" || word == "obstacle" || word == "workspace" || word == "bounds";
+}
+
+RatioPoint point_of(Words& words) {
+    Ratio x = words.number();
+    return {std::move(x), words.number()};
+}
+
+bool begins_ring(std::string_view word) { return word == "ring" || word == "path" || word == "circle" || word == "grown"; }
+
+// The second radius of an arc: the same length across the first, or it is that of an ellipse.
+void refuse_ellipse(Words& words, const GivenCurve& arc) {
+    words.next();
+    const RatioPoint v = point_of(words);
+    const Ratio ux = arc.start.x - arc.center.x, uy = arc.start.y - arc.center.y;
+    if (ux * v.x + uy * v.y != Ratio{0, 1} || ux * ux + uy * uy != v.x * v.x + v.y * v.y)
+        throw std::invalid_argument("an arc of an ellipse: the page takes lines and circular arcs; `cfree convert` with --outer writes polygons around others");
+}
+
+// "x y" is the end of a line, "arc x y about x y left" or ".. right" or "arc x y through x y" that of an arc. The ends are listed, too.
+std::vector<GivenCurve> path_of(Words& words, RatioRing& ends, bool& has_arcs) {
+    std::vector<GivenCurve> curves;
+    const auto has_ended = [&] { return words.ended() || begins_part(words.word()) || begins_ring(words.word()); };
+    if (has_ended()) return curves;
+    const RatioPoint first = point_of(words);
+    RatioPoint from = first;
+    for (ends.push_back(first); !has_ended(); ends.push_back(from)) {
+        const bool is_arc = words.word() == "arc";
+        if (is_arc) words.next();
+        const RatioPoint to = point_of(words);
+        if (is_arc) {
+            has_arcs = true;
+            const bool is_through = words.word() == "through";
+            words.next();
+            const RatioPoint point = point_of(words);
+            if (is_through) curves.push_back(arc_through(from, point, to));
+            else {
+                curves.push_back(arc_about(from, point, to, words.word() == "right"));
+                words.next();
+                if (words.word() == "conjugate") refuse_ellipse(words, curves.back());
+            }
+        } else if (to != from) curves.push_back({from, to});
+        from = to;
     }
-    return std::make_shared<const Polygon>(std::move(rings));
+    if (from != first) curves.push_back({from, first});
+    return curves;
+}
+
+GivenShape shape_of(Words& words, const std::string& name) try {
+    GivenShape shape;
+    std::vector<RatioRing> rings;
+    bool has_arcs = false;
+    while (!words.ended() && !begins_part(words.word())) {
+        const auto kind = words.word();
+        words.next();
+        if (kind == "ring" || kind == "path") shape.rings.push_back(path_of(words, rings.emplace_back(), has_arcs)), shape.is_round |= kind == "path";
+        else if (kind == "circle") {
+            const RatioPoint center = point_of(words);
+            shape.rings.push_back(circle_about(center, words.number()));
+            shape.is_round = has_arcs = true;
+        } else if (kind == "grown") {
+            shape.grown = words.number(), shape.is_round = true;
+            if (shape.grown < Ratio{0, 1}) throw std::invalid_argument("grown: give a length, 0 or more");
+            if (has_arcs && shape.grown != Ratio{0, 1}) throw std::invalid_argument("grown: of polygons only; give the larger circle, or a path of points");
+            if (name == "workspace" && shape.grown != Ratio{0, 1}) throw std::invalid_argument("grown: of robots and obstacles only");
+        } else throw std::invalid_argument("no ring: " + std::string(kind.substr(0, 60)));
+    }
+    if (has_arcs) return shape;
+    shape.polygon = std::make_shared<const Polygon>(std::move(rings));
+    return shape;
 } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + ": " + error.what());
 }
@@ -68,14 +127,14 @@ RationalPose pose_of(Words& words) {
 
 }  // namespace
 
-SceneShapes shapes_of(std::string_view text) {
-    SceneShapes shapes;
+GivenScene scene_of(std::string_view text) {
+    GivenScene shapes;
     for (Words words(text); !words.ended();) {
         const auto kind = words.word();
         words.next();
-        if (kind == "robot") shapes.robot.push_back(polygon_of(words, "robot"));
-        else if (kind == "obstacle") shapes.obstacles.push_back(polygon_of(words, "obstacle " + std::to_string(shapes.obstacles.size())));
-        else if (kind == "workspace") shapes.workspace = polygon_of(words, "workspace");
+        if (kind == "robot") shapes.robot.push_back(shape_of(words, "robot"));
+        else if (kind == "obstacle") shapes.obstacles.push_back(shape_of(words, "obstacle " + std::to_string(shapes.obstacles.size())));
+        else if (kind == "workspace") shapes.workspace = shape_of(words, "workspace");
         else if (kind == "bounds") {
             shapes.bounds.emplace();
             for (Ratio& x : *shapes.bounds) x = words.number();
@@ -84,9 +143,12 @@ SceneShapes shapes_of(std::string_view text) {
         } else throw std::invalid_argument("no part of a scene: " + std::string(kind.substr(0, 60)));
     }
     if (shapes.robot.empty()) throw std::invalid_argument("the robot is empty; give at least one polygon");
+    return shapes;
+}
+
+void refuse_range(const SceneShapes& shapes) {
     if (const auto fault = range_fault(shapes))
         throw std::invalid_argument(fault->kind + (fault->index < 0 ? "" : " " + std::to_string(fault->index)) + ": " + fault->message);
-    return shapes;
 }
 
 RationalPose pose_of(std::string_view text) {

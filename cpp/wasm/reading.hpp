@@ -1,17 +1,22 @@
 // Scenes and poses from words: what a page has made of a file, every number as it is written there.
 //
 //   robot ring x y x y .. ring ..   obstacle ring ..   workspace ring ..   bounds x0 y0 x1 y1
+//
+// A round shape has rings `circle x y radius` or `path x y ..`, where `arc x y about x y left` or `right`, and `conjugate x y` after it, and `arc x y through x y`
+// may stand for points; or `grown radius` after polygons.
 #pragma once
 #include <string_view>
 
 #include "cfree/planning/driving.hpp"
 #include "cfree/planning/rational_pose.hpp"
 #include "cfree/scene/features.hpp"
+#include "rounds.hpp"
 
 namespace cfree {
 
 // Throws std::invalid_argument, which says what is wrong where.
-SceneShapes shapes_of(std::string_view words);
+GivenScene scene_of(std::string_view words);
+void refuse_range(const SceneShapes& shapes);
 // "x y tau", tau a rational or "inf".
 RationalPose pose_of(std::string_view words);
 std::string words_of(const RationalPose& pose);

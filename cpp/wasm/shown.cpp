@@ -31,6 +31,20 @@ void show_polygons(const std::string& prefix, const std::vector<std::shared_ptr<
     reply.add(prefix + ".xy", xy), reply.add(prefix + ".ring", ring), reply.add(prefix + ".polygon", polygon);
 }
 
+// Outlines with arcs; and the error of the polygons around them.
+void show_rounds(const World& world, Reply& reply) {
+    const GivenScene& scene = world.rounds->scene;
+    const auto show = [&](const std::string& prefix, const std::vector<GivenShape>& shapes, const auto& around) {
+        Outlines outlines;
+        for (std::size_t k = 0; k < shapes.size(); ++k) outlines.add(shapes[k], around[k]);
+        reply.add(prefix + ".xy", outlines.xy), reply.add(prefix + ".ring", outlines.ring), reply.add(prefix + ".polygon", outlines.shape);
+        reply.add(prefix + ".bend", outlines.bend);
+    };
+    show("robot", scene.robot, world.near->robot), show("obstacles", scene.obstacles, world.near->obstacles);
+    if (scene.workspace) show("workspace", std::vector{*scene.workspace}, world.near->workspace);
+    reply.add("around", world.near->error);
+}
+
 Vec<double> point(const Shape& shape, Index v) { return UserUnits{}.vertex(shape, v); }
 
 // Position of a pose along the line of a contact.
@@ -164,9 +178,12 @@ void Named::put(const std::string& prefix, Reply& reply) const {
 }
 
 void show_scene(const World& world, Reply& reply) {
-    show_polygons("robot", world.shapes.robot, reply);
-    show_polygons("obstacles", world.shapes.obstacles, reply);
-    if (world.shapes.workspace) show_polygons("workspace", {world.shapes.workspace}, reply);
+    if (world.rounds) show_rounds(world, reply);
+    else {
+        show_polygons("robot", world.shapes.robot, reply);
+        show_polygons("obstacles", world.shapes.obstacles, reply);
+        if (world.shapes.workspace) show_polygons("workspace", {world.shapes.workspace}, reply);
+    }
     if (world.features.rim) reply.add("rim", std::vector<double>(world.features.rim->begin(), world.features.rim->end()));
     if (world.shapes.bounds) {
         std::vector<double> bounds;

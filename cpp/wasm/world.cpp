@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cfree/support/elementary.hpp"
+#include "reading.hpp"
 
 namespace cfree {
 
@@ -17,7 +18,29 @@ double radius_of(const SceneShapes& shapes) {
     return most;
 }
 
+// The scene of polygons whose features are those of the user's shapes.
+std::shared_ptr<KnownScene> drawn(const NearShapes& near) {
+    auto features = std::make_shared<SceneFeatures>(scene_features(near.shapes));
+    for (const auto& [owners, numbers] : {std::pair{&features->robot, &near.part_of}, {&features->obstacles, &near.obstacle_of}})
+        for (Index& polygon : owners->polygon)
+            if (polygon >= 0) polygon = (*numbers)[static_cast<std::size_t>(polygon)];
+    auto checker = std::make_shared<const MotionChecker>(features->scene);
+    return std::make_shared<KnownScene>(std::move(features), std::move(checker));
+}
+
+// The scene of polygons inside of shapes that decide themselves.
+std::shared_ptr<KnownScene> decided(const Rounds& rounds, const NearShapes& near) {
+    auto features = std::make_shared<const SceneFeatures>(scene_features(near.shapes));
+    auto checker = std::make_shared<const MotionChecker>(features->scene, rounds.motions);
+    return std::make_shared<KnownScene>(std::move(features), std::move(checker), near.off);
+}
+
 }  // namespace
+
+World::World(std::shared_ptr<const Rounds> given, NearShapes polygons, bool is_outward)
+    : shapes(polygons.shapes), rounds(std::move(given)), near(std::move(polygons)), known(is_outward ? drawn(*near) : decided(*rounds, *near)),
+      features(*known->features), scene(features.scene), checker(known->checker), radius(radius_of(shapes)),
+      planner(std::make_unique<Planner>(known, radius)) {}
 
 World::World(SceneShapes given)
     : shapes(std::move(given)), known(KnownScene::of(shapes)), features(*known->features), scene(features.scene), checker(known->checker),
@@ -33,6 +56,10 @@ void World::compute(const std::function<void(double)>& share) {
 }
 
 double World::clearance(const Place& at) const {
+    if (rounds) {
+        const HalfAngle half = half_angle_of(at.theta, false);
+        return rounds->poses.distance({ratio_of(at.x), ratio_of(at.y), half.q, half.p, at.theta}, 1e300).low;
+    }
     const double unit = scene->unit();
     return std::max(0.0, known->nearness().distance({at.x / unit, at.y / unit, at.theta}, HUGE_VAL)) * unit;
 }

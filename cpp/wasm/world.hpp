@@ -11,16 +11,21 @@
 #include "cfree/planning/driving.hpp"
 #include "cfree/planning/planner.hpp"
 #include "cfree/scene/features.hpp"
+#include "rounds.hpp"
 
 namespace cfree {
 
 class World {
 public:
     explicit World(SceneShapes given);
+    // Polygons around round shapes, for the eye, or polygons inside of them: then the shapes themselves decide.
+    World(std::shared_ptr<const Rounds> given, NearShapes polygons, bool is_outward);
     // Boundary, closed surfaces, cells.
     void compute(const std::function<void(double)>& share);
 
     const SceneShapes shapes;
+    const std::shared_ptr<const Rounds> rounds;  // null without round shapes
+    const std::optional<NearShapes> near;        // the polygons in place of these
     const std::shared_ptr<KnownScene> known;
     const SceneFeatures& features;
     const std::shared_ptr<const Scene> scene;
@@ -39,9 +44,12 @@ public:
         std::optional<GivenVehicle> vehicle;  // that drives the path
     };
     std::optional<Answer> answer;  // the last one
+    std::optional<NearShapes> proved;  // the polygons of the last proof among round shapes
     std::vector<double> volumes;  // volumes of cells, once they are needed
 
     void need_space() const;
+    // The user's number of an obstacle among the polygons of the last proof.
+    Index obstacle(Index polygon) const { return near && polygon >= 0 ? (proved ? *proved : *near).obstacle_of[static_cast<std::size_t>(polygon)] : polygon; }
     // Distance of the robot from obstacles, about: 0 where it touches them; infinite without any.
     double clearance(const Place& at) const;
 };

@@ -203,7 +203,8 @@ def test_preferences_count_at_the_axle_point() -> None:
     dear = path_in(WALL, car, preferences=Preferences(backward=5))
 
     assert Preferences(backward=5).cost(dear, WALL) <= 1.2 * Preferences(backward=5).cost(plain, WALL)
-    cost = sum(part.length * (5 if part.gear == "backward" else 1) for part in dear.driving) + dear.cusps * 1.0
+    cost = sum(part.length * (5 if part.gear == "backward" else 1) for part in dear.driving)
+    cost += dear.cusps + 0.25 * (dear.stops - dear.cusps)
     assert Preferences(backward=5).cost(dear, WALL) == pytest.approx(cost)
 
 

@@ -18,6 +18,7 @@ import pytest
 import cfree
 from cfree import verify
 from cfree.collision.distance import EdgeDistances
+from cfree.curves import Arc, Circle
 from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
 from cfree.geometry.local import local_geometry
@@ -170,6 +171,113 @@ def test_contact_is_reached_exactly() -> None:
     assert Fraction(stop["pose"].split()[0]) == 2
     assert touching["free"]["values"] == [1] and touching["touching.obstacle"]["values"] == [0, 0]
     assert overlapping["free"]["values"] == [0] and overlapping["pair"]["values"] == [0, 0]
+
+
+DISC = cfree.Curved.circle((0, 0), "1/2")
+FLOOR = [(-9, -2), (9, -2), (9, "-1/2"), (-9, "-1/2")]
+WALL = [(-1, "1/2"), (1, "1/2"), (1, 9), (-1, 9)], [(-1, -9), (1, -9), (1, "-1/2"), (-1, "-1/2")]
+STADIUM = cfree.Curved(
+    [(-1, "-1/2"), (1, "-1/2"), Arc((1, "1/2"), center=(1, 0)), (-1, "1/2"), Arc((-1, "-1/2"), through=("-3/2", 0))]
+)
+POSTS = [cfree.Curved.circle((0, y), 1) for y in ("3/2", "-3/2")]
+RING = cfree.Curved([(-9, -9), (9, -9), (9, 9), (-9, 9)], [Circle((0, 0), 2)])
+NARROW = [(-1, "0.4995"), (1, "0.4995"), (1, 9), (-1, 9)], [(-1, -9), (1, -9), (1, "-0.4995"), (-1, "-0.4995")]
+LORRY = cfree.Curved([(-1, "-1/2"), (3, "-1/2"), (3, "1/2"), (-1, "1/2")], grown="1/4")
+ROOM = (-5, -5, 5, 5)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "scene", "ends", "answer"),
+    [
+        ("a disc along the floor it lies on", cfree.Scene(DISC, [FLOOR]), [(-5, 0, 0), (5, 0, "180deg")], cfree.Path),
+        (
+            "a stadium through its own width",
+            cfree.Scene(STADIUM, [*WALL], bounds=ROOM),
+            [(-4, 0, 0), (4, 0, 0)],
+            cfree.Path,
+        ),
+        (
+            "a disc between posts its width apart",
+            cfree.Scene(DISC, POSTS, bounds=ROOM),
+            [(-4, 0, 0), (4, 0, 0)],
+            cfree.Path,
+        ),
+        ("a disc along a round hole", cfree.Scene(DISC, [RING]), [("3/2", 0, 0), ("9/10", "6/5", 0)], cfree.Path),
+        ("a gap 1e-3 too narrow", cfree.Scene(DISC, [*NARROW], bounds=ROOM), [(-4, 0, 0), (4, 0, 0)], cfree.Separated),
+        ("a round hole without a way out", cfree.Scene(DISC, [RING]), [("3/2", 0, 0), (12, 0, 0)], cfree.Separated),
+        ("a lane with round ends", cfree.Scene(DISC, [], workspace=STADIUM), [(-1, 0, 0), (1, 0, 0)], cfree.Path),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_round_shapes_are_decided_exactly_and_the_saved_answers_verified(
+    name: str, scene: cfree.Scene, ends: list[Any], answer: type[cfree.Path | cfree.Separated], tmp_path: Path
+) -> None:
+    start, goal = (Pose(*end) for end in ends)
+    _, _, written = asked(["open", scene_text(scene)], ["plan", said(start), said(goal), "", 0], ["written"])
+    text = written["answer"].replace("{sha256}", hashlib.sha256(written["scene"].encode()).hexdigest())
+    (tmp_path / "answer.json").write_text(text)
+    saved = cfree.load(tmp_path / "answer.json")
+    assert isinstance(saved, answer) and (saved.start, saved.goal) == (start, goal)
+    assert verify.answer(scene, saved).verified
+    assert ("polygons" in json.loads(text)) == (answer is cfree.Separated)  # a path is one of the shapes themselves
+
+
+@pytest.mark.slow
+def test_vehicles_with_round_corners_drive_past_round_obstacles(tmp_path: Path) -> None:
+    scene = cfree.Scene(LORRY, [cfree.Curved.circle((5, 0), 1)], bounds=(-20, -20, 20, 20))
+    plan = ["plan", "0 0 0", "10 0 0", "car 4 4 0 0 0 both", 100]
+    _, answer, written = asked(["open", scene_text(scene)], plan, ["written"])
+    assert answer["verdict"] == "path"
+    text = written["answer"].replace("{sha256}", hashlib.sha256(written["scene"].encode()).hexdigest())
+    (tmp_path / "answer.json").write_text(text)
+    assert verify.answer(scene, cfree.load(tmp_path / "answer.json")).verified
+
+
+def test_round_contact_is_exact_and_reached_exactly() -> None:
+    scene = cfree.Scene(DISC, [FLOOR, cfree.Curved.circle((3, 0), 1)])
+    near = ["0 0 0", "3/2 0 0", "3/2 1e-30 0", "0 1e-15 0", "0 -1e-30 0"]
+    stop = ["stop", "0 0.1 0", "2 0.1 0"], ["stop", "-3 5 0", "-3 -5 0"]
+    _, *poses, aslant, down = asked(["open", scene_text(scene)], *(["pose", pose] for pose in near), *stop)
+    assert [pose["free"]["values"] for pose in poses] == [[1], [1], [1], [1], [0]]
+    assert [pose["touched"]["values"] for pose in poses[:4]] == [[0], [0, 1], [0, 1], []]
+    assert poses[4]["pair"]["values"] == [0, 0]
+    assert Fraction(down["pose"].split()[1]) == 0
+    x, y = map(Fraction, aslant["pose"].split()[:2])
+    assert 0 <= (x - 3) ** 2 + y**2 - Fraction(9, 4) < Fraction(1, 2**50)
+
+
+def test_neither_path_nor_proof_among_round_shapes_is_said() -> None:
+    barely = [
+        [(x, Fraction(y) + side * Fraction("1e-9")) for x, y in wall] for wall, side in zip(WALL, (-1, 1), strict=True)
+    ]
+    scene = cfree.Scene(DISC, barely, bounds=ROOM)
+    _, answer = asked(["open", scene_text(scene)], ["plan", "-4 0 0", "4 0 0", "", 0])
+    assert answer["verdict"] == "round"
+
+
+@pytest.mark.parametrize(
+    ("shape", "message"),
+    [
+        ({"circle": {"center": [0, 0], "radius": 0}}, "obstacle 0: radius: give a length above 0"),
+        ({"path": [[1, 0], {"arc": {"to": [0.7, 0.7], "center": [0, 0]}}, [0, 0]]}, "is not on the arc, by a part of"),
+        ({"path": [[0, 0], {"arc": {"to": [2, 0], "through": [1, 0]}}]}, "three points on one line"),
+        (
+            {"path": [[0, 0], [4, 0], {"arc": {"to": [0, 0], "through": [2, 0.1]}}, [2, 5]]},
+            "obstacle 0: its outline crosses",
+        ),
+        ({"circle": {"center": [0, 0], "radius": 1}, "grown": 1}, "grown: of polygons only"),
+        (
+            {"ellipse": {"center": [0, 0], "radii": [1, 2]}},
+            "obstacles[0].ellipse: the page takes lines and circular arcs",
+        ),
+        ({"path": [[1, 0], {"arc": {"to": [0, 2], "center": [0, 0], "conjugate": [0, 2]}}]}, ""),
+    ],
+)
+def test_round_shapes_that_are_none_are_one_clear_message(shape: dict[str, Any], message: str) -> None:
+    text = json.dumps({"robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "obstacles": [shape]})
+    (answer,) = asked(["open", text])
+    assert message in answer["fault"] and "fault of cfree" not in answer["fault"]
 
 
 @pytest.mark.slow

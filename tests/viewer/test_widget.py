@@ -86,6 +86,19 @@ def test_path_of_the_page_is_believed_only_if_it_is_free() -> None:
     assert len(widget.answer.motions) > 1 and widget.answer.is_free(cfree.MotionChecker(widget.scene))
 
 
+def test_round_shapes_are_shown_exactly_and_their_path_is_believed_only_if_it_is_free() -> None:
+    disc, floor = cfree.Curved.circle((0, 0), 1), [(-9, -2), (9, -2), (9, -1), (-9, -1)]
+    scene = cfree.Scene(disc, [floor, cfree.Curved.circle((0, 3), 2)], start=(-5, 0, 0), goal=(5, 0, 0))
+    widget = cfree.widget(scene)
+    assert widget.scene == scene
+    widget.set_state({"poses": "-5 0 0\n5 0 0"})
+    assert len(widget.answer.motions) == 1 and widget.answer.curved == scene and widget.answer.scene is None
+    widget.set_state({"goal": words("5", "1", "0"), "poses": "-5 0 0\n5 1 0"})
+    assert widget.answer.goal == Pose(5, 1) and len(widget.answer.motions) > 1  # the page's path is not free
+    with pytest.raises(cfree.UnsupportedError, match="the page takes lines and circular arcs"):
+        cfree.widget(cfree.Scene(cfree.Curved.ellipse((0, 0), (1, 2)), []))
+
+
 def test_vehicle_of_the_page_drives_in_python() -> None:
     car = cfree.Car(1, axle=("1/2", 0))
     widget = cfree.widget(

@@ -76,10 +76,13 @@ export class Editor {
     if (!this.is_on) return ["tabindex", "role", "aria-label"].forEach((name) => path.removeAttribute(name));
     path.setAttribute("tabindex", "0");
     path.setAttribute("role", "button");
-    path.setAttribute(
-      "aria-label",
-      `${path.querySelector("title")?.textContent}: arrows move it, brackets turn it, Delete removes it; its vertices follow`,
-    );
+    const k = [...this.workspace.layers.obstacles.children].indexOf(path);
+    const which: Which = { kind: "obstacle", k };
+    const is_round = this.shapes?.has(which) && this.shapes.is_round(which);
+    const keys = is_round
+      ? "arrows move it, Delete removes it"
+      : "arrows move it, brackets turn it, Delete removes it; its vertices follow";
+    path.setAttribute("aria-label", `${path.querySelector("title")?.textContent}: ${keys}`);
   }
 
   show(source: string): void {
@@ -107,6 +110,8 @@ export class Editor {
         : undefined;
   }
   private outlined(which: Which, rings: Rings): void {
+    const parts = this.shapes!.all().filter(({ kind }) => kind === which.kind);
+    if (which.kind === "robot" ? parts.some((part) => this.shapes!.is_round(part)) : !rings.length) return; // drawn as it is read
     const of = (one: Rings) => {
       const { xy, ring } = plain(one);
       return outline(xy, ring);
@@ -149,8 +154,14 @@ export class Editor {
     return this.draft ?? this.shapes!.rings(this.chosen!);
   }
 
-  private change(rings: Rings, done: boolean): void {
+  private change(rings: Rings | Shapes, done: boolean): void {
     const which = this.chosen!;
+    if (rings instanceof Shapes) {
+      this.fault = "";
+      if (done) this.shapes = rings;
+      this.look();
+      return this.on_change(rings.text(), done);
+    }
     this.draft = done ? undefined : rings;
     this.outlined(which, rings);
     this.fault = "";
@@ -160,9 +171,11 @@ export class Editor {
     this.on_change(changed.text(), done);
   }
 
-  private step_of(dx: number, dy: number, rings: Rings): Rings {
+  // The chosen shape moved: its rings, or the scene with a round one elsewhere.
+  private step_of(dx: number, dy: number, rings: Rings, shapes: Shapes): Rings | Shapes {
     const { step } = this.workspace;
     const by = [snapped(dx, step), snapped(dy, step)];
+    if (!rings.length) return shapes.moved_by(this.chosen!, by[0]!, by[1]!);
     return rings.map((ring) => ring.map(([x, y]): Point => [moved(x, by[0]!), moved(y, by[1]!)]));
   }
   private turned(angle: number, rings: Rings): Rings {
@@ -230,7 +243,7 @@ export class Editor {
   }
 
   // Follow any drag: `to` makes the rings from the distance dragged.
-  private follow(event: PointerEvent, to: (x: number, y: number) => Rings, ended = () => {}): void {
+  private follow(event: PointerEvent, to: (x: number, y: number) => Rings | Shapes, ended = () => {}): void {
     event.preventDefault();
     event.stopPropagation();
     const begin = this.local(this.workspace.point(event));
@@ -270,7 +283,8 @@ export class Editor {
     this.choose({ kind: "obstacle", k });
     (path as SVGElement).focus({ preventScroll: true });
     const from = this.rings;
-    this.follow(event, (dx, dy) => this.step_of(dx, dy, from));
+    const shapes = this.shapes!;
+    this.follow(event, (dx, dy) => this.step_of(dx, dy, from, shapes));
   }
 
   private key(event: KeyboardEvent): void {
@@ -278,7 +292,8 @@ export class Editor {
     const times = event.shiftKey ? 10 : event.altKey ? 0.1 : 1;
     const by = 8 * this.workspace.pixel * times;
     const turn = (Math.PI / 36) * times;
-    const move = (dx: number, dy: number) => () => this.change(this.step_of(dx, dy, this.rings), true);
+    const move = (dx: number, dy: number) => () => this.change(this.step_of(dx, dy, this.rings, this.shapes!), true);
+    const rotate = (angle: number) => () => this.rings.length && this.change(this.turned(angle, this.rings), true);
     const act = {
       ArrowLeft: move(-by, 0),
       ArrowRight: move(by, 0),
@@ -286,8 +301,8 @@ export class Editor {
       ArrowDown: move(0, -by),
       Delete: () => this.remove(),
       Enter: () => this.focus({ ring: 0, vertex: 0 }),
-      "[": () => this.change(this.turned(turn, this.rings), true),
-      "]": () => this.change(this.turned(-turn, this.rings), true),
+      "[": rotate(turn),
+      "]": rotate(-turn),
     }[event.key];
     if (act) {
       event.preventDefault();
@@ -449,7 +464,7 @@ export class Editor {
         });
         handle.addEventListener("keydown", (event) => this.vertex_key(event, spot));
       }
-      if (chosen.kind === "obstacle") this.knob();
+      if (chosen.kind === "obstacle" && rings.length) this.knob();
     }
     this.frame.querySelectorAll<SVGElement>(".vertex").forEach((handle, k) => {
       const { x, y, spot } = spots[k]!;

@@ -5,7 +5,7 @@ import { $, fault, say, working } from "./page";
 import { digits, number } from "./shapes";
 import { wrapped, type Space } from "./space";
 import { History, fragment, from_words, words, type PoseText, type State } from "./state";
-import { degrees, pose_verdict, way_verdict } from "./verdict";
+import { around_words, degrees, pose_verdict, way_verdict } from "./verdict";
 import { frame_of, track_of, usual, words_of, type Gear, type Vehicle, type Wheels } from "./vehicle";
 import type { FilePose, SceneText } from "./words";
 import type { Drag, Seen, Who, Workspace } from "./workspace";
@@ -199,7 +199,7 @@ export class Session {
     const is_now = source === this.now.source;
     const cells = value(counts, "cells");
     $("facts").textContent =
-      `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s`;
+      `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s${around_words(read, this.file.units)}`;
     if (this.space) {
       this.space.show_scene(box, radius, false);
       this.space.show_mesh(mesh!);

@@ -20,6 +20,21 @@ const rings_of = (polygon: Fields): Rings =>
     (ring as Json[][]).map(([x, y]) => [text_of(x), text_of(y)]),
   );
 
+// Keys of a round shape under which there are points.
+const POINTS = ["outer", "holes", "path", "circle", "arc", "to", "through", "center"];
+const is_number = (value: Json) => typeof value === "string" || value instanceof LosslessNumber;
+const is_point = (value: Json): value is Json[] => Array.isArray(value) && value.length === 2 && value.every(is_number);
+function with_points(value: Json, to: (point: Point) => Point): Json {
+  if (is_point(value)) return to([text_of(value[0]), text_of(value[1])]).map(json_of);
+  if (Array.isArray(value)) return value.map((item) => with_points(item, to));
+  if (!value || typeof value !== "object" || value instanceof LosslessNumber) return value;
+  return Object.fromEntries(
+    Object.entries(value).map(([key, item]) => [key, POINTS.includes(key) ? with_points(item, to) : item]),
+  );
+}
+
+export const is_round = (of: object): boolean => ["circle", "ellipse", "path", "grown"].some((key) => key in of);
+
 export function same(a: Which | undefined, b: Which | undefined): boolean {
   return a?.kind === b?.kind && a?.k === b?.k;
 }
@@ -30,7 +45,7 @@ function written(value: Json, depth = 0): string {
   if (Array.isArray(value)) {
     const items = value.map((item) => written(item, depth + 1));
     const is_list_of_polygons =
-      depth === 1 && value.some((item) => item && typeof item === "object" && "outer" in item);
+      depth === 1 && value.some((item) => item && typeof item === "object" && ("outer" in item || is_round(item)));
     return is_list_of_polygons ? `[\n    ${items.join(",\n    ")}\n  ]` : `[${items.join(", ")}]`;
   }
   if (value && typeof value === "object") {
@@ -69,8 +84,23 @@ export class Shapes {
   has({ kind, k }: Which): boolean {
     return k < this.list(kind).length;
   }
+  // None of a round shape.
   rings({ kind, k }: Which): Rings {
-    return rings_of(this.list(kind)[k]!);
+    const shape = this.list(kind)[k]!;
+    return is_round(shape) ? [] : rings_of(shape);
+  }
+  // True if a shape has arcs: it is moved as a whole only.
+  is_round({ kind, k }: Which): boolean {
+    return is_round(this.list(kind)[k]!);
+  }
+  // Move a round shape: all its points, so that arcs stay exact.
+  moved_by({ kind, k }: Which, dx: string, dy: string): Shapes {
+    const { check: _, ...fields } = this.fields;
+    const by = ([x, y]: Point): Point => [moved_exactly(x, dx), moved_exactly(y, dy)];
+    const to = (shape: Fields) => with_points(shape, by) as Fields;
+    if (kind === "workspace") return new Shapes({ ...fields, workspace: to(fields.workspace as Fields) });
+    const shapes = this.list(kind).map((shape, j) => (j === k ? to(shape) : shape));
+    return new Shapes({ ...fields, [kind === "robot" ? "robot" : "obstacles"]: shapes });
   }
 
   // Replace the rings of a polygon, or remove it; a number after the last adds an obstacle.
@@ -128,4 +158,17 @@ export function moved(text: string, by: string): string {
   const cut = size.length - places;
   const rest = size.slice(cut).replace(/0+$/, "");
   return `${sum < 0n ? "-" : ""}${size.slice(0, cut)}${rest && `.${rest}`}`;
+}
+// The same for points of arcs, whose fractions stay exact.
+export function moved_exactly(text: string, by: string): string {
+  const fraction = /^(-?\d+)\/(\d+)$/.exec(text);
+  const step = /^(-?\d+)(?:\.(\d+))?$/.exec(by);
+  if (!fraction || !step) return moved(text, by);
+  const unit = 10n ** BigInt(step[2]?.length ?? 0);
+  const q = BigInt(fraction[2]!);
+  const sum = BigInt(fraction[1]!) * unit + BigInt(step[1]! + (step[2] ?? "")) * q;
+  let [divisor, rest] = [q * unit, sum < 0n ? -sum : sum];
+  while (rest) [divisor, rest] = [rest, divisor % rest];
+  const [n, d] = [sum / divisor, (q * unit) / divisor];
+  return d === 1n ? String(n) : `${n}/${d}`;
 }

@@ -11,6 +11,7 @@ export interface Vehicle {
   y: string;
   tau: string;
   gears: "both" | "forward";
+  wheelbase?: string; // of a car, for the eye alone
 }
 export interface Axle {
   x: number;
@@ -23,7 +24,7 @@ const is_text = (of: unknown): of is string => typeof of === "string" && of.leng
 export const is_number = (of: unknown): of is string => is_text(of) && RATIONAL.test(of) && Number.isFinite(number(of)); // no division by zero
 export const is_radius = (of: unknown): of is string => is_number(of) && number(of) > 0;
 export function is_vehicle(of: unknown): of is Vehicle {
-  const { kind, left, right, x, y, tau, gears } = (of ?? {}) as Record<string, unknown>;
+  const { kind, left, right, x, y, tau, gears, wheelbase } = (of ?? {}) as Record<string, unknown>;
   return (
     (kind === "any" || kind === "differential" || kind === "car") &&
     is_radius(left) &&
@@ -31,7 +32,8 @@ export function is_vehicle(of: unknown): of is Vehicle {
     is_number(x) &&
     is_number(y) &&
     (tau === "inf" || is_number(tau)) &&
-    (gears === "both" || gears === "forward")
+    (gears === "both" || gears === "forward") &&
+    (wheelbase === undefined || is_radius(wheelbase))
   );
 }
 
@@ -48,7 +50,7 @@ export function record_of(
   number: (text: string) => unknown = (text) => text,
 ): Record<string, unknown> | undefined {
   if (!vehicle || vehicle.kind === "any") return undefined;
-  const { kind, left, right, x, y, tau, gears } = vehicle;
+  const { kind, left, right, x, y, tau, gears, wheelbase } = vehicle;
   const is_car = kind === "car";
   return {
     type: kind,
@@ -56,6 +58,7 @@ export function record_of(
     axle: [number(x), number(y)],
     ...(tau !== "0" && { heading: { tau } }),
     ...(is_car && gears === "forward" && { gears }),
+    ...(is_car && wheelbase !== undefined && { wheelbase: number(wheelbase) }),
   };
 }
 
@@ -136,7 +139,7 @@ export function wheels_of(vehicle: Vehicle, robot: ArrayLike<number>): Wheels {
   const size = Math.min(x1 - x0, y1 - y0);
   return {
     half_track: 0.78 * (half > 0 ? half : (y1 - y0) / 2),
-    wheelbase: vehicle.kind === "car" ? Math.max(0, 0.78 * x1) : 0,
+    wheelbase: vehicle.kind !== "car" ? 0 : vehicle.wheelbase ? number(vehicle.wheelbase) : Math.max(0, 0.78 * x1),
     length: 0.3 * size,
     width: 0.11 * size,
   };

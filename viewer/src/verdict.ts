@@ -29,6 +29,9 @@ export function contact_words(columns: Columns, prefix: string, k: number, names
     : `robot edge ${robot} on vertex ${corner} of ${where}`;
 }
 
+const joined = (some: string[]): string =>
+  some.length > 1 ? `${some.slice(0, -1).join(", ")} and ${some.at(-1)}` : some[0]!;
+
 export function pose_verdict(columns: Columns, names: string[]): Verdict {
   if (value(columns, "free") === 0) {
     const [part, owner] = integers(columns, "pair");
@@ -38,6 +41,12 @@ export function pose_verdict(columns: Columns, names: string[]): Verdict {
       text: `Forbidden: the robot overlaps ${owner! < 0 ? "the outside of " : ""}${obstacle_name(names, owner!)}.`,
     };
   }
+  const touched = [...integers(columns, "touched")]; // among round shapes
+  if (touched.length) {
+    const some = touched.slice(0, 2).map((k) => obstacle_name(names, k));
+    if (touched.length > 2) some.push(`${touched.length - 2} more`);
+    return { tone: "touch", text: `Touching ${joined(some)}. Allowed.` };
+  }
   const touching = bytes(columns, "touching.kind").length;
   if (touching === 0) return { tone: "good", text: "Free." };
   const said = Array.from({ length: Math.min(touching, 2) }, (_, k) => contact_words(columns, "touching", k, names));
@@ -45,12 +54,19 @@ export function pose_verdict(columns: Columns, names: string[]): Verdict {
   return { tone: "touch", text: `Touching: ${said.join("; ")}${rest}. Allowed.` };
 }
 
+// The boundary at the right is that of polygons around round shapes.
+export function around_words(scene: Columns, units: string): string {
+  const off = value(scene, "around");
+  return off >= 0
+    ? ` · round shapes are drawn as polygons around them, within ${off.toPrecision(2)}${units && ` ${units}`}`
+    : "";
+}
+
 function blocking(owners: number[], names: string[]): string {
   const are_plain = owners.every((k) => k >= 0 && (names[k] ?? `obstacle ${k}`) === `obstacle ${k}`);
   const some = owners.slice(0, 4).map((k) => (are_plain ? String(k) : obstacle_name(names, k)));
   if (owners.length > 4) some.push(`${owners.length - 4} more`);
-  const joined = some.length > 1 ? `${some.slice(0, -1).join(", ")} and ${some.at(-1)}` : some[0]!;
-  return are_plain ? `obstacle${owners.length > 1 ? "s" : ""} ${joined}` : joined;
+  return are_plain ? `obstacle${owners.length > 1 ? "s" : ""} ${joined(some)}` : joined(some);
 }
 
 // The machine in a sentence, with its article.
@@ -81,6 +97,7 @@ function open_words(verdict: string, columns: Columns, vehicle: Vehicle | undefi
     return `${touches[1] === "start" ? "Start" : "Goal"}: the robot touches something. The page does not decide this for ${it}; use \`cfree plan\`.`;
   if (verdict === "contacts")
     return `A motion exists, but along contacts only. The page does not decide this for ${it}; use \`cfree plan\`.`;
+  if (verdict === "round") return "Undecided here for the round shapes: `cfree plan` decides more.";
   if (verdict === "narrow") return `A way of ${it} exists; the page cannot write it down: its passages are too narrow.`;
   if (verdict === "forward")
     return "A way exists with a reverse gear; none without one was found here: `cfree plan` may decide it.";

@@ -1,5 +1,6 @@
 // Scene files as words for the core: every number stays the text that it is in the file.
 import { LosslessNumber, parse } from "lossless-json";
+import { is_round } from "./shapes";
 import { is_number, is_radius, type Vehicle } from "./vehicle";
 
 export const MOST_BYTES = 16 << 20;
@@ -74,9 +75,84 @@ function ring(value: Json, place: string): string {
 // A list that begins with a point: a polygon without holes may be written as its ring alone.
 const is_ring = (value: Json): boolean =>
   Array.isArray(value) && Array.isArray(value[0]) && value[0].length > 0 && !Array.isArray(value[0][0]);
+const pair = (value: Json, place: string): string => {
+  const parts = list(value, place);
+  if (parts.length !== 2) fail(place, "two numbers", value);
+  return parts.map((c, i) => number(c, `${place}[${i}]`)).join(" ");
+};
+const OTHER_CURVES =
+  "the page takes lines and circular arcs; `cfree convert` with --outer writes polygons around others";
+
+// Refuse curves that have no exact form here.
+function only(of: Record<string, Json>, keys: string, place: string): void {
+  for (const key of Object.keys(of)) {
+    if (["ellipse", "bezier", "spline"].includes(key)) throw new Error(`${place}.${key}: ${OTHER_CURVES}`);
+    if (!keys.split(" ").includes(key))
+      throw new Error(`${place}: unknown key "${plain(key)}"; give one of ${keys.replaceAll(" ", ", ")}`);
+  }
+}
+
+function arc(value: Json, place: string): string {
+  const of = fields(value, place);
+  only(of, "to through center clockwise conjugate", place);
+  const to = pair(of.to, `${place}.to`);
+  if ((of.through === undefined) === (of.center === undefined)) fail(place, '"through" or "center"', value);
+  if (of.through !== undefined) {
+    for (const key of ["clockwise", "conjugate"])
+      if (of[key]) throw new Error(`${place}.${key}: of arcs about a center; leave it out`);
+    return `arc ${to} through ${pair(of.through, `${place}.through`)}`;
+  }
+  if (of.clockwise !== undefined && typeof of.clockwise !== "boolean")
+    fail(`${place}.clockwise`, "true or false", of.clockwise);
+  const side = of.clockwise ? "right" : "left";
+  const radius = of.conjugate === undefined ? "" : ` conjugate ${pair(of.conjugate, `${place}.conjugate`)}`;
+  return `arc ${to} about ${pair(of.center, `${place}.center`)} ${side}${radius}`;
+}
+
+// A closed path: a point, then points and arcs.
+function path(value: Json, place: string): string {
+  const items = list(value, place).map((item, k) => {
+    const here = `${place}[${k}]`;
+    if (Array.isArray(item) || k === 0) return pair(item, here);
+    const of = fields(item, here);
+    only(of, "arc", here);
+    return arc(of.arc, `${here}.arc`);
+  });
+  return `path ${items.join(" ")}`;
+}
+
+function curve(of: Record<string, Json>, place: string): string | undefined {
+  if (of.circle !== undefined) {
+    const circle = fields(of.circle, `${place}.circle`);
+    only(circle, "center radius", `${place}.circle`);
+    const radius = number(circle.radius, `${place}.circle.radius`);
+    return `circle ${pair(circle.center, `${place}.circle.center`)} ${radius}`;
+  }
+  return of.path === undefined ? undefined : path(of.path, `${place}.path`);
+}
+
+function round(of: Record<string, Json>, place: string): string {
+  only(of, "name circle path outer holes grown", place);
+  if (["circle", "path", "outer"].filter((key) => of[key] !== undefined).length !== 1)
+    throw new Error(`${place}: give one of circle, path, outer`);
+  const holes = of.holes === undefined ? [] : list(of.holes, `${place}.holes`);
+  const hole = (value: Json, here: string) => {
+    if (Array.isArray(value)) return path(value, here);
+    const ring_of = fields(value, here);
+    only(ring_of, "circle path", here);
+    return curve(ring_of, here) ?? fail(here, '"circle" or "path"', value);
+  };
+  return [
+    curve(of, place) ?? path(of.outer, `${place}.outer`),
+    ...holes.map((value, k) => hole(value, `${place}.holes[${k}]`)),
+    ...(of.grown === undefined ? [] : [`grown ${number(of.grown, `${place}.grown`)}`]),
+  ].join(" ");
+}
+
 function polygon(value: Json, place: string): string {
   if (is_ring(value)) return ring(value, place);
   const of = fields(value, place);
+  if (is_round(of)) return round(of, place);
   const holes = of.holes === undefined ? [] : list(of.holes, `${place}.holes`);
   return [ring(of.outer, `${place}.outer`), ...holes.map((hole, k) => ring(hole, `${place}.holes[${k}]`))].join(" ");
 }
@@ -115,7 +191,7 @@ export function read_vehicle(value: Json, place = "vehicle"): FileVehicle | unde
     of.type === "car" || of.type === "differential"
       ? of.type
       : fail(`${place}.type`, '"car" or "differential"', of.type);
-  const keys = kind === "car" ? "type turning_radius axle heading gears" : "type axle heading";
+  const keys = kind === "car" ? "type turning_radius axle heading gears wheelbase" : "type axle heading";
   const unknown = Object.keys(of).find((key) => !keys.split(" ").includes(key));
   if (unknown !== undefined)
     throw new Error(
@@ -149,7 +225,10 @@ export function read_vehicle(value: Json, place = "vehicle"): FileVehicle | unde
       : of.gears === "forward"
         ? "forward"
         : fail(`${place}.gears`, '"both" or "forward"', of.gears);
-  return { kind, left, right, x, y, tau, gears };
+  if (of.wheelbase === undefined) return { kind, left, right, x, y, tau, gears };
+  const wheelbase = exact(of.wheelbase, `${place}.wheelbase`);
+  if (!is_radius(wheelbase)) fail(`${place}.wheelbase`, "a length above 0", of.wheelbase);
+  return { kind, left, right, x, y, tau, gears, wheelbase };
 }
 
 const RECORD = ["reading", "changed", "dropped"];

@@ -30,15 +30,29 @@ export function made<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
-// Rings as the data of a path.
-export function outline(xy: ArrayLike<number>, ring: ArrayLike<number>, first = 0, last = ring.length - 1): string {
+// Rings as the data of a path. `bend` has the radius of the arc from each vertex to the next, below 0 if it is clockwise.
+export function outline(
+  xy: ArrayLike<number>,
+  ring: ArrayLike<number>,
+  first = 0,
+  last = ring.length - 1,
+  bend: ArrayLike<number> = [],
+): string {
   let d = "";
   for (let r = first; r < last; ++r) {
-    for (let k = ring[r]!; k < ring[r + 1]!; ++k) d += `${k === ring[r] ? "M" : "L"}${xy[2 * k]} ${xy[2 * k + 1]}`;
+    const begin = ring[r]!;
+    const end = ring[r + 1]!;
+    const to = (k: number) => `${xy[2 * k]} ${xy[2 * k + 1]}`;
+    const next = (k: number, radius: number) =>
+      radius ? `A${Math.abs(radius)} ${Math.abs(radius)} 0 0 ${radius > 0 ? 1 : 0} ${to(k)}` : `L${to(k)}`;
+    for (let k = begin; k < end; ++k) d += k === begin ? `M${to(k)}` : next(k, bend[k - 1] ?? 0);
+    if (bend[end - 1]) d += next(begin, bend[end - 1]!);
     d += "Z";
   }
   return d;
 }
+const outline_of = (scene: Columns, of: string, first?: number, last?: number) =>
+  outline(doubles(scene, `${of}.xy`), integers(scene, `${of}.ring`), first, last, doubles(scene, `${of}.bend`));
 
 const GEARS = { 1: "ahead", 0: "in-place", "-1": "back" } as const;
 // A frame as an SVG transformation.
@@ -130,16 +144,15 @@ export class Workspace {
   // Show a scene: anew with its poses, else with the same view.
   show_scene(scene: Columns, names: string[], poses: Seen[] | undefined): void {
     const xy = doubles(scene, "obstacles.xy");
-    const ring = integers(scene, "obstacles.ring");
     const polygon = integers(scene, "obstacles.polygon");
     this.radius = doubles(scene, "radius")[0]!;
-    this.shape = outline(doubles(scene, "robot.xy"), integers(scene, "robot.ring"));
+    this.shape = outline_of(scene, "robot");
     this.layers.floor.replaceChildren();
     const kept = this.layers.obstacles.children; // it may have the focus
     while (kept.length + 1 > Math.max(polygon.length, 1)) kept[kept.length - 1]!.remove();
     for (let k = 0; k + 1 < polygon.length; ++k) {
       const path = kept[k] ?? made("path", this.layers.obstacles, { class: "obstacle" });
-      path.setAttribute("d", outline(xy, ring, polygon[k], polygon[k + 1]));
+      path.setAttribute("d", outline_of(scene, "obstacles", polygon[k], polygon[k + 1]));
       (path.firstChild ?? made("title", path)).textContent = names[k] ?? `obstacle ${k}`;
     }
     const bounds = doubles(scene, "bounds");
@@ -152,8 +165,7 @@ export class Workspace {
         height: bounds[3]! - bounds[1]!,
         class: "bounds",
       });
-    if (room.length)
-      made("path", this.layers.floor, { d: outline(room, integers(scene, "workspace.ring")), class: "room" });
+    if (room.length) made("path", this.layers.floor, { d: outline_of(scene, "workspace"), class: "room" });
     this.shaped(this.shape);
     this.layers.marks.replaceChildren();
     if (!poses) return this.look();

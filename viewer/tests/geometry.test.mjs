@@ -23,6 +23,12 @@ test("poses in words are places and angles of a drawing", () => {
   assert.equal(seen_of({ x: "0", y: "0", tau: "inf" }).theta, Math.PI);
 });
 
+test("outlines have arcs where a vertex has a radius, also back to the first", () => {
+  const half = outline([1, 0, -1, 0], [0, 2], 0, 1, [1, 0]);
+  assert.equal(half, "M1 0A1 1 0 0 1 -1 0Z");
+  assert.equal(outline([1, 0, -1, 0], [0, 2], 0, 1, [0, -1]), "M1 0L-1 0A1 1 0 0 0 1 0Z");
+});
+
 test("rings become closed outlines", () => {
   const path = outline([0, 0, 1, 0, 1, 2, 5, 5, 6, 5, 6, 7], [0, 3, 6]);
   assert.equal(path.match(/M/g).length, 2);

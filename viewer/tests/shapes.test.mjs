@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Shapes, digits, moved, number, pose_json, same, snapped } from "../src/shapes.ts";
+import { Shapes, digits, moved, moved_exactly, number, pose_json, same, snapped } from "../src/shapes.ts";
 
 const RING = '[[0, 0], [1.50, 0], ["1/3", 1e-7]]';
 const SOURCE = `{"name": "three", "robot": {"outer": ${RING}}, "obstacles": [{"name": "kite", "outer": ${RING}}], "check": {}}`;
@@ -63,4 +63,20 @@ test("two names of a polygon are the same if kind and number are", () => {
   assert.ok(same({ kind: "robot", k: 0 }, { kind: "robot", k: 0 }));
   assert.ok(!same({ kind: "robot", k: 0 }, { kind: "obstacle", k: 0 }));
   assert.ok(!same(undefined, { kind: "robot", k: 0 }));
+});
+
+test("a round shape moves as a whole, exactly: centers, ends and points between, not its radius or growth", () => {
+  const path = '{"path": [[0, 0], {"arc": {"to": [2, "1/3"], "center": [1, 0.5], "clockwise": true}}], "grown": 0.25}';
+  const circle = '{"name": "post", "circle": {"center": [1, "2/3"], "radius": 0.50}}';
+  const shapes = Shapes.of(`{"robot": ${RING}, "obstacles": [${path}, ${circle}]}`);
+  const [first, second] = [0, 1].map((k) => ({ kind: "obstacle", k }));
+  assert.deepEqual([shapes.is_round(first), shapes.rings(second)], [true, []]);
+  const text = shapes.moved_by(first, "0.25", "-1").moved_by(second, "-1", "0.5").text();
+  assert.match(
+    text,
+    /\[\[0\.25, -1\], \{"arc": \{"to": \[2\.25, "-2\/3"\], "center": \[1\.25, -0\.5\], "clockwise": true\}\}\]/,
+  );
+  assert.match(text, /"grown": 0\.25/);
+  assert.match(text, /\{"name": "post", "circle": \{"center": \[0, "7\/6"\], "radius": 0\.50\}\}/);
+  assert.deepEqual([moved_exactly("1/4", "-0.25"), moved_exactly("0.1", "0.2")], ["0", "0.3"]);
 });

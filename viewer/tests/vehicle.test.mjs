@@ -124,5 +124,7 @@ test("wheels are within the outline, those in front only of a car", () => {
   const wheels = wheels_of({ ...CAR, x: "0", y: "0" }, robot);
   assert.ok(wheels.half_track < 0.9 && wheels.wheelbase > 2 && wheels.wheelbase < 3.5);
   assert.equal(wheels_of({ ...CAR, kind: "differential" }, robot).wheelbase, 0);
+  const long = { ...CAR, wheelbase: "2.70" };
+  assert.deepEqual([wheels_of(long, robot).wheelbase, record_of(long).wheelbase], [2.7, "2.70"]);
   assert.ok(wheels_of({ ...CAR, y: "5" }, robot).half_track > 0); // an axle beside the robot
 });

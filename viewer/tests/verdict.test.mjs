@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
+  around_words,
   cell_words,
   contact_words,
   degrees,
@@ -126,4 +127,21 @@ test("cells and picked patches are told in words", () => {
     "left of it: φ from 0° to 114.6°",
     "trimmed by nothing",
   ]);
+});
+
+test("among round shapes contact names the obstacle, and neither path nor proof leads to `cfree plan`", () => {
+  const touching = (...touched) =>
+    pose_verdict({ ...numbers({ free: 1 }), touched: Int32Array.from(touched) }, NAMES).text;
+  assert.equal(touching(0), "Touching obstacle 0 (kite). Allowed.");
+  assert.equal(touching(0, -2), "Touching obstacle 0 (kite) and the workspace. Allowed.");
+  assert.equal(touching(0, 1, -2, -1), "Touching obstacle 0 (kite), obstacle 1 and 2 more. Allowed.");
+  assert.equal(
+    way_verdict({ verdict: "round" }, NAMES, "").text,
+    "Undecided here for the round shapes: `cfree plan` decides more.",
+  );
+  assert.equal(
+    around_words(numbers({ around: 0.25 }), "m"),
+    " · round shapes are drawn as polygons around them, within 0.25 m",
+  );
+  assert.equal(around_words({}, "m"), "");
 });

@@ -71,6 +71,7 @@ test("a vehicle is read exactly", () => {
   assert.deepEqual(vehicle('"type": "car", "turning_radius": 4.0, "axle": [-1.30, "1/9"]'), car);
   const other = '"type": "car", "turning_radius": [4, "9/2"], "heading": "-90deg", "gears": "forward"';
   assert.deepEqual(vehicle(other), { ...car, left: "4", right: "9/2", x: "0", y: "0", tau: "-1", gears: "forward" });
+  assert.equal(vehicle('"type": "car", "turning_radius": 4.0, "wheelbase": 2.70').wheelbase, "2.70");
   const drive = { kind: "differential", x: "0", y: "0", tau: "20/7", gears: "both" };
   assert.deepEqual(vehicle('"type": "differential", "heading": {"tau": "20/7"}'), drive);
   const heading = (angle) => vehicle(`"type": "differential", "heading": ${angle}`).tau;
@@ -88,4 +89,40 @@ test("what is no vehicle is refused with its place", () => {
   vehicle('"type": "differential", "axle": [1]', /^vehicle\.axle: expected two numbers/);
   vehicle('"type": "differential", "heading": 0.5', /^vehicle\.heading: give a multiple of 90deg/);
   vehicle('"type": "car", "turning_radius": 1, "gears": "back"', /^vehicle\.gears/);
+  vehicle('"type": "car", "turning_radius": 1, "wheelbase": 0', "vehicle.wheelbase: expected a length above 0, got 0");
+});
+
+test("round shapes are read with their numbers as written: circles, paths with arcs, grown polygons, round holes", () => {
+  const words_of = (shape) => scene(`"obstacles": [${shape}]`).words.split(" obstacle ")[1];
+  const scene = (fields) => read_scene(`{"robot": ${ROBOT}, ${fields}}`);
+  assert.equal(words_of('{"circle": {"center": [3, "1/3"], "radius": 0.30}}'), "circle 3 1/3 0.30");
+  assert.equal(
+    words_of(
+      '{"path": [[0, 0], [1, 0], {"arc": {"to": [1, 2], "center": [1, 1]}}, {"arc": {"to": [0, 0], "through": [-1, 1]}}]}',
+    ),
+    "path 0 0 1 0 arc 1 2 about 1 1 left arc 0 0 through -1 1",
+  );
+  assert.equal(
+    words_of('{"path": [[1, 0], {"arc": {"to": [-1, 0], "center": [0, 0], "clockwise": true, "conjugate": [0, 1]}}]}'),
+    "path 1 0 arc -1 0 about 0 0 right conjugate 0 1",
+  );
+  assert.equal(words_of(`{"outer": ${ROBOT}, "grown": "1/4"}`), "path 0 0 1 0 0.10 1e-3 grown 1/4");
+  const holes = `[${ROBOT}, {"circle": {"center": [0, 0], "radius": 1}}]`;
+  assert.equal(
+    words_of(`{"circle": {"center": [0, 0], "radius": 9}, "holes": ${holes}}`),
+    "circle 0 0 9 path 0 0 1 0 0.10 1e-3 circle 0 0 1",
+  );
+});
+
+test("curves other than lines and circular arcs are refused with the remedy, other faults with their place", () => {
+  const shape = (text, message) => refused(`"workspace": ${text}`, message);
+  shape('{"ellipse": {}}', /^workspace\.ellipse: the page takes lines and circular arcs; `cfree convert` with --outer/);
+  shape('{"path": [[0, 0], {"spline": []}]}', /^workspace\.path\[1\]\.spline: the page takes/);
+  shape(
+    '{"path": [[0, 0], {"arc": {"to": [1, 1]}}]}',
+    'workspace.path[1].arc: expected "through" or "center", got an object',
+  );
+  shape('{"path": [{"arc": {}}]}', "workspace.path[0]: expected a list, got an object");
+  shape('{"circle": {"center": [0, 0], "radius": 1}, "outer": []}', "workspace: give one of circle, path, outer");
+  shape('{"circle": {"centre": [0, 0]}}', 'workspace.circle: unknown key "centre"; give one of center, radius');
 });

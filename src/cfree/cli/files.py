@@ -34,7 +34,7 @@ def read_scene(source: Path, *, straight: bool = False) -> Scene:
     With `straight`, round shapes become polygons around them, within --tolerance.
     """
     scene = scene_of(*read_shapes(source), source)
-    return _straight(scene, source) if straight else scene
+    return straight_scene(scene, source) if straight else scene
 
 
 def read_shapes(source: Path) -> tuple[Shapes, Any]:
@@ -68,7 +68,7 @@ def read_source(source: Path, *, straight: bool = True) -> Scene | Boundary:
     return read_scene(source, straight=straight)
 
 
-def _straight(scene: Scene, source: Path) -> Scene:
+def straight_scene(scene: Scene, source: Path) -> Scene:
     """Return a scene of polygons around round shapes, within --tolerance; report them."""
     from cfree.formats.conversion import straightened
     from cfree.scene.reading import together

@@ -6,6 +6,8 @@ from importlib.util import find_spec
 from typing import Any
 
 from cfree.arguments import checked
+from cfree.collision.arcs import arcs_of
+from cfree.curves.curved import Curved
 from cfree.forbidden.boundary import Boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
@@ -13,6 +15,7 @@ from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
 
 MOST_VERTICES = 10_000  # vertices of a scene shown by itself in the page: more are too slow
+CURVE_VERTICES = 16  # vertices that the page draws in place of a curve, about
 
 
 @checked
@@ -58,13 +61,24 @@ def live(value: object, **options: Any) -> Any:
     if not isinstance(value, Scene | Boundary | FreeSpace | Path | Separated) or find_spec("anywidget") is None:
         return None
     scene = _scene(value)
-    if scene is None or scene.curved or sum(map(len, (*scene.robot, *scene.obstacles))) > MOST_VERTICES:
+    if scene is None or not _is_small(scene):
         return None
     return widget(value)._repr_mimebundle_(**options)
+
+
+def _is_small(scene: Scene) -> bool:
+    """True if the page shows a scene quickly."""
+    if scene.curved and arcs_of(scene) is None:
+        return False
+    shapes = (*scene.robot, *scene.obstacles)
+    sizes = (CURVE_VERTICES * sum(map(len, s.curves)) if isinstance(s, Curved) else len(s) for s in shapes)
+    return sum(sizes) <= MOST_VERTICES
 
 
 def _scene(value: Scene | Boundary | FreeSpace | Path | Separated) -> Scene | None:
     """Return the scene of a value; None for an answer from a file."""
     if isinstance(value, FreeSpace):
         return value.boundary.scene
+    if isinstance(value, Path | Separated) and value.curved and arcs_of(value.curved):
+        return value.curved
     return value if isinstance(value, Scene) else value.scene

@@ -6,8 +6,8 @@ import json
 from importlib.resources import files
 
 from cfree.arguments import checked
+from cfree.collision.arcs import arcs_of
 from cfree.collision.slide import Slide
-from cfree.curves.curved import REFUSED
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
@@ -17,25 +17,26 @@ from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene, with_reading
 
 GIVEN = '<script type="application/json" id="given">null</script>'
+OTHER_CURVES = "the page takes lines and circular arcs; give scene.outer(error), polygons around other curves"
 
 
-def text_of_polygons(scene: Scene) -> str:
+def text_for_page(scene: Scene) -> str:
     """Return the JSON text of a scene, for the page, which takes no record of reading.
 
     Raises
     ------
     UnsupportedError
-        If the scene has round shapes.
+        If the scene has ellipses, Bézier curves or splines.
     """
-    if scene.curved:
-        raise UnsupportedError(REFUSED)
+    if scene.curved and arcs_of(scene) is None:
+        raise UnsupportedError(OTHER_CURVES)
     return scene_text(with_reading(scene, ()))
 
 
 @checked
 def page(scene: Scene, answer: Path | Separated | None = None) -> str:
     """Return the page as HTML; see `view`."""
-    data: dict[str, object] = {"scene": text_of_polygons(scene)}
+    data: dict[str, object] = {"scene": text_for_page(scene)}
     if answer is not None:
         from cfree.verify.answers import other_scene
 

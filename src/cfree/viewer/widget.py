@@ -14,20 +14,20 @@ except ImportError as error:
     raise ImportError(message, name="anywidget") from error
 
 from cfree.collision.motion import motion_between
-from cfree.collision.motion_checker import MotionChecker
+from cfree.collision.motion_checker import is_free_motion
 from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_from_text
 from cfree.formats.scenes.scene_values import vehicle as vehicle_of
 from cfree.formats.scenes.scene_values import vehicle_record
 from cfree.paths.driving import is_drivable
-from cfree.paths.path import Path
+from cfree.paths.path import STILL, Path
 from cfree.planning.plan import plan
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, with_ends, with_vehicle
 from cfree.vehicles.vehicle import Car, DifferentialDrive
-from cfree.viewer.page_text import hosted_page, poses_text, text_of_polygons, words
+from cfree.viewer.page_text import hosted_page, poses_text, text_for_page, words
 from cfree.viewer.pictures import picture
 
 
@@ -78,7 +78,7 @@ class Widget(AnyWidget):
         ends = (scene.start, scene.goal) if answer is None else (answer.start, answer.goal)
         vehicle = answer.vehicle if isinstance(answer, Path) else scene.vehicle
         shown = {"start": ends[0], "goal": ends[1], "vehicle": vehicle, "poses": poses_text(answer)}
-        super().__init__(source=text_of_polygons(scene), **shown)
+        super().__init__(source=text_for_page(scene), **shown)
         question = None if answer is None else self._question
         self._answer: tuple[object, Path | Separated | Stuck | None] = question, answer
 
@@ -99,7 +99,7 @@ class Widget(AnyWidget):
     @scene.setter
     def scene(self, scene: Scene) -> None:
         with self.hold_sync():
-            self.source, self.robot, self.start, self.goal = text_of_polygons(scene), None, scene.start, scene.goal
+            self.source, self.robot, self.start, self.goal = text_for_page(scene), None, scene.start, scene.goal
             self.vehicle = scene.vehicle
 
     @property
@@ -131,9 +131,11 @@ class Widget(AnyWidget):
         if not poses or (poses[0], poses[-1]) != (self.start, self.goal):
             return None
         motions = [motion_between(a, b) for a, b in pairwise(poses)]
-        path = Path(poses[0], motions, scene.units, frame_of(scene), scene, vehicle=self.vehicle)
+        of_scene: dict[str, Any] = {"curved" if scene.curved else "scene": scene, "vehicle": self.vehicle}
+        path = Path(poses[0], motions, scene.units, frame_of(scene), **of_scene)
         is_driven = self.vehicle is None or is_drivable(path, self.vehicle)
-        return path if is_driven and path.is_free(MotionChecker(scene)) else None
+        moves = zip(path.poses, path.motions or (STILL,), strict=False)
+        return path if is_driven and all(is_free_motion(scene, pose, motion) for pose, motion in moves) else None
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
         """Add a picture for viewers without a kernel."""

@@ -8,7 +8,7 @@ import click
 
 from cfree.cli import drawing, options, reading
 from cfree.cli.faults import one_line_faults
-from cfree.cli.files import answer_for, bar, check_outputs, read_scene
+from cfree.cli.files import answer_for, bar, check_outputs, read_scene, straight_scene
 from cfree.cli.options import FILE, examples, file_option
 from cfree.cli.terminal import printable
 
@@ -28,16 +28,19 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
 
     Shows its configuration space beside it, exact like all answers. ANSWER is a path or a proof written by cfree plan
     -o for this scene; an answer for another scene is refused. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format
-    that cfree convert reads.
+    that cfree convert reads. Lines and circular arcs stay as they are; other curves become polygons around them.
     """
     with one_line_faults():
+        from cfree.collision.arcs import arcs_of
         from cfree.planning.goals import AllSeparated
         from cfree.viewer.browser import view as show
 
         for source in (scene, answer):
             if html and source:
                 check_outputs(source, {"page": html})
-        loaded = read_scene(scene, straight=answer is None)
+        loaded = read_scene(scene)
+        if answer is None and loaded.curved and arcs_of(loaded) is None:
+            loaded = straight_scene(loaded, scene)
         with bar("reading"):
             shown = answer_for(loaded, answer) if answer else None
         if isinstance(shown, AllSeparated):
