@@ -22,7 +22,8 @@ from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
-from cfree.planning.narrow_fits import way_through_fits
+from cfree.planning.contact_fits import Fits
+from cfree.planning.narrow_fits import way_out_of_contacts, way_through_fits
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.stuck import Stuck
@@ -76,6 +77,11 @@ class TruePlanner(PosePlanner):
         return TrueMotions(self.scene, self.shapes)
 
     @cached_property
+    def fits(self) -> Fits:
+        """The vertices, arcs and segments that hold the robot where it fits exactly."""
+        return Fits(self.true)
+
+    @cached_property
     def _known(self) -> _core.KnownScene:
         return _core.KnownScene(self.checker.features.made, self.checker._handle, self._slack)
 
@@ -87,6 +93,7 @@ class TruePlanner(PosePlanner):
     def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or a search give one."""
         way = [start] if start == goal else self.quick(start, goal, options)
+        way = way or way_out_of_contacts(self, start, goal, options)
         return self.finished(way, options) if way else None
 
     def mended(self, path: Path, options: Options) -> Path | Stuck | None:
