@@ -76,9 +76,12 @@ def way_through_fits(planner: TruePlanner, path: Path, options: Options, error: 
 def _links(planner: TruePlanner, path: Path, error: float) -> list[Way]:
     """Return ways that are free among the shapes, along a path: its longest free parts, and motions through fits."""
     links = [(position, travel, _lengthened(planner, part)) for position, travel, part in _free_parts(planner, path)]
+    lines = dict[tuple[object, ...], tuple[float, Way]]()
     for position, run in _narrow_runs(planner, path):
-        for portal in _portals(planner, run, NEAR * error):
-            links.append((position, math.hypot(*(float(v) for v in _apart(*portal))), [*portal]))
+        for key, portal in _portals(planner, run, NEAR * error).items():
+            first, way = lines.get(key, (position, portal))
+            lines[key] = first, _longer(planner, way, portal)
+    links += [(position, math.hypot(*map(float, _apart(*way))), way) for position, way in lines.values()]
     longest = sorted(links, key=lambda link: -link[1])[:MOST_PLACES]
     between = [way for _, _, way in sorted(longest, key=lambda link: link[0])]
     begins = ways_out(planner, path.start, path.goal)
@@ -134,29 +137,40 @@ def _narrow_runs(planner: TruePlanner, path: Path) -> Iterator[tuple[float, np.n
         yield middle, rows[max(0, begin - 1) : end + 1]
 
 
-def _portals(planner: TruePlanner, run: np.ndarray, near: float) -> list[tuple[Pose, Pose]]:
-    """Return the ends of motions through exact fits near some poses, proved free: one of each line, at most a few."""
-    portals = dict[tuple[object, ...], tuple[Pose, Pose]]()
+def _longer(planner: TruePlanner, one: Way, other: Way) -> Way:
+    """Return the motion from the begin of one to the end of another on its line, if it is free; else the longer one."""
+    whole = [one[0], other[-1]]
+    if one is other or planner.checker.joins(whole):
+        return whole
+    return max(one, other, key=lambda way: math.hypot(*map(float, _apart(*way))))
+
+
+def _portals(planner: TruePlanner, run: np.ndarray, near: float) -> dict[tuple[object, ...], Way]:
+    """Return motions through exact fits near some poses, proved free, by their lines."""
+    portals = dict[tuple[object, ...], Way]()
     rows = run[[len(run) * k // (2 * LOOKS) for k in range(1, 2 * LOOKS, 2)]]
     for x, y, theta in rows[np.argsort(abs(np.arange(LOOKS) - LOOKS // 2))].tolist():
-        place = Fraction(x), Fraction(y)
+        place = _about(x, near), _about(y, near)  # few digits: motions are decided faster
         for tau in planner.fits.angles(x, y, theta, near):
             portal = next(chain(_turns(planner, place, tau, run, near), _lines(planner, place, tau, run, near)), None)
             if portal is not None:
-                portals.setdefault((tau, *_rounded_line(portal)), portal)
+                portals.setdefault((tau, *_rounded_line(planner, *portal)), [*portal])
                 break
-    return [*portals.values()]
+    return portals
 
 
-def _rounded_line(portal: tuple[Pose, Pose]) -> tuple[float, ...]:
-    """Return numbers that two parts of a line have in common."""
-    begin, end = portal
+def _about(x: float, near: float) -> Fraction:
+    return simplest_between(Fraction(x - near / 8), Fraction(x + near / 8))
+
+
+def _rounded_line(planner: TruePlanner, begin: Pose, end: Pose) -> tuple[float, ...]:
+    """Return numbers that two parts of a line have in common, if they are run in the same direction."""
     x, y = _apart(begin, end)
     travel = math.hypot(x, y)
-    if not travel:
-        return 0.0, 0.0, 0.0
-    height = float(begin.x * y - begin.y * x) / travel
-    return round(abs(float(x)) / travel, 6), round(float(y) / travel, 6), round(abs(height) / max(1.0, travel), 6)
+    if begin.tau != end.tau or not travel:
+        return begin.theta, end.theta
+    height = float(begin.x * y - begin.y * x) / travel / planner.angle_scale
+    return round(float(x) / travel, 6), round(float(y) / travel, 6), round(height, 6)
 
 
 def _turns(
