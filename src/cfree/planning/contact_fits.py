@@ -117,7 +117,7 @@ class Fits:
         """Yield the centers of arcs of the robot that are near the center of an arc of the same radius."""
         rounds = [other for other in self._close(float(place[0]), float(place[1]), near) if isinstance(other, Round)]
         for own in self._robot:
-            if isinstance(own, Round):
+            if isinstance(own, Round) and own.radius:
                 a, b = _rotated(own.center, tau)
                 for other in rounds:
                     (u, v) = other.center

@@ -177,7 +177,7 @@ def _turns(
     planner: TruePlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
 ) -> Iterator[tuple[Pose, Pose]]:
     """Yield turns about a center of two arcs, from and to the orientations of a run."""
-    taus = [Pose(0, 0, float(row[2])).tau for row in (run[0], run[-1])]
+    taus = [Pose(0, 0, float(_about(row[2], 2.0**-10))).tau for row in (run[0], run[-1])]
     for center in planner.fits.centers(place, tau, near):
         begin, end = map(center.pose, taus)
         if begin != end and planner.checker.joins([begin, end]):
