@@ -35,6 +35,7 @@ BENCHES = (
     "tight",
     "vehicles",
     "curves",
+    "round",
     "fits",
     "scene",
     "start",

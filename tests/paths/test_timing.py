@@ -227,12 +227,13 @@ def test_limits_that_do_not_fit_are_refused(vehicle: Any, limits: dict[str, Any]
         timed(path, **limits)
 
 
-def test_a_missing_scene_and_a_round_robot_are_named() -> None:
+def test_a_missing_scene_is_named_and_a_round_robot_turns_with_its_radius() -> None:
     with pytest.raises(ValueError, match="no scene; give the one whose robot moves"):
         timed(Path((0, 0, 0), []), speed=1)
     disc = Scene(robot=Curved.circle((0, 0), 1))
     path = Path((0, 0, 0), [Translation((3, 0))])
-    with pytest.raises(ValueError, match="a round robot; give its scene of polygons"):
-        timed(path, disc, speed=1)
+    turn = Path((0, 0, 0), [Rotation((0, 0), "90deg")], curved=disc)
+    assert math.pi / 2 <= timed(turn, speed=1).duration <= 1.001 * math.pi / 2
+    assert timed(path, disc, speed=1).duration == 3
     assert timed(path, disc.outer(0.1), speed=1).duration == 3
     assert timed(replace(path, scene=disc.outer(0.1)), disc, speed=1).duration == 3

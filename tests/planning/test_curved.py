@@ -66,8 +66,16 @@ def test_a_disc_goes_along_a_gap_that_just_fits() -> None:
     assert cfree.verify.answer(scene, path).verified
 
 
+def test_a_gap_that_is_just_too_narrow_is_left_undecided() -> None:
+    walls = [[(-1, y), (1, y), (1, z), (-1, z)] for y, z in ((-9, "-0.9999999"), (1, 9))]
+    scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), walls, bounds=(-4, -4, 4, 4), start=(-3, 0, 0), goal=(3, 0, 0))
+    with pytest.raises(cfree.UndecidedError, match="touch, or all but") as caught:
+        cfree.plan(scene, tolerance=0.001)
+    assert 0 < caught.value.error <= 0.001
+
+
 @pytest.mark.slow
-def test_a_disc_in_its_own_hole() -> None:
+def test_a_disc_turns_in_its_own_hole_and_stays_there() -> None:
     hole = cfree.Curved([(-3, -3), (3, -3), (3, 3), (-3, 3)], [cfree.curves.Circle((0, 0), 1)])
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), [hole])
     assert cfree.is_free(scene, Pose(0, 0)) is True

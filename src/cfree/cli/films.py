@@ -71,7 +71,8 @@ def film_answer(
     from cfree.paths.path import Path as Motions
     from cfree.planning.goals import AllSeparated
     from cfree.planning.separation import Separated
-    from cfree.plot.looks import smooth
+    from cfree.plot.looks import own
+    from cfree.scene.smooth import smooth
 
     check_frames(fps, size)
     data = read_source(source, straight=False)
@@ -81,6 +82,7 @@ def film_answer(
         if answer.scene is None and not isinstance(answer, Motions):
             raise ValueError(f"{file}: no polygons for the round shapes of the scene; plan anew")
         data = answer.scene or smooth(scene)
+        answer = own(answer, scene) if isinstance(answer, Motions) else answer
     if isinstance(answer, Motions):
         moving = None if seconds is None else round(seconds - sum(REST), 9)
         if moving is not None and moving <= 0:

@@ -106,7 +106,7 @@ def boundary_facts(boundary: Boundary) -> dict[str, Any]:
 
 def answer_rows(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
     """Describe an answer in words and numbers."""
-    from cfree.paths.clearance import clearance, rounded_down
+    from cfree.paths.clearance import own_clearance, rounded_down
     from cfree.paths.path import Path
     from cfree.planning.separation import Separated
     from cfree.planning.stuck import Stuck
@@ -157,7 +157,7 @@ def answer_rows(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, 
         }
         if answer.vehicle.kind == "differential":
             rows["turned in place"] = f"{math.degrees(facts['in place']):.6g} degrees"
-    if least := clearance(answer, scene):
+    if least := own_clearance(answer, scene):
         name = placed(scene, least.obstacle[0])
         rows["least clearance"] = f"{least.found:.6g}{unit}, in motion {least.motion}, to {name}"
         rows["proved lower bound"] = f"{rounded_down(max(least.least, float(answer.clearance)), 6)}{unit}"
@@ -192,7 +192,7 @@ def answer_text(answer: Path | Proof | AllSeparated, scene: Scene) -> str:
 
 def answer_facts(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, Any]:
     """Describe an answer by numbers, for machines: lengths in the scene's unit, angles in radians."""
-    from cfree.paths.clearance import clearance
+    from cfree.paths.clearance import own_clearance
     from cfree.paths.path import Path
     from cfree.planning.goals import AllSeparated
     from cfree.planning.stuck import Stuck
@@ -224,7 +224,7 @@ def answer_facts(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str,
         numbers["driving"] = {"vehicle": answer.vehicle.kind, **driving_facts(answer)}
     if answer.clearance:
         numbers["asked clearance"] = float(answer.clearance)
-    if least := clearance(answer, scene):
+    if least := own_clearance(answer, scene):
         proved = max(least.least, float(answer.clearance))
         place = {"motion": least.motion, "obstacle": least.obstacle[0]}
         numbers["clearance"] = {"found": least.found, "proved": proved, **place}
@@ -275,7 +275,7 @@ def drive_rows(drive: Timed, scene: Scene) -> dict[str, str]:
 
 def drive_facts(drive: Timed, scene: Scene) -> dict[str, Any]:
     """Describe the times of a path by numbers, for machines: seconds, lengths and radians."""
-    from cfree.paths.clearance import clearance
+    from cfree.paths.clearance import own_clearance
 
     facts: dict[str, Any] = {
         "duration": drive.duration,
@@ -283,7 +283,7 @@ def drive_facts(drive: Timed, scene: Scene) -> dict[str, Any]:
         "stops": [asdict(stop) for stop in drive.stops],
     }
     if drive.through:
-        least = clearance(drive.path, scene)
+        least = own_clearance(drive.path, scene)
         facts |= {
             "through": [asdict(ramp) for ramp in drive.through],
             "off": [max(r.sideways for r in drive.through), max(r.heading for r in drive.through)],

@@ -151,6 +151,7 @@ def film_path(
     from cfree.film.encode import check_film_path, write
     from cfree.film.montage import check_frames
     from cfree.film.path_film import REST, path_frames
+    from cfree.plot.looks import of_polygons, own
     from cfree.plot.path import Track
 
     suffix = check_film_path(file)
@@ -160,7 +161,8 @@ def film_path(
         seconds = GIF_SECONDS - sum(REST)
     if seconds is not None and not 0 < seconds <= MOST:
         raise ValueError(f"{seconds} seconds; give more than 0, and {MOST:g} at most")
-    write(path_frames(Track.of(path, scene), boundary, seconds, fps, size, progress), file, fps)
+    track = Track.of(own(path, scene), of_polygons(path, scene))
+    write(path_frames(track, boundary, seconds, fps, size, progress), file, fps)
 
 
 @checked

@@ -10,15 +10,20 @@ from fractions import Fraction
 import numpy as np
 
 from cfree.arguments import checked
+from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.collision.distance import EdgeDistances, Floats, Ints
+from cfree.collision.motion import Motion
 from cfree.collision.motion_checker import is_free_motion
-from cfree.collision.pose_checker import is_free
+from cfree.exact.pose import Pose
 from cfree.paths.path import STILL, Path
 from cfree.paths.travel import Travel
 from cfree.scene.scene import Scene
+from cfree.scene.smooth import smooth
 from cfree.value import kept
 
 MOST_SAMPLES = 20_000  # samples that separate narrow places of a path
+SAMPLES = 65  # poses of a motion at which distances among round shapes are looked up, again and again
+SHORTEST = 2.0**-24  # share of a motion
 
 
 @dataclass(frozen=True)
@@ -66,7 +71,8 @@ def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clear
     ----------
     path : Path
     scene : Scene
-        The path must be free in it. Bounds are no bodies and have no distance.
+        The path must be free in it. Bounds are no bodies and have no distance. Distances of segments and circular arcs
+        are their own; their edges are then named as those of polygons that look round.
     tolerance : float, optional
         Greatest difference of `least` from the true distance, if that does not take too many steps. By default a
         thousandth of the robot's radius, or a quarter of the distance found if that is less.
@@ -96,33 +102,71 @@ def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clear
     >>> found.found, found.least > 0.249, found.obstacle
     (0.25, True, (0, 0))
     """
-    return least_clearance(path, distances_beside(path, scene), tolerance)
+    if tolerance is not None and not tolerance > 0:
+        raise ValueError(f"tolerance {tolerance}: give a positive one")
+    arcs = arcs_of(scene) if scene.curved else None
+    if arcs is None:
+        return least_clearance(path, distances_beside(path, scene), tolerance)
+    return _among_arcs(path, scene, arcs, tolerance)
+
+
+def own_clearance(path: Path, scene: Scene) -> Clearance | None:
+    """Return the least clearance of a path: among its own round shapes if it is free among these, else in a scene."""
+    return clearance(path, path.curved if path.scene is None and path.curved else scene)
+
+
+def _among_arcs(path: Path, scene: Scene, arcs: ArcScene, tolerance: float | None) -> Clearance | None:
+    """Return the least clearance of a path among segments and arcs; see `clearance`."""
+    distances = distances_beside(path, scene)
+    if not distances.names:
+        return None
+    legs = [*zip(path.poses, path.motions or (STILL,), strict=False)]
+
+    def bounds(width: float) -> list[tuple[float, float]]:
+        return [arcs.clearance(pose, motion, width) for pose, motion in legs]
+
+    each = bounds(1e-3 * distances.radius if tolerance is None else float(tolerance))
+    least, most = min(low for low, _ in each), min(high for _, high in each)
+    if tolerance is None and least == 0 < most:
+        each = bounds(most / 4)
+        least, most = min(low for low, _ in each), min(high for _, high in each)
+    found, share, motion = min((*_closest(arcs, *legs[k]), k) for k, (low, _) in enumerate(each) if low <= most)
+    pose = legs[motion][1].sample(legs[motion][0], [share])
+    _, (edge,), (other,) = distances.nearest(distances.at(pose))
+    return Clearance(min(least, found), found, motion, share, distances.robot_names[edge], distances.names[other])
+
+
+def _closest(arcs: ArcScene, pose: Pose, motion: Motion) -> tuple[float, float]:
+    """Return the least distance at poses of a motion, sampled finer and finer about the closest, and its share."""
+    low, high, best = 0.0, 1.0, (math.inf, 0.0)
+    while high - low > SHORTEST:
+        shares = np.linspace(low, high, SAMPLES)
+        poses = motion.sample(pose, shares)
+        below = (arcs.distance(poses[k])[0] for k in range(SAMPLES))
+        best = min(best, min(zip(below, shares.tolist(), strict=True)))
+        width = (high - low) / (SAMPLES - 1)
+        low, high = max(0.0, best[1] - width), min(1.0, best[1] + width)
+    return best
 
 
 def distances_beside(path: Path, scene: Scene) -> EdgeDistances:
-    """Return the edges from which a path keeps its distance.
+    """Return the edges from which a path keeps its distance; round shapes are polygons that look round.
 
     Raises
     ------
     ValueError
         If the path is not free.
     """
-    distances = kept(scene, EdgeDistances)
-    if path.motions:
-        free = all(is_free_motion(scene, *leg) for leg in zip(path.poses, path.motions, strict=False))
-    else:
-        free = is_free(scene, path.start)
-    if not free:
+    true = path.curved if path.scene is None and path.curved else scene
+    if not all(is_free_motion(true, *leg) for leg in zip(path.poses, path.motions or (STILL,), strict=False)):
         raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
-    return distances
+    return kept(smooth(true), EdgeDistances)
 
 
 def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | None) -> Clearance | None:
     """Return the least clearance of a free path; see `clearance`."""
     if not distances.names:
         return None
-    if tolerance is not None and not tolerance > 0:
-        raise ValueError(f"tolerance {tolerance}: give a positive one")
     motions, poses = (path.motions, path.poses) if path.motions else ((STILL,), 2 * path.poses)
     core, robot = distances._handle, distances.robot
     result = core.least(poses, motions, robot, 1e-3 * distances.radius if tolerance is None else float(tolerance))

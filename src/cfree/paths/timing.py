@@ -15,8 +15,8 @@ from cfree.exact.pose import Poses
 from cfree.paths.path import Path
 from cfree.paths.ramps import Ramp, ramp_length
 from cfree.paths.stops import Joint, Stop, Stops, joints, usual_wheelbase
-from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
+from cfree.scene.smooth import smooth
 from cfree.vehicles.vehicle import Vehicle
 from cfree.words import counted
 
@@ -315,10 +315,10 @@ def timed_by(path: Path, scene: Scene | None, limits: Limits) -> Timed:
     """Return a path in time, by limits as one value."""
     if scene is None or (scene.curved and path.scene is not None):
         scene = path.scene  # it has polygons around round shapes
+    scene = scene or path.curved
     if scene is None:
         raise ValueError("no scene; give the one whose robot moves")
-    if not all(isinstance(part, Polygon) for part in scene.robot):
-        raise ValueError("the scene has a round robot; give its scene of polygons, from Scene.outer")
+    scene = smooth(scene)  # no point of a round robot is farther from the reference point
     if fault := limits.fault(path.vehicle):
         names, why = fault
         raise ValueError(f"{', '.join(names)}: {why}")

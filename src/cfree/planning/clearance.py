@@ -2,7 +2,8 @@
 
 The robot keeps the distance at the poses that are free for its Minkowski sum with a disc. Polygons around a disc and
 inside it get more and more sides. A path for the robot's sum with the outer polygon keeps the distance; if there is no
-path for the sum with the inner one, no path keeps it. Bounds apply to the reference point, unchanged.
+path for the sum with the inner one, no path keeps it. Where these leave it open, paths are searched for the sum with
+the disc itself, and exact fits tried. Bounds apply to the reference point, unchanged.
 docs/theory/separations.md, "With a clearance", has the proof.
 """
 
@@ -10,10 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 
+from cfree.collision.approximations import Approximations
 from cfree.collision.nearer import require_distance
 from cfree.collision.nearest_free import refuse_forbidden
 from cfree.collision.pose_checker import PoseChecker, is_free_at
@@ -28,6 +31,7 @@ from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
+from cfree.planning.true_shapes import TrueShapes
 from cfree.planning.unreachable import Unreachable
 from cfree.polygons.disc import around_disc, inside_disc
 from cfree.polygons.minkowski import convex_sum
@@ -140,6 +144,8 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
         if isinstance(held, Stuck | Unreachable):
             more = f"if it keeps a little more than {float(clearance):g}"
             raise UndecidedError(f"{held.said()}, {more}; give another clearance")
+    if paths := _among_discs(query, goal):
+        return cheapest(paths, larger, options.preferences)
     smaller = _grown(scene, inside, scene.bounds)
     inner = PosePlanner(smaller)
     # the scene's bounds, not the wider ones of a proof
@@ -152,6 +158,28 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
         lo=lo,
         hi=hi,
     )
+
+
+def _among_discs(query: _Query, goal: Goal) -> list[Path]:
+    """Return paths of the robot grown by the disc itself, to a pose or to poses at a place."""
+    scene, start, options = query.scene, query.start, query.options
+    true = TrueShapes(scene, Approximations(scene), options.clearance)
+    planner, paths = true.planner(), list[Path]()
+    if planner is None:
+        return []
+    ends = _ends(planner.scene, start, goal)
+    for end in ends:
+        with suppress(UndecidedError):
+            if not true.arcs.is_free(end):
+                continue
+            answer: Path | Proof | None = planner.first_path(start, end, options)
+            if answer is None:
+                guide = PosePlanner(planner.scene).path_or_proof(
+                    start, end, replace(options, improve=0.0, vehicle=None)
+                )
+                answer = planner.mended(guide, options) if isinstance(guide, Path) else None
+            paths += [answer] if isinstance(answer, Path) else []
+    return paths
 
 
 def _ends(scene: Scene, start: Pose, goal: Goal) -> list[Pose]:

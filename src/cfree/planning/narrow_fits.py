@@ -9,15 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
-from itertools import chain, combinations, islice, pairwise, product
+from itertools import chain, islice, pairwise, product
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.collision.arcs import Curve, curves_of
-from cfree.exact.half_angle import half_angle_rotation, normalize_angles
 from cfree.exact.number import ExactPoint, simplest_between
 from cfree.exact.pose import Pose, pose_at
 
@@ -25,45 +22,18 @@ if TYPE_CHECKING:
     from cfree.paths.path import Path
     from cfree.planning.options import Options
     from cfree.planning.true_shapes import TruePlanner
-    from cfree.scene.scene import AnyShape, Scene
 
 SAMPLES = 600  # poses at which a path is looked at
 MOST_PLACES = 8  # free parts of a path, and motions through fits, that are tried
 MOST_TRIES = 40  # searches that join them
-MOST_CONTACTS = 40  # contacts near one place that are paired
+MOST_WAYS = 8  # motions out of a contact
+MOST_PAIRS = 12  # searches between motions out of contacts
+LOOKS = 5  # poses of a forbidden part of a path near which fits are looked for
 NEAR = 16  # errors of polygons within which a contact counts as near
-ASKEW = 0.05  # radians by which an edge may be askew that is made parallel
-FARTHER = (Fraction(5, 4), Fraction(2), Fraction(1), Fraction(1, 2))  # lengths of a motion through a place, relative
+TOUCHING = 1e-9  # largest distance of a contact, relative to the robot
+FARTHER = (1.25, 2.0, 1.0, 0.5)  # lengths of a motion through a place, relative
 
 Way = list[Pose]
-
-
-@dataclass(frozen=True)
-class Round:
-    """A vertex or arc: its radius grown by the shape's, negative if the shape is outside of it."""
-
-    center: ExactPoint
-    radius: Fraction
-
-
-@dataclass(frozen=True)
-class Side:
-    """A segment from a point along a vector, of rational length; the shape is grown by a radius."""
-
-    point: ExactPoint
-    vector: ExactPoint
-    length: Fraction
-    radius: Fraction
-
-
-@dataclass(frozen=True)
-class Held:
-    """A contact: the reference point is on a line n . p = h, n a unit vector; or at a distance from a center."""
-
-    n: ExactPoint | None = None
-    h: Fraction = Fraction(0)
-    center: ExactPoint = (Fraction(0), Fraction(0))
-    radius: Fraction = Fraction(0)
 
 
 def way_through_fits(planner: TruePlanner, path: Path, options: Options, error: float) -> Way | None:
@@ -105,31 +75,30 @@ def way_through_fits(planner: TruePlanner, path: Path, options: Options, error: 
 
 def _links(planner: TruePlanner, path: Path, error: float) -> list[Way]:
     """Return ways that are free among the shapes, along a path: its longest free parts, and motions through fits."""
-    robot, obstacles = features_of(planner.true)
     links = [(position, travel, _lengthened(planner, part)) for position, travel, part in _free_parts(planner, path)]
+    lines = dict[tuple[object, ...], tuple[float, Way]]()
     for position, run in _narrow_runs(planner, path):
-        portal = next(_portals(planner, robot, obstacles, run, NEAR * error), None)
-        if portal is not None:
-            links.append((position, math.hypot(*(float(v) for v in _apart(*portal))), [*portal]))
+        for key, portal in _portals(planner, run, NEAR * error).items():
+            first, way = lines.get(key, (position, portal))
+            lines[key] = first, _longer(planner, way, portal)
+    links += [(position, math.hypot(*map(float, _apart(*way))), way) for position, way in lines.values()]
     longest = sorted(links, key=lambda link: -link[1])[:MOST_PLACES]
-    return [way for _, _, way in sorted(longest, key=lambda link: link[0])]
+    between = [way for _, _, way in sorted(longest, key=lambda link: link[0])]
+    begins = ways_out(planner, path.start, path.goal)
+    ends = ([*reversed(way)] for way in ways_out(planner, path.goal, path.start))
+    return [*begins, *between, *ends]
 
 
 def _lengthened(planner: TruePlanner, way: Way) -> Way:
     """Return a way that goes on straight at both ends, if its first and last motions are straight."""
+    lengths = [2 * planner.angle_scale * share for share in FARTHER]
     for _ in range(2):
         way = [*reversed(way)]
         one, other = way[-2:]
-        travel = math.hypot(*map(float, _apart(one, other)))
-        if one.tau != other.tau or not travel:
-            continue
-        x, y = _apart(one, other)
-        for share in FARTHER:
-            by = share * Fraction(2 * planner.angle_scale / travel).limit_denominator(1 << 12)
-            beyond = pose_at(other.x + by * x, other.y + by * y, other.tau)
-            if planner.checker.joins([other, beyond]):
-                way = [*way[:-1], beyond]
-                break
+        along = _apart(one, other)
+        if one.tau == other.tau and any(along):
+            beyond = _beyond(planner, other, along, lengths)
+            way = way if beyond == other else [*way[:-1], beyond]
     return way
 
 
@@ -168,196 +137,122 @@ def _narrow_runs(planner: TruePlanner, path: Path) -> Iterator[tuple[float, np.n
         yield middle, rows[max(0, begin - 1) : end + 1]
 
 
-def features_of(scene: Scene) -> tuple[list[Round | Side], list[Round | Side]]:
-    """Return the vertices, arcs and segments with rational numbers: of the robot, and of obstacles and workspace."""
-    others: list[AnyShape] = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
-    robot, rest = ([*chain.from_iterable(map(_features, shapes))] for shapes in (scene.robot, others))
-    return robot, rest
+def _longer(planner: TruePlanner, one: Way, other: Way) -> Way:
+    """Return the motion from the begin of one to the end of another on its line, if it is free; else the longer one."""
+    whole = [one[0], other[-1]]
+    if one is other or planner.checker.joins(whole):
+        return whole
+    return max(one, other, key=lambda way: math.hypot(*map(float, _apart(*way))))
 
 
-def _features(shape: AnyShape) -> Iterator[Round | Side]:
-    curves = curves_of(shape)
-    assert curves is not None
-    grown, rings = curves
-    for curve in chain.from_iterable(rings):
-        yield from _feature(curve, grown)
+def _portals(planner: TruePlanner, run: np.ndarray, near: float) -> dict[tuple[object, ...], Way]:
+    """Return motions through exact fits near some poses, proved free, by their lines."""
+    portals = dict[tuple[object, ...], Way]()
+    rows = run[[len(run) * k // (2 * LOOKS) for k in range(1, 2 * LOOKS, 2)]]
+    for x, y, theta in rows[np.argsort(abs(np.arange(LOOKS) - LOOKS // 2))].tolist():
+        place = _about(x, near), _about(y, near)  # few digits: motions are decided faster
+        for tau in planner.fits.angles(x, y, theta, near):
+            portal = next(chain(_turns(planner, place, tau, run, near), _lines(planner, place, tau, run, near)), None)
+            if portal is not None:
+                portals.setdefault((tau, *_rounded_line(planner, *portal)), [*portal])
+                break
+    return portals
 
 
-def _feature(curve: Curve, grown: Fraction) -> Iterator[Round | Side]:
-    (px, py), (qx, qy), (cx, cy), turn = curve
-    yield Round((px, py), grown)
-    if not turn:
-        if (length := _root((qx - px) ** 2 + (qy - py) ** 2)) is not None:
-            yield Side((px, py), (qx - px, qy - py), length, grown)
-    elif (radius := _root((px - cx) ** 2 + (py - cy) ** 2)) is not None:
-        yield Round((cx, cy), radius + grown)
-        if radius > grown:
-            yield Round((cx, cy), grown - radius)
+def _about(x: float, near: float) -> Fraction:
+    return simplest_between(Fraction(x - near / 8), Fraction(x + near / 8))
 
 
-def _root(square: Fraction) -> Fraction | None:
-    """Square root, if it is rational."""
-    n, d = math.isqrt(square.numerator), math.isqrt(square.denominator)
-    return Fraction(n, d) if n * n == square.numerator and d * d == square.denominator else None
+def _rounded_line(planner: TruePlanner, begin: Pose, end: Pose) -> tuple[float, ...]:
+    """Return numbers that two parts of a line have in common, if they are run in the same direction."""
+    x, y = _apart(begin, end)
+    travel = math.hypot(x, y)
+    if begin.tau != end.tau or not travel:
+        return begin.theta, end.theta
+    height = float(begin.x * y - begin.y * x) / travel / planner.angle_scale
+    return round(float(x) / travel, 6), round(float(y) / travel, 6), round(height, 6)
 
 
-def _portals(
-    planner: TruePlanner, robot: Sequence[Round | Side], others: Sequence[Round | Side], run: np.ndarray, near: float
+def _turns(
+    planner: TruePlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
 ) -> Iterator[tuple[Pose, Pose]]:
-    """Yield the ends of motions through an exact fit near some poses, proved free."""
-    x, y, theta = run[len(run) // 2].tolist()
+    """Yield turns about a center of two arcs, from and to the orientations of a run."""
+    taus = [Pose(0, 0, float(_about(row[2], 2.0**-10))).tau for row in (run[0], run[-1])]
+    for center in planner.fits.centers(place, tau, near):
+        begin, end = map(center.pose, taus)
+        if begin != end and planner.checker.joins([begin, end]):
+            yield begin, end
+
+
+def _lines(
+    planner: TruePlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
+) -> Iterator[tuple[Pose, Pose]]:
+    """Yield translations along a line between contacts, about as long as the run, or longer."""
     steps = run[-1, :2] - run[0, :2]
-    for tau in _angles(robot, others, (x, y), theta, near):
-        q, p, w = half_angle_rotation(tau)
-        c, s = Fraction(q, w), Fraction(p, w)
-        held = islice(_contacts(robot, others, (x, y), (c, s), near), MOST_CONTACTS)
-        for place, along in _fits([*held], (Fraction(x), Fraction(y))):
-            if along is None:
-                ends = (_turned(place, float(row[2])) for row in (run[0], run[-1]))
-                motions = [(next(ends), next(ends))]
-            else:
-                if float(along[0]) * steps[0] + float(along[1]) * steps[1] < 0:
-                    along = -along[0], -along[1]
-                motions = [*_lines(place, along, tau, run)]
-            for begin, end in motions:
-                if begin != end and planner.checker.joins([begin, end]):
-                    yield begin, end
-
-
-def _turned(place: ExactPoint, theta: float) -> Pose:
-    return Pose(*place, theta)
-
-
-def _lines(place: ExactPoint, along: ExactPoint, tau: Fraction | None, run: np.ndarray) -> Iterator[tuple[Pose, Pose]]:
-    """Yield translations along a line through a place, about as long as the run, or longer."""
-    (x, y), (u, v) = place, along
-    lengths = [abs((row[0] - float(x)) * float(u) + (row[1] - float(y)) * float(v)) for row in (run[0], run[-1])]
-    whole = max(sum(lengths), 1e-6)
-    back, ahead = (
-        Fraction(max(length, whole / 4)).limit_denominator(1 << 12) + Fraction(1, 1 << 12) for length in lengths
-    )
-    for m, n in product(FARTHER, repeat=2):
-        yield pose_at(x - m * back * u, y - m * back * v, tau), pose_at(x + n * ahead * u, y + n * ahead * v, tau)
-
-
-def _angles(
-    robot: Sequence[Round | Side], others: Sequence[Round | Side], place: tuple[float, float], theta: float, near: float
-) -> Iterator[Fraction | None]:
-    """Yield half-angle tangents near an orientation: with near sides parallel, and the simplest."""
-    seen: set[Fraction | None] = set()
-    for tau in chain(_parallel(robot, others, place, theta, near), _simple(theta)):
-        if tau not in seen:
-            seen.add(tau)
-            yield tau
-
-
-def _simple(theta: float) -> Iterator[Fraction | None]:
-    turn = float(normalize_angles(theta))
-    if abs(abs(turn) - math.pi) < ASKEW:
-        yield None
-    if abs(turn) < 3:
-        tau = math.tan(turn / 2)
-        for width in (ASKEW / 2, 1e-3, 1e-6):
-            yield simplest_between(Fraction(tau - width), Fraction(tau + width))
-
-
-def _parallel(
-    robot: Sequence[Round | Side], others: Sequence[Round | Side], place: tuple[float, float], theta: float, near: float
-) -> Iterator[Fraction | None]:
-    c, s = math.cos(theta), math.sin(theta)
-    for side, other in product(robot, others):
-        if not (isinstance(side, Side) and isinstance(other, Side)):
+    for line in planner.fits.lines(place, tau, near):
+        middle, (u, v) = pose_at(*line.place, tau), line.along
+        if not planner.checker.joins([middle]):
             continue
-        (a, b), (u, v) = side.vector, other.vector
-        for way in (1, -1):
-            # the quotient of the vectors as complex numbers is that of their lengths times exp(i theta)
-            re, im = way * (u * a + v * b), way * (v * a - u * b)
-            off = math.atan2(float(im), float(re)) - theta
-            if abs(float(normalize_angles(off))) > ASKEW or not _is_beside(side, other, place, (c, s), near):
-                continue
-            length = side.length * other.length
-            yield None if re == -length else im / (length + re)
+        if float(u) * steps[0] + float(v) * steps[1] < 0:
+            u, v = -u, -v
+        along = math.hypot(u, v)
+        lengths = [
+            abs((x - float(middle.x)) * float(u) + (y - float(middle.y)) * float(v)) / along
+            for x, y in (run[0, :2], run[-1, :2])
+        ]
+        least = max(sum(lengths) / 4, 1e-9 * planner.angle_scale)
+        back, ahead = (
+            _beyond(planner, middle, (sign * u, sign * v), [share * max(length, least) for share in FARTHER])
+            for sign, length in zip((-1, 1), lengths, strict=True)
+        )
+        if back != ahead:
+            yield back, ahead
 
 
-def _is_beside(side: Side, other: Side, place: tuple[float, float], turn: tuple[float, float], near: float) -> bool:
-    """True if a robot's side, about parallel to another, is near its line."""
-    (x, y), (c, s) = place, turn
-    a, b = (float(side.point[k] + side.vector[k] / 2) for k in (0, 1))
-    px, py = x + c * a - s * b - float(other.point[0]), y + s * a + c * b - float(other.point[1])
-    height = (float(other.vector[0]) * py - float(other.vector[1]) * px) / float(other.length)
-    return abs(abs(height) - float(side.radius + other.radius)) <= near + ASKEW * float(side.length)
+def _beyond(planner: TruePlanner, pose: Pose, along: ExactPoint, lengths: Sequence[float]) -> Pose:
+    """Return the pose at the first length along a vector to which a translation is free; the pose if none is."""
+    whole = math.hypot(*along)
+    for length in lengths:
+        share = simplest_between(Fraction(length / whole * 0.99), Fraction(length / whole * 1.01))
+        other = pose_at(pose.x + share * along[0], pose.y + share * along[1], pose.tau)
+        if planner.checker.joins([pose, other]):
+            return other
+    return pose
 
 
-def _contacts(
-    robot: Sequence[Round | Side],
-    others: Sequence[Round | Side],
-    place: tuple[float, float],
-    turn: ExactPoint,
-    near: float,
-) -> Iterator[Held]:
-    """Yield the contacts near a place, at an exact orientation."""
-    (x, y), (c, s) = place, turn
-    for own, other in product(robot, others):
-        (a, b) = own.center if isinstance(own, Round) else own.point
-        arm = c * a - s * b, s * a + c * b
-        (u, v) = other.center if isinstance(other, Round) else other.point
-        offset = x + float(arm[0] - u), y + float(arm[1] - v)  # from the other's point to the robot's
-        total = own.radius + other.radius
-        if isinstance(own, Round) and isinstance(other, Round):
-            if own.radius < 0 and other.radius < 0:
-                continue
-            if abs(math.hypot(*offset) - abs(float(total))) <= near and (total >= 0) == (
-                min(own.radius, other.radius) >= 0
-            ):
-                yield Held(center=(u - arm[0], v - arm[1]), radius=abs(total))
-            elif total == 0 and own.radius and math.hypot(*offset) <= near:
-                yield Held(center=(u - arm[0], v - arm[1]))
-        elif isinstance(own, Side) != isinstance(other, Side):
-            side, circle = (own, other) if isinstance(own, Side) else (other, own)
-            assert isinstance(side, Side) and isinstance(circle, Round)
-            if circle.radius < 0:
-                continue
-            e = (
-                side.vector
-                if side is other
-                else (c * side.vector[0] - s * side.vector[1], s * side.vector[0] + c * side.vector[1])
-            )
-            n = -e[1] / side.length, e[0] / side.length
-            height = float(n[0]) * offset[0] + float(n[1]) * offset[1]
-            if height < 0:
-                n = -n[0], -n[1]
-            foot = (
-                (float(e[0]) * offset[0] + float(e[1]) * offset[1]) / float(side.length) * (1 if side is other else -1)
-            )
-            if abs(abs(height) - float(total)) <= near and -near <= foot <= float(side.length) + near:
-                yield Held(n, n[0] * (u - arm[0]) + n[1] * (v - arm[1]) + total)
+def ways_out(planner: TruePlanner, pose: Pose, other: Pose) -> list[Way]:
+    """Return free motions from a pose in contact, along its contacts or about a center; [] if it touches nothing.
+
+    Parameters
+    ----------
+    planner : TruePlanner
+    pose, other : Pose
+        The other end of the path: turns may go to its orientation.
+    """
+    near = TOUCHING * planner.angle_scale
+    if planner.arcs.distance(pose, near)[0] > near:
+        return []
+    place, ways = (pose.x, pose.y), list[Way]()
+    lengths = [planner.angle_scale * 2.0**k for k in range(3, -5, -1)]
+    directions = dict.fromkeys(planner.fits.tangents(pose, near))
+    for x, y in islice(dict.fromkeys(d for u, v in directions for d in ((u, v), (-u, -v))), MOST_WAYS):
+        beyond = _beyond(planner, pose, (x, y), lengths)
+        ways += [[pose, beyond]] if beyond != pose else []
+    for center in islice(planner.fits.centers(place, pose.tau, near), MOST_PLACES):
+        taus = [other.tau, *(Pose(0, 0, pose.theta + k * math.pi / 4).tau for k in (2, -2, 1, -1, 4))]
+        turned = (center.pose(tau) for tau in taus if tau != pose.tau)
+        ways += [[pose, end] for end in turned if planner.checker.joins([pose, end])]
+    return sorted(ways, key=lambda way: -math.hypot(*map(float, _apart(*way))))[:MOST_WAYS]
 
 
-def _fits(contacts: Sequence[Held], near: ExactPoint) -> Iterator[tuple[ExactPoint, ExactPoint | None]]:
-    """Yield places where two contacts oppose each other, with the direction of the motion; None for a turn."""
-    for held in contacts:
-        if held.n is None and held.radius == 0:
-            yield held.center, None
-    for one, other in combinations(contacts, 2):
-        if one.n is not None and other.n is not None:
-            if one.n == (-other.n[0], -other.n[1]) and one.h == -other.h:
-                yield _foot(near, one), (-one.n[1], one.n[0])
-        elif one.n is None and other.n is None:
-            (a, b), (u, v) = one.center, other.center
-            apart, total = (u - a, v - b), one.radius + other.radius
-            if total and apart[0] ** 2 + apart[1] ** 2 == total**2:
-                share = one.radius / total
-                yield (a + share * apart[0], b + share * apart[1]), (-apart[1] / total, apart[0] / total)
-        else:
-            line, circle = (one, other) if one.n is not None else (other, one)
-            assert line.n is not None
-            height = line.n[0] * circle.center[0] + line.n[1] * circle.center[1] - line.h
-            if circle.radius and height == circle.radius:
-                yield _foot(circle.center, line), (-line.n[1], line.n[0])
-
-
-def _foot(point: ExactPoint, line: Held) -> ExactPoint:
-    assert line.n is not None
-    (x, y), (u, v) = point, line.n
-    height = u * x + v * y - line.h
-    return x - height * u, y - height * v
+def way_out_of_contacts(planner: TruePlanner, start: Pose, goal: Pose, options: Options) -> Way | None:
+    """Return a way between poses of which one or both are in contact, if a search joins motions out of these."""
+    begins, ends = ways_out(planner, start, goal), ways_out(planner, goal, start)
+    if not begins and not ends:
+        return None
+    pairs = product(begins or [[start]], ends or [[goal]])
+    for begin, end in islice(pairs, MOST_PAIRS):
+        joined = [begin[-1]] if begin[-1] == end[-1] else planner.quick(begin[-1], end[-1], options)
+        if joined:
+            return [*begin, *joined[1:], *reversed(end[:-1])]
+    return None

@@ -12,17 +12,16 @@ from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
 
 import cfree._core as _core
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import ArcScene, arcs_of
-from cfree.collision.motion import joining
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
-from cfree.planning.narrow_fits import way_through_fits
+from cfree.planning.contact_fits import Fits
+from cfree.planning.narrow_fits import way_out_of_contacts, way_through_fits
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.stuck import Stuck
@@ -76,6 +75,11 @@ class TruePlanner(PosePlanner):
         return TrueMotions(self.scene, self.shapes)
 
     @cached_property
+    def fits(self) -> Fits:
+        """The vertices, arcs and segments that hold the robot where it fits exactly."""
+        return Fits(self.true)
+
+    @cached_property
     def _known(self) -> _core.KnownScene:
         return _core.KnownScene(self.checker.features.made, self.checker._handle, self._slack)
 
@@ -87,21 +91,22 @@ class TruePlanner(PosePlanner):
     def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or a search give one."""
         way = [start] if start == goal else self.quick(start, goal, options)
+        way = way or way_out_of_contacts(self, start, goal, options)
         return self.finished(way, options) if way else None
 
     def mended(self, path: Path, options: Options) -> Path | Stuck | None:
         """Return a path near one among the polygons, if all motions of it, or of one farther from them, are free."""
         poses: Sequence[Pose] = path.poses
-        if not any(motion.contacts for motion in path.motions):
-            if not self.checker.joins(poses):
-                poses = self.improver(poses, options).pushed(poses)
-            if self.checker.joins(poses):
-                return self.finished(poses, options)
-            path = replace(path, motions=tuple(joining(a, b) for a, b in pairwise(poses) if a != b))
+        slides = any(motion.contacts for motion in path.motions)
+        if not slides and self.checker.joins(poses):
+            return self.finished(poses, options)
         through = way_through_fits(self, path, options, self._error)
-        if through is None or not self.checker.joins(through):
+        if through is not None and self.checker.joins(through):
+            return self.finished(through, options)
+        if slides:
             return None
-        return self.finished(through, options)
+        pushed = self.improver(poses, options).pushed(poses)
+        return self.finished(pushed, options) if self.checker.joins(pushed) else None
 
     def finished(self, way: Sequence[Pose], options: Options) -> Path | Stuck | None:
         """Improve a path, given by its poses, and return it as one among the shapes."""

@@ -17,7 +17,7 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import count, islice, pairwise
@@ -83,12 +83,15 @@ class Question:
     vehicle : Vehicle
     options : Options
         Those of the query, without the vehicle.
+    enough : Event
+        Set by Ctrl-C: the path found so far will do.
     """
 
     planner: PosePlanner
     known: _core.KnownScene
     vehicle: Vehicle
     options: Options
+    enough: threading.Event = field(default_factory=threading.Event)
 
     @property
     def scene(self) -> Scene:
@@ -375,16 +378,21 @@ def driven(question: Question, way: Sequence[Pose], reach: Reach | None = None) 
     if isinstance(found, Unreachable):
         return found
     drive, share = found
-    while improve != 0 and drive.cusps > MANY_CUSPS and share > 0:  # it may keep too much of the distance
+    while improve != 0 and drive.cusps > MANY_CUSPS and share > 0 and not question.enough.is_set():
         now = time.perf_counter()
-        with suppress(UndecidedError):
+        with suppress(UndecidedError):  # less of the distance may save changes of direction
             nearer = _best(question, way, [s for s in shares if s < share], now, _middle(now, end))
             if not isinstance(nearer, Unreachable) and _cost(drive) > MOST_DEARER * _cost(nearer[0]):
                 drive, share = nearer
                 continue
         break
-    while time.perf_counter() < end < math.inf and not question.options.stop.is_set():
-        drive.run(BLOCK)
+    with suppress(KeyboardInterrupt):  # there is a path already
+        while time.perf_counter() < end < math.inf and not question.enough.is_set():
+            if question.options.stop.is_set():
+                raise KeyboardInterrupt
+            drive.run(BLOCK)
+    if question.options.stop.is_set():
+        raise KeyboardInterrupt
     return _path(question, drive)
 
 
@@ -488,7 +496,7 @@ def _shortened(
     The result does not depend on the number of cores, unless there is a time at which it ends: then further ways are
     tried in half of it, and the best one has the rest. Ctrl-C ends it early.
     """
-    half, stop, enough = begin + (end - begin) / 2, question.options.stop, threading.Event()
+    half, stop, enough = begin + (end - begin) / 2, question.options.stop, question.enough
     # several cores only if called in the main thread: other threads share the cores already
     cores = os.cpu_count() or 1 if threading.current_thread() is threading.main_thread() else 1
 

@@ -38,7 +38,7 @@ from cfree.plot.boundary import (
 from cfree.plot.depth_sort import Painting
 from cfree.plot.headed import headed, new_picture, window_of
 from cfree.plot.labels import BODY, Labels, name_in_space
-from cfree.plot.looks import looks, of_polygons, smooth
+from cfree.plot.looks import looks, of_polygons, own
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
 from cfree.plot.reading import plot_shapes, with_record
@@ -50,6 +50,7 @@ from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of,
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
 from cfree.scene.naming import all_placed, numbered, placed
 from cfree.scene.scene import Scene, box_of, robot_radius
+from cfree.scene.smooth import smooth
 from cfree.words import MOST_NAMES, listed
 
 Floats = NDArray[np.float64]
@@ -178,10 +179,11 @@ def picture(
         headline = "undecided: a path exists"
         details = f"it needs about {answer.manoeuvres:,} motions; here the robot moves in any direction"
         answer = _path_of(answer)
-    scene = of_polygons(answer, _scene_of(answer, scene))
+    true = _scene_of(answer, scene)
+    scene = of_polygons(answer, true)
     if isinstance(answer, Separated):
         return _picture_of_separation(answer, scene)
-    track = Track.of(answer, scene)
+    track = Track.of(own(answer, true), scene)
     figure, ax = new_picture(track.window, boundary is not None, below=0.65 if track.gears is None else 1.0)
     draw_track(ax, track, preferences or NONE)
     if boundary is not None:

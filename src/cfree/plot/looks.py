@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from cfree.errors import UnsupportedError
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
-from cfree.scene.scene import Scene, largest_of
-
-EDGES = 4000  # one part of so many of the largest shape's size is invisible
+from cfree.scene.scene import Scene
+from cfree.scene.smooth import smooth
 
 
 def of_polygons(answer: Path | Separated | Stuck, scene: Scene) -> Scene:
@@ -28,17 +29,14 @@ def of_polygons(answer: Path | Separated | Stuck, scene: Scene) -> Scene:
     return answer.scene
 
 
+def own(path: Path, scene: Scene) -> Path:
+    """Return a path with its round shapes, if it was read from a file without them."""
+    return replace(path, curved=scene) if scene.curved and path.scene is None else path
+
+
 def looks(answer: Path | Separated | Stuck, scene: Scene) -> Scene:
     """Return the same scene with its round shapes, if the answer is for round shapes."""
     if answer.curved is None:
         return scene
     round_scene = smooth(answer.curved, outward=isinstance(answer, Path))
     return round_scene if len(round_scene.obstacles) == len(scene.obstacles) else scene
-
-
-def smooth(scene: Scene, *, outward: bool = True) -> Scene:
-    """Replace round shapes by polygons that look round."""
-    if not scene.curved:
-        return scene
-    error = largest_of(scene) / EDGES
-    return scene.outer(error) if outward else scene.inner(error)

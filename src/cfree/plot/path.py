@@ -17,14 +17,14 @@ from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Translation
 from cfree.exact.pose import Pose, Poses
 from cfree.palette import BARRIER, MARK, ROBOT, SEQUENTIAL
-from cfree.paths.clearance import Clearance, distances_beside, least_clearance, rounded_down
+from cfree.paths.clearance import Clearance, distances_beside, own_clearance, rounded_down
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import SAME, Travel, ghosts
 from cfree.plot.boundary import around, keep_inside, new_axes, plain, roomy, set_window, with_unit
 from cfree.plot.gears import Gears, draw_axle_track, draw_legend, draw_stands, draw_vehicle
 from cfree.plot.labels import BODY, GHOST, LINE, Labels
-from cfree.plot.looks import looks, of_polygons
+from cfree.plot.looks import looks, of_polygons, own
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
@@ -85,7 +85,7 @@ class Track:
         travel, distances = Travel(path, scene), distances_beside(path, scene)
         steps = np.linspace(0, travel.total, TRACE)
         rows = travel.at(steps)
-        least = least_clearance(path, distances, None)
+        least = own_clearance(path, scene)
         distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), distances.placed(rows)
         if least is not None:
             distance, _, _ = distances.nearest(edges)
@@ -166,7 +166,7 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: 
     >>> ax.get_title()
     '2 motions, length 7.14 m, turning 90°, clearance 0.926 m (≥ 0.924 proved)'
     """
-    track = Track.of(path, of_polygons(path, scene))
+    track = Track.of(own(path, scene), of_polygons(path, scene))
     if ax is None:
         x0, y0, x1, y1 = track.window
         height = float(np.clip(1.3 + 6.2 * (y1 - y0) / (x1 - x0), 3, 9))

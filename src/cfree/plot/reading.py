@@ -10,11 +10,11 @@ import numpy as np
 from cfree.formats.shapes import ROLES, Shapes
 from cfree.palette import GHOST, GUESSED, INK, LOST, OBSTACLE, OBSTACLE_RIM, PATH, ROBOT
 from cfree.plot.boundary import around, legend_below, new_axes, plain, roomy, set_window
-from cfree.plot.looks import EDGES
 from cfree.plot.workspace import Window, path_of, rings_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.reading import Item, Note
 from cfree.scene.scene import AnyShape, box_of, size_of
+from cfree.scene.smooth import EDGES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

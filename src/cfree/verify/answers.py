@@ -134,7 +134,8 @@ def answer(
     if scene.curved and its is not part:
         wrong = mismatches(scene, its, outward=isinstance(outcome, Path))
         findings += [Finding(ROUND, where, text) for where, text in wrong]
-    world = ArcWorld(its) if its.curved else World(its)
+    is_round = its.curved or (isinstance(outcome, Path) and outcome.clearance and not outcome.disc)
+    world = ArcWorld(its) if is_round else World(its)
     if isinstance(world, World):
         findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
     findings += end_findings(outcome, world)

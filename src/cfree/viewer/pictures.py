@@ -29,11 +29,11 @@ from cfree.planning.stuck import Stuck
 from cfree.planning.unreachable import Unreachable
 from cfree.plot.gears import GEARS, Gears
 from cfree.plot.labels import BODY, CORNERS, LINE, MAY, WALL
-from cfree.plot.looks import EDGES, smooth
 from cfree.plot.workspace import roomiest
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.scene import Bounds, Scene, robot_radius
+from cfree.scene.smooth import EDGES, smooth
 from cfree.viewer.svg import Floats, Panel, Window, drawing, text
 
 WIDTH, HEIGHT = 640.0, 400.0

@@ -15,8 +15,9 @@ from cfree.paths.path import Path
 from cfree.paths.stops import Stops
 from cfree.planning.goals import AllSeparated
 from cfree.planning.proof import Proof
-from cfree.scene.digest import Stamp, stamp_for, stamp_of
+from cfree.scene.digest import Stamp, stamp_for
 from cfree.scene.scene import Scene, robot_radius
+from cfree.scene.smooth import smooth
 
 if TYPE_CHECKING:
     from cfree.formats.answers.answer_format import Read
@@ -200,7 +201,7 @@ def in_time(path: Path, file: object, limits: Limits | None, scene: Scene | None
 
     if limits is None:
         return None
-    if scene is None and path.scene is None:
+    if scene is None and path.scene is None and path.curved is None:
         raise ValueError(f"{file}: no scene; give the one whose robot moves")
     return timed_by(path, scene, limits)
 
@@ -232,7 +233,7 @@ def text_of(
         return ros_text(path, step, turn, timed)
     if scene is None:
         raise ValueError(f"{file}: no scene; give the one whose robot moves")
-    return geojson_text(path, scene, step, turn, timed)
+    return geojson_text(path, smooth(scene), step, turn, timed)
 
 
 def usual_step(path: Path, scene: Scene | None) -> float:
@@ -245,12 +246,12 @@ def usual_step(path: Path, scene: Scene | None) -> float:
     >>> usual_step(way, None), usual_step(way, Scene([(0, 0), (3, 0), (3, 4)]))
     (0.04, 0.25)
     """
-    scene = path.scene if scene is None or (scene.curved and path.scene) else scene
+    if scene is None or scene.curved:
+        scene = path.scene or scene or path.curved
     if scene is not None:
-        return robot_radius(scene) / PARTS_OF_RADIUS
-    stamp = path.stamp if scene is None else stamp_of(scene)
-    if stamp is not None:
-        return float(stamp.reach) / PARTS_OF_RADIUS
+        return robot_radius(smooth(scene)) / PARTS_OF_RADIUS
+    if path.stamp is not None:
+        return float(path.stamp.reach) / PARTS_OF_RADIUS
     return path.length / PARTS_OF_LENGTH or 1.0
 
 

@@ -1,0 +1,201 @@
+"""Paths among segments and circular arcs: exact fits, contacts at the ends, clearances, and what is done with them."""
+
+from __future__ import annotations
+
+import json
+import math
+import pickle
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path as FilePath
+from typing import Any
+
+import pytest
+
+import cfree
+import cfree.verify
+from cfree import Curved, Pose, Scene
+from cfree.curves import Arc, Circle
+from cfree.planning.contact_fits import Fits
+from fuzz_round import Frame, box, fault, rounded, stadium
+
+HALF = Fraction(1, 2)
+TURNS = [0, Fraction(1, 2), Fraction(-1, 5), Fraction(7, 3)]
+
+
+def planned(scene: Scene, start: object, goal: object, **options: Any) -> cfree.Path:
+    """A path without improving, verified."""
+    path = cfree.plan(scene, start, goal, improve=0.0, **options)  # type: ignore[call-overload]
+    assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+    return path
+
+
+def dumbbell(frame: Frame, robot: Any, half: Fraction, off: Fraction = HALF) -> tuple[Scene, Pose, Pose]:
+    """Two rooms, a corridor between them; the ends are not on its line."""
+    ring = [(-9, -4), (-3, -4), (-3, -half), (3, -half), (3, -4), (9, -4)]
+    ring += [(-x, -y) for x, y in ring]
+    return Scene(robot, workspace=frame.shape(ring)), frame.pose(-6, off), frame.pose(6, -off)
+
+
+# --- exact fits ---
+
+
+@pytest.mark.parametrize("turn", TURNS)
+@pytest.mark.parametrize("robot", [Curved.circle((0, 0), 1), stadium(1, 1), rounded(-2, -1, 2, 1, HALF)])
+def test_a_robot_fits_a_corridor_of_its_own_width(robot: Curved, turn: Fraction) -> None:
+    planned(*dumbbell(Frame(turn, Fraction(1), (Fraction(7, 3), Fraction(1, 7))), robot, Fraction(1)))
+
+
+@pytest.mark.parametrize("turn", TURNS)
+def test_a_robot_fits_between_discs(turn: Fraction) -> None:
+    frame = Frame(Fraction(turn), shift=(Fraction(10**9), Fraction(-3)))
+    discs = [*map(frame.shape, [Curved.circle((0, 3), 2), Curved.circle((0, -3), 2)])]
+    walls = [*map(frame.shape, [box(-1, 3, 1, 9), box(-1, -9, 1, -3)])]
+    scene = Scene(stadium(1, 1), discs + walls, workspace=frame.shape(box(-9, -8, 9, 8)))
+    planned(scene, frame.pose(-6, 1), frame.pose(6, -1))
+
+
+@pytest.mark.parametrize("gap", [Fraction(1, 2**60), Fraction(1, 10**6), Fraction(1, 500)])
+def test_a_little_room_is_enough(gap: Fraction) -> None:
+    for turn in TURNS[:2]:
+        planned(*dumbbell(Frame(Fraction(turn)), stadium(1, 1), 1 + gap))
+
+
+def test_a_disc_goes_from_hole_to_hole_of_a_lattice_that_just_lets_it_pass() -> None:
+    discs = [Curved.circle((3 * i, 3 * j), 1) for i in range(4) for j in range(4)]
+    scene = Scene(Curved.circle((0, 0), HALF), discs, workspace=box(0, 0, 9, 9))
+    planned(scene, ("3/2", "3/2", 0), ("15/2", "15/2", 0))
+
+
+def test_a_peg_leaves_a_round_slot_of_its_own_radius() -> None:
+    bay = Arc((-2, 1), center=(-2, 0), clockwise=True)
+    block = Curved([(-2, -5), (4, -5), (4, -1), (-2, -1), bay, (4, 1), (4, 5), (-8, 5), (-8, -5)])
+    for turn in TURNS:
+        frame = Frame(Fraction(turn))
+        scene = Scene(stadium(2, 1), [frame.shape(block)])
+        planned(scene, frame.pose(0, 0), frame.pose(12, 1, "1/3"))
+        planned(scene, frame.pose(12, 1, "1/3"), frame.pose(0, 0))
+
+
+@pytest.mark.parametrize("center", [(0, 0), ("1/3", -2)])
+def test_a_half_disc_turns_in_a_hole_of_its_radius_about_a_center_that_is_not_the_reference_point(center: Any) -> None:
+    x, y = map(Fraction, center)
+    robot = Curved([(x, y - 2), Arc((x, y + 2), center=(x, y))])
+    scene = Scene(robot, [Curved(box(-5, -5, 5, 5), [Circle((0, 0), 2)])])
+    planned(scene, Pose(-x, -y), Pose(y, -x, "90deg"))
+    planned(scene, Pose(-x, -y), Pose(x, y, "180deg"))
+
+
+# --- contacts at the ends ---
+
+
+def test_a_start_in_two_contacts_is_left_along_them() -> None:
+    for turn in TURNS:
+        frame = Frame(Fraction(turn))
+        scene = Scene(Curved.circle((0, 0), 1), [*map(frame.shape, [Curved.circle((6, 2), 1), box(-12, -4, 12, -1)])])
+        planned(scene, frame.pose(6, 0), frame.pose(0, 1))
+        planned(scene, frame.pose(0, 1), frame.pose(6, 0))
+
+
+def test_ends_in_contact_are_no_overlap() -> None:
+    scene = Scene(Curved.circle((0, 0), 1), [Curved.circle((3, 0), 2)])
+    planned(scene, (0, 0, 0), (6, 0, 0))
+    with pytest.raises(cfree.InvalidPoseError, match="start"):
+        cfree.plan(scene, (Fraction(1, 2**60), 0, 0), (6, 0, 0))
+
+
+def test_angles_below_zero_are_made_parallel() -> None:
+    """Once they had been normalised to a turn, and were never near another angle."""
+    walls = [[(-9, -9), (9, -9), (9, -1), (-9, -1)], [(-9, 1), (9, 1), (9, 9), (-9, 9)]]
+    fits = Fits(Scene(rounded(-2, -1, 2, 1, HALF), walls))
+    for theta in (-0.01, math.tau - 0.01, 0.01, math.pi + 0.01, math.pi - 0.01):
+        tau = fits.angles(0, 0, theta, 0.1)[0]
+        assert tau == (None if abs(theta - math.pi) < 1 else 0)
+
+
+# --- clearance among polygons ---
+
+
+@pytest.mark.parametrize("turn", TURNS)
+@pytest.mark.parametrize("off", [Fraction(0), HALF])
+def test_a_clearance_that_is_just_left_is_kept(turn: Fraction, off: Fraction, tmp_path: FilePath) -> None:
+    robot = box(-1, -HALF, 1, HALF)
+    scene, start, goal = dumbbell(Frame(Fraction(turn)), robot, Fraction(3, 4), off)
+    path = planned(scene, start, goal, clearance="1/4")
+    cfree.save(path, tmp_path / "path.json")
+    assert cfree.verify.answer(scene, tmp_path / "path.json").verified and cfree.load(tmp_path / "path.json") == path
+    with pytest.raises(cfree.UndecidedError, match="too near to the largest"):
+        cfree.plan(scene, start, goal, clearance=Fraction(1, 4) + Fraction(1, 10**9))
+
+
+def test_a_clearance_without_a_polygon_is_checked_with_the_disc_itself(tmp_path: FilePath) -> None:
+    scene, start, goal = dumbbell(Frame(Fraction(1, 5)), box(-1, -HALF, 1, HALF), Fraction(3, 4))
+    path = planned(scene, start, goal, clearance="1/4")
+    cfree.save(replace(path, disc=()), tmp_path / "path.json")
+    text = (tmp_path / "path.json").read_text()
+    assert "disc" not in json.loads(text) and cfree.verify.answer(scene, tmp_path / "path.json").verified
+    (tmp_path / "path.json").write_text(text.replace('"clearance": "1/4"', '"clearance": "250001/1000000"'))
+    assert not cfree.verify.answer(scene, tmp_path / "path.json").verified
+
+
+# --- what is done with such paths ---
+
+
+def through_an_exact_fit() -> tuple[Scene, cfree.Path]:
+    """A disc on the floor, under another."""
+    scene = Scene(
+        Curved.circle((0, 0), 1),
+        [Curved.circle((0, 3), 2)],
+        workspace=[(-4, -1), (4, -1), (4, 4), (-4, 4)],
+        start=(-2, 0, 0),
+        goal=(2, 0, 0),
+    )
+    return scene, planned(scene, scene.start, scene.goal)
+
+
+def test_its_clearance_is_that_of_the_true_shapes() -> None:
+    scene, path = through_an_exact_fit()
+    touching = cfree.clearance(path, scene)
+    assert touching is not None and touching.least == touching.found == 0
+    higher = Scene(scene.robot, [Curved.circle((0, "3.25"), 2)], bounds=(-4, -1, 4, 4))
+    least = cfree.clearance(path, higher)
+    assert least is not None and 0.249 < least.least <= least.found and abs(least.found - 0.25) < 1e-9
+    assert (least.motion, least.obstacle[0]) == (0, 0) and abs(least.share - 0.5) < 1e-3
+    lower = Scene(scene.robot, [Curved.circle((0, "2.9999999"), 2)])
+    with pytest.raises(ValueError, match="the path is not free"):
+        cfree.clearance(path, lower)
+    with pytest.raises(ValueError, match="tolerance"):
+        cfree.clearance(path, higher, tolerance=-1)
+    assert cfree.clearance(path, Scene(scene.robot)) is None
+
+
+def test_it_is_timed_pickled_and_written(tmp_path: FilePath) -> None:
+    scene, path = through_an_exact_fit()
+    assert pickle.loads(pickle.dumps(path)) == path and path.scene is None and path.curved == scene
+    assert cfree.timed(path, speed=2).duration == 2
+    for name in ("a.csv", "a.yaml", "a.geojson"):
+        cfree.save(path, tmp_path / name, speed=2)
+    shapes = json.loads((tmp_path / "a.geojson").read_text())["features"]
+    assert len(shapes) > 2 and len(shapes[1]["geometry"]["coordinates"][0]) > 50
+    cfree.save(path, tmp_path / "a.json")
+    assert "polygons" not in json.loads((tmp_path / "a.json").read_text())
+
+
+@pytest.mark.slow
+def test_it_is_drawn_and_filmed(tmp_path: FilePath) -> None:
+    from cfree.film import film_path
+
+    scene, path = through_an_exact_fit()
+    cfree.save(path, tmp_path / "a.json")
+    read = cfree.load(tmp_path / "a.json")
+    assert isinstance(read, cfree.Path) and path._repr_svg_()
+    for drawn in (path.plot(), cfree.plot(read, scene)):
+        assert "clearance 0" in drawn.axes[0].get_title()
+    film_path(path, scene, tmp_path / "a.gif", seconds=1, fps=4, size=(160, 120))
+    assert (tmp_path / "a.gif").stat().st_size > 1000
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(25))
+def test_random_scenes_of_known_truth(seed: int) -> None:
+    assert fault(seed)[1] == ""
