@@ -230,7 +230,7 @@ def ways_out(planner: TruePlanner, pose: Pose, other: Pose) -> list[Way]:
         The other end of the path: turns may go to its orientation.
     """
     near = TOUCHING * planner.angle_scale
-    if planner.arcs.distance(pose, near)[0] > near:
+    if planner.shapes.distance(pose, near)[0] > near:
         return []
     place, ways = (pose.x, pose.y), list[Way]()
     lengths = [planner.angle_scale * 2.0**k for k in range(3, -5, -1)]

@@ -14,9 +14,9 @@ from cfree.plot.boundary import set_window
 from cfree.plot.gears import Wheels, draw_vehicle
 from cfree.plot.headed import headed, new_picture, window_of
 from cfree.plot.labels import BODY, Labels
-from cfree.plot.looks import smooth
 from cfree.plot.workspace import draw_surroundings
 from cfree.scene.scene import Scene
+from cfree.scene.smooth import smooth
 
 
 def picture_of_unreachable(answer: Unreachable, scene: Scene) -> Figure:
