@@ -1655,9 +1655,10 @@ class PathAnswer(Answer):
 
 def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
     """Sentence that states the result."""
-    world: World | RoundWorld = RoundWorld(scene) if scene.is_round else World(scene)
+    is_round = scene.is_round or (answer.clearance and not answer.disc)  # that is kept by the disc itself
+    world: World | RoundWorld = RoundWorld(scene) if is_round else World(scene)
     only = "; its decimals are approximate"
-    refute_if(scene.is_round and any(motion.slide for motion in answer.motions), "slides are for polygons")
+    refute_if(is_round and any(motion.slide for motion in answer.motions), "slides are for polygons")
     answer.check_moved(world)
     check_pose(world, answer.start, "start")
     check_pose(world, answer.goal, "goal")
@@ -1667,7 +1668,7 @@ def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
         said = "its decimals are not free, as it claims, or the robot is where it may not be"
         worlds[said] = world.roomier(answer.leeway())
     if answer.clearance:
-        is_wrong = isinstance(world, World) and (not answer.disc or not is_around_disc(answer.disc, answer.clearance))
+        is_wrong = isinstance(world, World) and not is_around_disc(answer.disc, answer.clearance)
         refute_if(is_wrong, "disc: it is not convex, or not around a disc of that radius")
         there = world.larger(answer.disc) if isinstance(world, World) else world.grown(answer.clearance)
         worlds["the robot is nearer to something than the clearance"] = there

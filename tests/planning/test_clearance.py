@@ -248,11 +248,12 @@ def test_files_among_round_shapes_have_a_clearance_without_a_polygon(tmp_path: F
     assert cfree.verify.answer(scene, file).verified
 
 
-def test_a_clearance_among_polygons_needs_a_polygon_around_its_disc(tmp_path: FilePath) -> None:
+def test_a_clearance_among_polygons_is_checked_with_the_disc_itself_without_a_polygon(tmp_path: FilePath) -> None:
     file = tmp_path / "answer.json"
     save(plan(gate(), UP, DOWN, clearance="0.3"), file)
     data = json.loads(file.read_text())
     del data["disc"]
-    file.write_text(json.dumps(data))
-    result = verified(gate(), file)
-    assert not result.verified and {finding.kind for finding in result.findings} == {"clearance"}
+    for clearance, is_kept in (("3/10", True), ("1/2", True), ("501/1000", False)):
+        file.write_text(json.dumps(data | {"clearance": clearance}))
+        result = verified(gate(), file)
+        assert result.verified is is_kept and {finding.kind for finding in result.findings} <= {"clearance"}

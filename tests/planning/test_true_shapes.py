@@ -20,7 +20,7 @@ from cfree.planning.contact_fits import Fits
 from fuzz_round import Frame, box, fault, rounded, stadium
 
 HALF = Fraction(1, 2)
-TURNS = [0, Fraction(1, 2), Fraction(-1, 5), Fraction(7, 3)]
+TURNS = [Fraction(0), Fraction(1, 2), Fraction(-1, 5)]
 
 
 def planned(scene: Scene, start: object, goal: object, **options: Any) -> cfree.Path:
@@ -40,12 +40,14 @@ def dumbbell(frame: Frame, robot: Any, half: Fraction, off: Fraction = HALF) -> 
 # --- exact fits ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", TURNS)
 @pytest.mark.parametrize("robot", [Curved.circle((0, 0), 1), stadium(1, 1), rounded(-2, -1, 2, 1, HALF)])
 def test_a_robot_fits_a_corridor_of_its_own_width(robot: Curved, turn: Fraction) -> None:
     planned(*dumbbell(Frame(turn, Fraction(1), (Fraction(7, 3), Fraction(1, 7))), robot, Fraction(1)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", TURNS)
 def test_a_robot_fits_between_discs(turn: Fraction) -> None:
     frame = Frame(Fraction(turn), shift=(Fraction(10**9), Fraction(-3)))
@@ -55,18 +57,21 @@ def test_a_robot_fits_between_discs(turn: Fraction) -> None:
     planned(scene, frame.pose(-6, 1), frame.pose(6, -1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [Fraction(1, 2**60), Fraction(1, 10**6), Fraction(1, 500)])
 def test_a_little_room_is_enough(gap: Fraction) -> None:
     for turn in TURNS[:2]:
         planned(*dumbbell(Frame(Fraction(turn)), stadium(1, 1), 1 + gap))
 
 
+@pytest.mark.slow
 def test_a_disc_goes_from_hole_to_hole_of_a_lattice_that_just_lets_it_pass() -> None:
     discs = [Curved.circle((3 * i, 3 * j), 1) for i in range(4) for j in range(4)]
     scene = Scene(Curved.circle((0, 0), HALF), discs, workspace=box(0, 0, 9, 9))
     planned(scene, ("3/2", "3/2", 0), ("15/2", "15/2", 0))
 
 
+@pytest.mark.slow
 def test_a_peg_leaves_a_round_slot_of_its_own_radius() -> None:
     bay = Arc((-2, 1), center=(-2, 0), clockwise=True)
     block = Curved([(-2, -5), (4, -5), (4, -1), (-2, -1), bay, (4, 1), (4, 5), (-8, 5), (-8, -5)])
@@ -77,6 +82,7 @@ def test_a_peg_leaves_a_round_slot_of_its_own_radius() -> None:
         planned(scene, frame.pose(12, 1, "1/3"), frame.pose(0, 0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("center", [(0, 0), ("1/3", -2)])
 def test_a_half_disc_turns_in_a_hole_of_its_radius_about_a_center_that_is_not_the_reference_point(center: Any) -> None:
     x, y = map(Fraction, center)
@@ -89,6 +95,7 @@ def test_a_half_disc_turns_in_a_hole_of_its_radius_about_a_center_that_is_not_th
 # --- contacts at the ends ---
 
 
+@pytest.mark.slow
 def test_a_start_in_two_contacts_is_left_along_them() -> None:
     for turn in TURNS:
         frame = Frame(Fraction(turn))
@@ -116,6 +123,7 @@ def test_angles_below_zero_are_made_parallel() -> None:
 # --- clearance among polygons ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", TURNS)
 @pytest.mark.parametrize("off", [Fraction(0), HALF])
 def test_a_clearance_that_is_just_left_is_kept(turn: Fraction, off: Fraction, tmp_path: FilePath) -> None:
@@ -128,6 +136,7 @@ def test_a_clearance_that_is_just_left_is_kept(turn: Fraction, off: Fraction, tm
         cfree.plan(scene, start, goal, clearance=Fraction(1, 4) + Fraction(1, 10**9))
 
 
+@pytest.mark.slow
 def test_a_clearance_without_a_polygon_is_checked_with_the_disc_itself(tmp_path: FilePath) -> None:
     scene, start, goal = dumbbell(Frame(Fraction(1, 5)), box(-1, -HALF, 1, HALF), Fraction(3, 4))
     path = planned(scene, start, goal, clearance="1/4")
@@ -189,8 +198,8 @@ def test_it_is_drawn_and_filmed(tmp_path: FilePath) -> None:
     cfree.save(path, tmp_path / "a.json")
     read = cfree.load(tmp_path / "a.json")
     assert isinstance(read, cfree.Path) and path._repr_svg_()
-    for drawn in (path.plot(), cfree.plot(read, scene)):
-        assert "clearance 0" in drawn.axes[0].get_title()
+    for drawn in (path.plot(), read.plot(scene)):
+        assert any("clearance 0 (" in text.get_text() for text in drawn.texts)
     film_path(path, scene, tmp_path / "a.gif", seconds=1, fps=4, size=(160, 120))
     assert (tmp_path / "a.gif").stat().st_size > 1000
 

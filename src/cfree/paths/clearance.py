@@ -112,7 +112,12 @@ def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clear
 
 def own_clearance(path: Path, scene: Scene) -> Clearance | None:
     """Return the least clearance of a path: among its own round shapes if it is free among these, else in a scene."""
-    return clearance(path, path.curved if path.scene is None and path.curved else scene)
+    return clearance(path, own_scene(path, scene))
+
+
+def own_scene(path: Path, scene: Scene) -> Scene:
+    """Return the round shapes among which a path is free without polygons; for other paths, a scene."""
+    return path.curved if path.scene is None and path.curved else scene
 
 
 def _among_arcs(path: Path, scene: Scene, arcs: ArcScene, tolerance: float | None) -> Clearance | None:
@@ -157,10 +162,9 @@ def distances_beside(path: Path, scene: Scene) -> EdgeDistances:
     ValueError
         If the path is not free.
     """
-    true = path.curved if path.scene is None and path.curved else scene
-    if not all(is_free_motion(true, *leg) for leg in zip(path.poses, path.motions or (STILL,), strict=False)):
+    if not all(is_free_motion(scene, *leg) for leg in zip(path.poses, path.motions or (STILL,), strict=False)):
         raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
-    return kept(smooth(true), EdgeDistances)
+    return kept(smooth(scene), EdgeDistances)
 
 
 def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | None) -> Clearance | None:

@@ -28,7 +28,6 @@ from cfree.scene.scene import Scene
 REFINE = 400  # motions checked to improve a path without a time limit
 BALANCE = 50  # motions checked for each pose of a path that keeps a distance, counted before and after balancing
 MOST = 300  # most poses counted before balancing: a check takes longer the longer the path is
-PUSHES = 2000  # motions checked to push a path away from obstacles
 DEAR = 3  # factor of these numbers with preferences: there is more to try
 OTHERS = 30  # other paths that each core searches for
 SEARCH = 50_000  # motions tried, without proof, in one search
@@ -96,10 +95,10 @@ class Improver:
         better.merge()
         return self._checked(poses, [*map(from_numbers, better.path())])
 
-    def pushed(self, poses: Sequence[Pose]) -> Sequence[Pose]:
-        """Return a path farther from obstacles, unchecked, after a limited number of motions."""
+    def pushed(self, poses: Sequence[Pose], motions: int) -> Sequence[Pose]:
+        """Return a path farther from obstacles, unchecked, after checks of so many motions."""
         better = self.searcher.balanced([*map(end_of, poses)], 0)
-        better.run(PUSHES)
+        better.run(motions)
         return [*map(from_numbers, better.path())]
 
     def _checked(self, poses: Sequence[Pose], best: Sequence[Pose]) -> Sequence[Pose]:

@@ -28,6 +28,7 @@ from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, grown_scene
 
+PUSHES = 100, 400  # motions checked to push a path away from obstacles, before and after fits are tried
 ROUNDED = 1 + 2.0**-40  # more than the rounding of a sum
 
 
@@ -100,13 +101,16 @@ class TruePlanner(PosePlanner):
         slides = any(motion.contacts for motion in path.motions)
         if not slides and self.checker.joins(poses):
             return self.finished(poses, options)
-        through = way_through_fits(self, path, options, self._error)
-        if through is not None and self.checker.joins(through):
-            return self.finished(through, options)
-        if slides:
-            return None
-        pushed = self.improver(poses, options).pushed(poses)
-        return self.finished(pushed, options) if self.checker.joins(pushed) else None
+        for motions in PUSHES:  # a few help where there is room; more are dear near exact fits, which are tried first
+            if not slides:
+                pushed = self.improver(poses, options).pushed(poses, motions)
+                if self.checker.joins(pushed):
+                    return self.finished(pushed, options)
+            if motions == PUSHES[0]:
+                through = way_through_fits(self, path, options, self._error)
+                if through is not None and self.checker.joins(through):
+                    return self.finished(through, options)
+        return None
 
     def finished(self, way: Sequence[Pose], options: Options) -> Path | Stuck | None:
         """Improve a path, given by its poses, and return it as one among the shapes."""

@@ -17,7 +17,7 @@ from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Translation
 from cfree.exact.pose import Pose, Poses
 from cfree.palette import BARRIER, MARK, ROBOT, SEQUENTIAL
-from cfree.paths.clearance import Clearance, distances_beside, own_clearance, rounded_down
+from cfree.paths.clearance import Clearance, distances_beside, own_clearance, own_scene, rounded_down
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import SAME, Travel, ghosts
@@ -82,7 +82,7 @@ class Track:
         from matplotlib.cm import ScalarMappable
         from matplotlib.colors import Normalize
 
-        travel, distances = Travel(path, scene), distances_beside(path, scene)
+        travel, distances = Travel(path, scene), distances_beside(path, own_scene(path, scene))
         steps = np.linspace(0, travel.total, TRACE)
         rows = travel.at(steps)
         least = own_clearance(path, scene)
