@@ -20,8 +20,8 @@ from cfree.exact.pose import Pose, pose_at
 
 if TYPE_CHECKING:
     from cfree.paths.path import Path
+    from cfree.planning.arc_planner import ArcPlanner
     from cfree.planning.options import Options
-    from cfree.planning.true_shapes import TruePlanner
 
 SAMPLES = 600  # poses at which a path is looked at
 MOST_PLACES = 8  # free parts of a path, and motions through fits, that are tried
@@ -36,12 +36,12 @@ FARTHER = (1.25, 2.0, 1.0, 0.5)  # lengths of a motion through a place, relative
 Way = list[Pose]
 
 
-def way_through_fits(planner: TruePlanner, path: Path, options: Options, error: float) -> Way | None:
+def way_through_fits(planner: ArcPlanner, path: Path, options: Options, error: float) -> Way | None:
     """Return a way near one among polygons inside of the shapes, through places where the robot fits exactly.
 
     Parameters
     ----------
-    planner : TruePlanner
+    planner : ArcPlanner
     path : Path
         It is free among the polygons, not among the shapes.
     options : Options
@@ -73,7 +73,7 @@ def way_through_fits(planner: TruePlanner, path: Path, options: Options, error: 
     return None
 
 
-def _links(planner: TruePlanner, path: Path, error: float) -> list[Way]:
+def _links(planner: ArcPlanner, path: Path, error: float) -> list[Way]:
     """Return ways that are free among the shapes, along a path: its longest free parts, and motions through fits."""
     links = [(position, travel, _lengthened(planner, part)) for position, travel, part in _free_parts(planner, path)]
     lines = dict[tuple[object, ...], tuple[float, Way]]()
@@ -89,7 +89,7 @@ def _links(planner: TruePlanner, path: Path, error: float) -> list[Way]:
     return [*begins, *between, *ends]
 
 
-def _lengthened(planner: TruePlanner, way: Way) -> Way:
+def _lengthened(planner: ArcPlanner, way: Way) -> Way:
     """Return a way that goes on straight at both ends, if its first and last motions are straight."""
     lengths = [2 * planner.angle_scale * share for share in FARTHER]
     for _ in range(2):
@@ -106,7 +106,7 @@ def _apart(one: Pose, other: Pose) -> ExactPoint:
     return other.x - one.x, other.y - one.y
 
 
-def _free_parts(planner: TruePlanner, path: Path) -> Iterator[tuple[float, float, Way]]:
+def _free_parts(planner: ArcPlanner, path: Path) -> Iterator[tuple[float, float, Way]]:
     """Yield the position on the path, the length and the poses of each part of it that is free among the shapes."""
     part, length, position = list[Pose](), 0.0, 0.0
     whole = max(path.length, 1e-300)
@@ -123,7 +123,7 @@ def _free_parts(planner: TruePlanner, path: Path) -> Iterator[tuple[float, float
         yield position / whole, length, part
 
 
-def _narrow_runs(planner: TruePlanner, path: Path) -> Iterator[tuple[float, np.ndarray]]:
+def _narrow_runs(planner: ArcPlanner, path: Path) -> Iterator[tuple[float, np.ndarray]]:
     """Yield the position, as a share, and rows x, y, theta of each run of poses that are forbidden among the shapes."""
     samples = path.sample(max(path.length, 1e-300) / SAMPLES, max(path.turning, 1e-9) / SAMPLES)
     rows = np.column_stack([samples.xy, samples.theta])
@@ -137,7 +137,7 @@ def _narrow_runs(planner: TruePlanner, path: Path) -> Iterator[tuple[float, np.n
         yield middle, rows[max(0, begin - 1) : end + 1]
 
 
-def _longer(planner: TruePlanner, one: Way, other: Way) -> Way:
+def _longer(planner: ArcPlanner, one: Way, other: Way) -> Way:
     """Return the motion from the begin of one to the end of another on its line, if it is free; else the longer one."""
     whole = [one[0], other[-1]]
     if one is other or planner.checker.joins(whole):
@@ -145,7 +145,7 @@ def _longer(planner: TruePlanner, one: Way, other: Way) -> Way:
     return max(one, other, key=lambda way: math.hypot(*map(float, _apart(*way))))
 
 
-def _portals(planner: TruePlanner, run: np.ndarray, near: float) -> dict[tuple[object, ...], Way]:
+def _portals(planner: ArcPlanner, run: np.ndarray, near: float) -> dict[tuple[object, ...], Way]:
     """Return motions through exact fits near some poses, proved free, by their lines."""
     portals = dict[tuple[object, ...], Way]()
     rows = run[[len(run) * k // (2 * LOOKS) for k in range(1, 2 * LOOKS, 2)]]
@@ -163,7 +163,7 @@ def _about(x: float, near: float) -> Fraction:
     return simplest_between(Fraction(x - near / 8), Fraction(x + near / 8))
 
 
-def _rounded_line(planner: TruePlanner, begin: Pose, end: Pose) -> tuple[float, ...]:
+def _rounded_line(planner: ArcPlanner, begin: Pose, end: Pose) -> tuple[float, ...]:
     """Return numbers that two parts of a line have in common, if they are run in the same direction."""
     x, y = _apart(begin, end)
     travel = math.hypot(x, y)
@@ -174,7 +174,7 @@ def _rounded_line(planner: TruePlanner, begin: Pose, end: Pose) -> tuple[float, 
 
 
 def _turns(
-    planner: TruePlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
+    planner: ArcPlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
 ) -> Iterator[tuple[Pose, Pose]]:
     """Yield turns about a center of two arcs, from and to the orientations of a run."""
     taus = [Pose(0, 0, float(_about(row[2], 2.0**-10))).tau for row in (run[0], run[-1])]
@@ -185,7 +185,7 @@ def _turns(
 
 
 def _lines(
-    planner: TruePlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
+    planner: ArcPlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
 ) -> Iterator[tuple[Pose, Pose]]:
     """Yield translations along a line between contacts, about as long as the run, or longer."""
     steps = run[-1, :2] - run[0, :2]
@@ -209,7 +209,7 @@ def _lines(
             yield back, ahead
 
 
-def _beyond(planner: TruePlanner, pose: Pose, along: ExactPoint, lengths: Sequence[float]) -> Pose:
+def _beyond(planner: ArcPlanner, pose: Pose, along: ExactPoint, lengths: Sequence[float]) -> Pose:
     """Return the pose at the first length along a vector to which a translation is free; the pose if none is."""
     whole = math.hypot(*along)
     for length in lengths:
@@ -220,12 +220,12 @@ def _beyond(planner: TruePlanner, pose: Pose, along: ExactPoint, lengths: Sequen
     return pose
 
 
-def ways_out(planner: TruePlanner, pose: Pose, other: Pose) -> list[Way]:
+def ways_out(planner: ArcPlanner, pose: Pose, other: Pose) -> list[Way]:
     """Return free motions from a pose in contact, along its contacts or about a center; [] if it touches nothing.
 
     Parameters
     ----------
-    planner : TruePlanner
+    planner : ArcPlanner
     pose, other : Pose
         The other end of the path: turns may go to its orientation.
     """
@@ -245,7 +245,7 @@ def ways_out(planner: TruePlanner, pose: Pose, other: Pose) -> list[Way]:
     return sorted(ways, key=lambda way: -math.hypot(*map(float, _apart(*way))))[:MOST_WAYS]
 
 
-def way_out_of_contacts(planner: TruePlanner, start: Pose, goal: Pose, options: Options) -> Way | None:
+def way_out_of_contacts(planner: ArcPlanner, start: Pose, goal: Pose, options: Options) -> Way | None:
     """Return a way between poses of which one or both are in contact, if a search joins motions out of these."""
     begins, ends = ways_out(planner, start, goal), ways_out(planner, goal, start)
     if not begins and not ends:

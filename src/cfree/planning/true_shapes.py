@@ -6,93 +6,48 @@ a path is proved free among the shapes: docs/theory/exact-arcs.md. So a fit alon
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
-from functools import cached_property
 
-import cfree._core as _core
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import ArcScene, arcs_of
-from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
-from cfree.planning.contact_fits import Fits
+from cfree.planning.arc_planner import ArcPlanner
 from cfree.planning.narrow_fits import way_out_of_contacts, way_through_fits
 from cfree.planning.options import Options
-from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, grown_scene
 
 PUSHES = 100, 400  # motions checked to push a path away from obstacles, before and after fits are tried
-ROUNDED = 1 + 2.0**-40  # more than the rounding of a sum
 
 
-class TrueMotions(MotionChecker):
-    """Exact checks of motions among round shapes, with the interface of a checker of the polygons inside of them."""
-
-    def __init__(self, inner: Scene, arcs: ArcScene) -> None:
-        super().__init__(inner)
-        self._handle = _core.MotionChecker(self.features.core, arcs.motions)
-
-
-class TruePlanner(PosePlanner):
-    """Planner among round shapes, at one error of the polygons inside of them.
+class TruePlanner(ArcPlanner):
+    """Planner that finishes the paths of one query among round shapes.
 
     Parameters
     ----------
     exact : Scene
         The scene of the query.
     clearance : Fraction
-        A distance that a path keeps.
+        A distance that a path keeps: the robot of `arcs` is grown by a disc of that radius.
     arcs : ArcScene
-        The exact shapes, the robot grown by a disc of that radius.
     near : Approximations
-        Their polygons.
-
-    Raises
-    ------
-    UndecidedError
-        If a robot or workspace has no polygon inside.
+        As in `ArcPlanner`.
     """
 
     def __init__(self, exact: Scene, clearance: Fraction, arcs: ArcScene, near: Approximations) -> None:
-        super().__init__(near.scene(outward=False))
-        self.arcs = self.shapes = arcs
-        self.true, self._exact, self._clearance = near.exact, exact, clearance
-        self._error = max(near.errors)
-        count = len(near.exact.robot)
-        errors = near.errors[:count], near.errors[count:]
-        few = len(self.scene.obstacles) < len(near.exact.obstacles)  # one has no polygon inside
-        self._slack = math.inf if few else sum(max(part, default=0.0) for part in errors) * ROUNDED
-
-    @cached_property
-    def checker(self) -> MotionChecker:
-        """Checker of motions among the shapes themselves."""
-        return TrueMotions(self.scene, self.shapes)
-
-    @cached_property
-    def fits(self) -> Fits:
-        """The vertices, arcs and segments that hold the robot where it fits exactly."""
-        return Fits(self.true)
-
-    @cached_property
-    def _known(self) -> _core.KnownScene:
-        return _core.KnownScene(self.checker.features.made, self.checker._handle, self._slack)
-
-    def way(self, start: Pose, goal: Pose, options: Options, *, few: bool = False) -> list[Pose] | None:
-        """Return poses of a path, if simple ways or a search give one."""
-        found = self.quick(start, goal, options)
-        return None if found is None else [*found]
+        super().__init__(arcs, near)
+        self._exact, self._clearance, self._error = exact, clearance, max(near.errors)
 
     def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or a search give one."""
         way = [start] if start == goal else self.quick(start, goal, options)
-        way = way or way_out_of_contacts(self, start, goal, options)
+        way = way or self.roomy_way(start, goal, options) or way_out_of_contacts(self, start, goal, options)
         return self.finished(way, options) if way else None
 
     def mended(self, path: Path, options: Options) -> Path | Stuck | None:
