@@ -28,8 +28,9 @@ print(scene)
 # A path
 # ------
 #
-# The planner searches a scene of polygons around the shapes, which forbids all that is forbidden here. So the path is
-# free for the shapes themselves. The answer holds these polygons, and they are checked against the curves in rationals.
+# For the pond's spline the planner searches a scene of polygons around the shapes, which forbids all that is forbidden
+# here. So the path is free for the shapes themselves. The answer holds these polygons, and they are checked against the
+# curves in rationals. Among lines and circular arcs alone it would need none.
 
 path = cfree.plan(scene)
 print(path, path.scene, sep="\n")
@@ -37,8 +38,8 @@ print(cfree.verify.answer(scene, path).verdict)
 figure = cfree.plot.picture(path, scene)
 
 # %%
-# `is_free` decides about poses. True and False are certain. None means that polygons within the tolerance do not
-# decide, here because the disc touches another.
+# `is_free` decides about poses, among lines and circular arcs exactly: the last of these discs touches the other, which
+# is free. Among splines, Bézier curves and ellipses it returns None where polygons within the tolerance do not decide.
 
 disc = cfree.Curved.circle((0, 0), 1)
 two = cfree.Scene(disc, [cfree.Curved.circle((3, 0), 1)])

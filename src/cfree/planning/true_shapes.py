@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from copy import copy
 from dataclasses import replace
 from fractions import Fraction
+from functools import cached_property
 
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import ArcScene, arcs_of
@@ -23,6 +25,7 @@ from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, grown_scene
 
+FINER = 4  # errors of polygons are divided by this where a path is improved
 PUSHES = 100, 400  # motions checked to push a path away from obstacles, before and after fits are tried
 
 
@@ -43,6 +46,13 @@ class TruePlanner(ArcPlanner):
     def __init__(self, exact: Scene, clearance: Fraction, arcs: ArcScene, near: Approximations) -> None:
         super().__init__(arcs, near)
         self._exact, self._clearance, self._error = exact, clearance, max(near.errors)
+
+    @cached_property
+    def _finer(self) -> ArcPlanner:
+        """A planner with finer polygons, whose distances are nearer to the truth: for paths that are improved."""
+        near = copy(self._near)
+        near.errors = [max(error / FINER, near.least(k)) if error else error for k, error in enumerate(near.errors)]
+        return ArcPlanner(self.shapes, near)
 
     def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or a search give one."""
@@ -69,7 +79,8 @@ class TruePlanner(ArcPlanner):
 
     def finished(self, way: Sequence[Pose], options: Options) -> Path | Stuck | None:
         """Improve a path, given by its poses, and return it as one among the shapes."""
-        answer = self.answered(way, options)
+        planner = self if options.improve == 0 else self._finer
+        answer = planner.answered(way, options)
         if not isinstance(answer, Path):
             return None
         exact = self._exact
