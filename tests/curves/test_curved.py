@@ -117,7 +117,6 @@ def test_what_takes_polygons_says_so() -> None:
         lambda: cfree.turn_in_place(scene, pose),
         lambda: cfree.nearest_miss(scene), lambda: cfree.max_scale(scene), lambda: cfree.max_margin(scene),
         lambda: cfree.blockers(scene), lambda: cfree.MotionChecker(scene), lambda: cfree.PoseChecker(scene),
-        lambda: cfree.plan_many(scene, [(pose, pose)]),
         lambda: cfree.require_free(scene, pose),
         lambda: cfree.arrangements.arrangement(scene), lambda: cfree.collision.free_nearby(scene, pose),
         lambda: cfree.save(scene, "round.svg"), lambda: cfree.save(scene, "round.geojson"),

@@ -208,3 +208,13 @@ def test_it_is_drawn_and_filmed(tmp_path: FilePath) -> None:
 @pytest.mark.parametrize("seed", range(25))
 def test_random_scenes_of_known_truth(seed: int) -> None:
     assert fault(seed)[1] == ""
+
+
+def test_many_queries_have_the_answers_of_one_each() -> None:
+    posts = [cfree.Curved.circle((0, y), "1/2") for y in (-4, -2, 0, 2, 4)]
+    scene = cfree.Scene(cfree.Curved.circle((0, 0), "1/2"), posts, workspace=[(-5, -6), (5, -6), (5, 6), (-5, 6)])
+    pairs = [((-3, 0, 0), (3, 1, 0)), ((-3, 1, 0), (-2, 4, 0)), ((-3, 1, 0), (3, 1, 0))]
+    for threads in (1, 2):
+        answers = cfree.plan_many(scene, pairs, improve=0, threads=threads)
+        assert answers == [cfree.plan(scene, *pair, improve=0) for pair in pairs]
+        assert all(cfree.verify.answer(scene, answer).verified for answer in answers)

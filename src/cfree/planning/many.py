@@ -13,6 +13,7 @@ from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
+from cfree.planning.curved import CurvedPlanner
 from cfree.planning.planner import Planner
 from cfree.planning.proof import Proof
 from cfree.scene.scene import Scene, vehicle_for
@@ -52,7 +53,7 @@ def plan_many(
     Returns
     -------
     list of Path, Separated, Stuck or Unreachable
-        In the order of the queries, as from `plan` with the free space known.
+        In the order of the queries, as from `plan` with the free space known; among round shapes as from `plan`.
 
     Raises
     ------
@@ -76,14 +77,17 @@ def plan_many(
 
     if threads is not None and threads < 1:
         raise ValueError(f"threads: {threads}; give at least 1")
-    space = free_space(boundary(scene)) if isinstance(scene, Scene) else scene
-    todo = list(queries)
-    driver = vehicle_for(space.boundary.scene, vehicle)
-    planner, answers = Planner(space.boundary.scene, space, preferences=preferences or NONE, vehicle=driver), []
+    todo, space = list(queries), scene if isinstance(scene, FreeSpace) else None
+    world = scene if isinstance(scene, Scene) else scene.boundary.scene
+    if space is None and not world.curved:
+        space = free_space(boundary(world))
+    driver = vehicle_for(world, vehicle)
+    planner, answers = Planner(world, space, preferences=preferences or NONE, vehicle=driver), list[Path | Proof]()
 
     def answer_to(number: int) -> Path | Proof:
+        asked = CurvedPlanner(planner) if world.curved else planner  # each refines polygons of its own
         try:
-            return planner.plan(*todo[number], improve=improve, objective=objective)
+            return asked.plan(*todo[number], improve=improve, objective=objective)
         except InvalidPoseError as error:
             error.args = (f"query {number}: {error}",)
             raise
