@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import subprocess
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -85,8 +86,12 @@ def test_the_rival_gets_exact_numbers_and_the_axle_s_poses(load: Any) -> None:
 @pytest.mark.slow
 def test_the_rival_finds_a_path_and_tells_a_clip(load: Any) -> None:
     rival = load("ompl_vehicles")
-    if rival.compiled() is None:
-        pytest.skip("libompl-dev is not installed, or the core's library is not in this clone")
+    try:
+        program = rival.compiled()
+    except subprocess.CalledProcessError:  # the core's library is of another build
+        program = None
+    if program is None:
+        pytest.skip("libompl-dev is not installed, or the core's library does not fit it")
     scene = replace(ROOM, start=Pose(0, 0), goal=Pose(8, 5, "90deg"))
     first, best = rival.runs(scene, Car(2, axle=("-1/2", 0)), ["first 1 10", "best 1 1"])
     assert first.paths == 1 and first.seconds < 10 and first.clipped == 0 and first.length >= 9

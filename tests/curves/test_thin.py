@@ -179,6 +179,7 @@ def test_a_question_that_only_a_touch_decides_ends_and_more_is_asked_for_by_seco
 ) -> None:
     monkeypatch.setattr(curved, "PATCHES", 5000)
     walls = [cfree.Curved.circle((0, y), 1) for y in (-2, 2)]
+    walls.append(cfree.Curved.ellipse((50, 50), (2, 1)))  # with it the polygons decide
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), walls, bounds=(-4, -4, 4, 4), start=(-3, 0, 0), goal=(3, 0, 0))
     with pytest.raises(cfree.UndecidedError, match="contact patches were not enough; give max_seconds") as caught:
         cfree.plan(scene)
@@ -192,6 +193,7 @@ def test_a_question_that_only_a_touch_decides_ends_and_more_is_asked_for_by_seco
 @pytest.mark.slow
 def test_a_clearance_at_the_threshold_ends_with_its_interval() -> None:
     walls = [cfree.Curved.circle((0, y), 1) for y in (-3, 3)]
+    walls.append(cfree.Curved.ellipse((50, 50), (2, 1)))  # with it the polygons decide
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), walls, bounds=(-4, -2, 4, 2), start=(-3, 0, 0), goal=(3, 0, 0))
     with pytest.raises(cfree.UndecidedError, match="the largest clearance that a path keeps is between") as caught:
         cfree.plan(scene, clearance=1, tolerance=0.01)
