@@ -188,3 +188,13 @@ def test_a_question_that_only_a_touch_decides_ends_and_more_is_asked_for_by_seco
         cfree.plan(scene, max_seconds=1)
     with pytest.raises(cfree.UndecidedError, match="these touch, or all but do"):
         cfree.plan(scene, tolerance=0.004)
+
+
+@pytest.mark.slow
+def test_a_clearance_at_the_threshold_ends_with_its_interval() -> None:
+    walls = [cfree.Curved.circle((0, y), 1) for y in (-3, 3)]
+    walls.append(cfree.Curved.ellipse((50, 50), (2, 1)))  # with it the polygons decide
+    scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), walls, bounds=(-4, -2, 4, 2), start=(-3, 0, 0), goal=(3, 0, 0))
+    with pytest.raises(cfree.UndecidedError, match="the largest clearance that a path keeps is between") as caught:
+        cfree.plan(scene, clearance=1, tolerance=0.01)
+    assert 0.9 < caught.value.lo <= 1 <= caught.value.hi < 1.1

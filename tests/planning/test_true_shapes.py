@@ -218,3 +218,17 @@ def test_many_queries_have_the_answers_of_one_each() -> None:
         answers = cfree.plan_many(scene, pairs, improve=0, threads=threads)
         assert answers == [cfree.plan(scene, *pair, improve=0) for pair in pairs]
         assert all(cfree.verify.answer(scene, answer).verified for answer in answers)
+
+
+def test_a_clearance_that_the_gap_just_leaves_is_kept_with_the_disc_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The scenes of polygons that stand for this one are not searched for it once more."""
+    searched: list[object] = []
+    monkeypatch.setattr("cfree.planning.clearance._among_discs", lambda *arguments: searched.append(arguments) or [])
+    disc, bounds = cfree.Curved.circle((0, 0), 1), (-4, -2, 4, 2)
+    walls = [cfree.Curved.circle((0, y), 1) for y in (-3, 3)]
+    scene = cfree.Scene(disc, walls, bounds=bounds, start=(-3, 0, 0), goal=(3, 0, 0))
+    path = cfree.plan(scene, clearance=1)
+    assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+    with pytest.raises(cfree.UndecidedError):
+        cfree.plan(scene, clearance="1.0001", tolerance=0.01)
+    assert not searched

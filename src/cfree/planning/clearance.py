@@ -144,7 +144,7 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
         if isinstance(held, Stuck | Unreachable):
             more = f"if it keeps a little more than {float(clearance):g}"
             raise UndecidedError(f"{held.said()}, {more}; give another clearance")
-    if paths := _among_discs(query, goal):
+    if options.exact_discs and (paths := _among_discs(query, goal)):
         return cheapest(paths, larger, options.preferences)
     smaller = _grown(scene, inside, scene.bounds)
     inner = PosePlanner(smaller)

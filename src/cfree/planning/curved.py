@@ -312,7 +312,7 @@ class CurvedQuery:
         except UndecidedError as error:
             self._reason = str(error)
             return None
-        options, seconds = replace(self.options, work=self._work), self.options.max_seconds
+        options, seconds = replace(self.options, work=self._work, exact_discs=False), self.options.max_seconds
         if not outward:
             options = replace(options, improve=0.0, vehicle=None)  # a proof holds for every vehicle
         if seconds is not None:

@@ -28,6 +28,9 @@ class Options:
         As in `cfree.plan`; 0 if none is wanted.
     vehicle : Vehicle or None
         The machine that drives; None for a robot that moves in any direction.
+    exact_discs : bool
+        Search for a path that keeps a clearance with the disc itself where polygons leave it open; False in a scene of
+        polygons that stands for another.
     phase, stop, work
         As in `Caller`.
     """
@@ -41,6 +44,7 @@ class Options:
     max_seconds: float | None = None
     progress: Callable[[float], object] | None = None
     vehicle: Vehicle | None = None
+    exact_discs: bool = True
     phase: Phase = nullcontext
     stop: threading.Event = field(default_factory=threading.Event)
     work: Work | None = None

@@ -256,7 +256,7 @@ def _roomy(question: Question, start: Pose, goal: Pose, way: list[Pose]) -> Sequ
         return None
     for exponent in ROOMS:
         clearance = Fraction(question.planner.angle_scale) / 2**exponent
-        options = replace(question.options, clearance=clearance, improve=0.0, objective="balanced")
+        options = replace(question.options, clearance=clearance, improve=0.0, objective="balanced", exact_discs=False)
         try:
             answer = plan_at_distance(question.scene, start, goal, options)
         except (UndecidedError, InvalidPoseError):
