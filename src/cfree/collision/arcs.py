@@ -159,14 +159,12 @@ def _parts(piece: Piece) -> list[Curve] | None:
         return [(piece.start, piece.end, NOWHERE, 0)]
     if not isinstance(piece, Span):
         return None
-    (ux, uy), (vx, vy) = piece.u, piece.v
-    if ux * vx + uy * vy or ux * ux + uy * uy != vx * vx + vy * vy:
+    if not piece.is_circular:
         return None
-    turn = 1 if ux * vy > uy * vx else -1
     places = [piece.at(k, Fraction(0)) for k in range(piece.quarters + 1)]
     if piece.rest:
         places.append(piece.end)
-    return [(p, q, piece.center, turn) for p, q in pairwise(places)]
+    return [(p, q, piece.center, piece.sense) for p, q in pairwise(places)]
 
 
 def _refuse_slide(motion: Motion) -> None:

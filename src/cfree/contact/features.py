@@ -23,7 +23,7 @@ from cfree.curves.curved import Curved
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Piece, Span
 from cfree.errors import UnsupportedError
-from cfree.exact.number import ExactPoint, IntPoint, angle
+from cfree.exact.number import ExactPoint, IntPoint, angle, rational_root
 from cfree.exact.orientation import Location, Vector, locate_in_sector
 from cfree.polygons.polygon import Polygon
 
@@ -195,11 +195,8 @@ def shape_features(shape: Polygon | Curved) -> ShapeFeatures:
 
 def signed_root(signed_square: Fraction) -> Fraction | None:
     """Return the fraction x with x |x| equal to this number, None if there is none."""
-    size = abs(signed_square)
-    root = Fraction(math.isqrt(size.numerator), math.isqrt(size.denominator))
-    if root * root != size:
-        return None
-    return root if signed_square > 0 else -root
+    root = rational_root(abs(signed_square))
+    return root if root is None or signed_square > 0 else -root
 
 
 # --- polygons ---
@@ -264,9 +261,8 @@ def _side(piece: Piece, place: str) -> _Side:
     match piece:
         case Line(start, end):
             return _Side(start, end)
-        case Span(centre, u, v) if _dot(u, v) == 0 and _dot(u, u) == _dot(v, v):
-            sweep = piece.quarters * math.pi / 2 + 2 * math.atan(piece.rest)
-            return _Side(piece.at(0, Fraction(0)), piece.end, centre, 1 if _cross(u, v) > 0 else -1, sweep)
+        case Span(centre) if piece.is_circular:
+            return _Side(piece.at(0, Fraction(0)), piece.end, centre, piece.sense, piece.sweep)
     raise UnsupportedError(f"{place}: neither a segment nor an arc of a circle; give shape.outer(error)")
 
 

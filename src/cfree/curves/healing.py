@@ -15,7 +15,7 @@ from fractions import Fraction
 
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Arc, Bezier, Cubic, GivenRing, Piece, Segment, Span
-from cfree.exact.number import ExactPoint, simplest_between
+from cfree.exact.number import ExactPoint, rational_root, simplest_between
 
 WIDEST_CORNER = 0.01  # angle of a corner that is still taken for rounding
 CORNER_SHARE = 8  # a corner is rounding if moving its pieces' ends by this many tolerances could make it
@@ -80,7 +80,7 @@ def _runs(pieces: Sequence[Piece], tolerance: float) -> list[list[Piece]]:
 
 def _continues(run: list[Piece], piece: Piece, tolerance: float) -> bool:
     """True if a piece goes on along the circle of a run of arcs, to half a turn at most."""
-    arcs = [arc for arc in (*run, piece) if isinstance(arc, Span) and _is_circular(arc)]
+    arcs = [arc for arc in (*run, piece) if isinstance(arc, Span) and arc.is_circular]
     if len(arcs) <= len(run):
         return False
     first, last = arcs[0], arcs[-1]
@@ -88,7 +88,7 @@ def _continues(run: list[Piece], piece: Piece, tolerance: float) -> bool:
         _cross(first.u, first.v) * _cross(last.u, last.v) > 0
         and _distance(first.center, last.center) <= tolerance
         and abs(math.hypot(*map(float, first.u)) - math.hypot(*map(float, last.u))) <= tolerance
-        and sum(map(_sweep, arcs)) <= math.pi + WIDEST_CORNER
+        and sum(arc.sweep for arc in arcs) <= math.pi + WIDEST_CORNER
     )
 
 
@@ -219,24 +219,16 @@ def _segment(piece: Piece) -> Segment:
 def _is_tangent(pieces: Sequence[Piece], k: int, tolerance: float) -> bool:
     """True if a piece is a circular arc of at most half a turn, nearly tangent to lines before and after it."""
     arc, before, after = pieces[k], pieces[k - 1], pieces[(k + 1) % len(pieces)]
-    if not (isinstance(arc, Span) and isinstance(before, Line) and isinstance(after, Line) and _is_circular(arc)):
+    if not (isinstance(arc, Span) and isinstance(before, Line) and isinstance(after, Line) and arc.is_circular):
         return False
     back = _minus(arc.end, arc.center)
     leaving = (-back[1], back[0]) if _cross(arc.u, arc.v) > 0 else (back[1], -back[0])
     lines = _vector(before), _vector(after)
     shortest = min(math.hypot(*_float(v)) for v in (*lines, _minus(arc.end, _start(arc))))
     widest = min(WIDEST_CORNER, CORNER_SHARE * tolerance / shortest)
-    return _sweep(arc) <= math.pi + widest and all(
+    return arc.sweep <= math.pi + widest and all(
         _dot(v, w) > 0 and abs(_cross(v, w)) <= widest * _dot(v, w) for v, w in ((arc.v, lines[0]), (leaving, lines[1]))
     )
-
-
-def _is_circular(arc: Span) -> bool:
-    return not _dot(arc.u, arc.v) and _dot(arc.u, arc.u) == _dot(arc.v, arc.v)
-
-
-def _sweep(arc: Span) -> float:
-    return arc.quarters * math.pi / 2 + 2 * math.atan(float(arc.rest))
 
 
 def _tangent_arc(
@@ -296,9 +288,8 @@ def _line(piece: Piece, tolerance: float) -> tuple[ExactPoint, ExactPoint]:
 
 
 def _exact_unit(vector: ExactPoint) -> ExactPoint | None:
-    square = _dot(vector, vector)
-    length = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    return (vector[0] / length, vector[1] / length) if length and length * length == square else None
+    length = rational_root(_dot(vector, vector))
+    return (vector[0] / length, vector[1] / length) if length else None
 
 
 def _meeting(one: tuple[ExactPoint, ExactPoint], other: tuple[ExactPoint, ExactPoint]) -> ExactPoint:

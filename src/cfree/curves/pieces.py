@@ -14,7 +14,7 @@ from itertools import pairwise
 from cfree.curves import drawn
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Cubic, Piece, Span
-from cfree.exact.number import ExactPoint
+from cfree.exact.number import ExactPoint, rational_root
 from cfree.polygons.polygon import Polygon
 
 Curve = Sequence[Piece]
@@ -159,10 +159,9 @@ def _extreme(piece: Piece, axis: int, sign: int) -> Fraction:
 
 def _root_above(square: Fraction) -> Fraction:
     """Square root, exact if it is rational, else rounded up."""
-    n, d = square.numerator, square.denominator
-    root = Fraction(math.isqrt(n), math.isqrt(d))
-    if root * root == square:
+    if (root := rational_root(square)) is not None:
         return root
+    n, d = square.numerator, square.denominator
     scale = 1 << 2 * (60 + max(0, d.bit_length() - n.bit_length()))
     return Fraction(math.isqrt(n * scale // d) + 1, math.isqrt(scale))
 

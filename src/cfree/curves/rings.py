@@ -6,6 +6,7 @@ and two conjugate radii of an arc are rational.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -174,6 +175,23 @@ class Span:
     @property
     def end(self) -> ExactPoint:
         return self.at(self.quarters, self.rest)
+
+    @property
+    def is_circular(self) -> bool:
+        """True if it is on a circle: its conjugate radii are perpendicular and equally long."""
+        (a, b), (c, d) = self.u, self.v
+        return a * c + b * d == 0 and a * a + b * b == c * c + d * d
+
+    @property
+    def sense(self) -> int:
+        """1 if it runs counter-clockwise, -1 if clockwise."""
+        (a, b), (c, d) = self.u, self.v
+        return 1 if a * d > b * c else -1
+
+    @property
+    def sweep(self) -> float:
+        """Length of its interval of t, in radians: the angle turned on a circle."""
+        return self.quarters * math.pi / 2 + 2 * math.atan(self.rest)
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,6 +93,18 @@ def common_denominator(fractions: Iterable[Fraction]) -> int:
     return math.lcm(*{fraction.denominator for fraction in fractions})
 
 
+def rational_root(square: Fraction) -> Fraction | None:
+    """Return the square root of a number that is not negative, None if it is irrational.
+
+    Examples
+    --------
+    >>> rational_root(Fraction(9, 4)), rational_root(Fraction(2))
+    (Fraction(3, 2), None)
+    """
+    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    return root if root * root == square else None
+
+
 def simplest_between(low: Fraction, high: Fraction) -> Fraction:
     """Fraction of least denominator in a closed interval, the nearest to 0 of those.
 

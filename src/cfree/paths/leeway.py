@@ -14,7 +14,7 @@ from cfree.scene.dilation import grown_by_square
 from cfree.scene.scene import grown_scene, with_robot
 
 if TYPE_CHECKING:
-    from cfree.scene.scene import Scene
+    from cfree.scene.scene import Bounds, Scene
 
 
 def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:
@@ -29,14 +29,14 @@ def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:
     >>> [keeps_leeway(Path(Pose(0, 0), [Translation((9, 0))]), scene, Fraction(k, 4)) for k in (4, 5)]
     [True, False]
     """
-    if scene.curved:
-        return _keeps_among_arcs(path, scene, leeway)
     bounds = scene.bounds
     if bounds is not None:
         x0, y0, x1, y1 = bounds
         bounds = x0 + leeway, y0 + leeway, x1 - leeway, y1 - leeway
         if bounds[0] >= bounds[2] or bounds[1] >= bounds[3]:
             return False
+    if scene.curved:
+        return _keeps_among_arcs(path, scene, leeway, bounds)
     try:
         larger = with_robot(scene, grown_by_square(scene, leeway) if leeway else scene.robot, bounds)
     except UnsupportedError:  # coordinates out of range
@@ -44,14 +44,8 @@ def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:
     return path.is_free(MotionChecker(larger))
 
 
-def _keeps_among_arcs(path: Path, scene: Scene, leeway: Fraction) -> bool:
-    """Likewise for a robot larger by a disc."""
-    bounds = scene.bounds
-    if bounds is not None:
-        x0, y0, x1, y1 = bounds
-        bounds = x0 + leeway, y0 + leeway, x1 - leeway, y1 - leeway
-        if bounds[0] >= bounds[2] or bounds[1] >= bounds[3]:
-            return False
+def _keeps_among_arcs(path: Path, scene: Scene, leeway: Fraction, bounds: Bounds | None) -> bool:
+    """Likewise for a robot larger by a disc, within these bounds."""
     larger = grown_scene(scene, leeway) if leeway else copy(scene)
     object.__setattr__(larger, "bounds", bounds)
     arcs = arcs_of(larger)

@@ -49,10 +49,11 @@ class ArcPlanner(PosePlanner):
         If a robot or workspace has no polygon inside.
     """
 
+    is_among_arcs = True
+
     def __init__(self, arcs: ArcScene, near: Approximations) -> None:
         super().__init__(near.scene(outward=False))
-        self.arcs = self.shapes = arcs
-        self.true, self._near = near.exact, near
+        self.arcs, self.true, self._near = arcs, near.exact, near
         count = len(near.exact.robot)
         errors = near.errors[:count], near.errors[count:]
         few = len(self.scene.obstacles) < len(near.exact.obstacles)  # one has no polygon inside
@@ -61,7 +62,7 @@ class ArcPlanner(PosePlanner):
     @cached_property
     def checker(self) -> MotionChecker:
         """Checker of motions among the shapes themselves."""
-        return TrueMotions(self.scene, self.shapes)
+        return TrueMotions(self.scene, self.arcs)
 
     @cached_property
     def fits(self) -> Fits:

@@ -15,7 +15,7 @@ from itertools import chain, combinations, islice, product
 
 from cfree.collision.arcs import Curve, curves_of
 from cfree.exact.half_angle import half_angle_rotation
-from cfree.exact.number import ExactPoint, simplest_between
+from cfree.exact.number import ExactPoint, rational_root, simplest_between
 from cfree.exact.pose import Pose, pose_at
 from cfree.scene.scene import AnyShape, Scene
 
@@ -161,9 +161,8 @@ def _feature(curve: Curve, grown: Fraction) -> Iterator[Feature]:
 
 def _root(square: Fraction) -> Fraction:
     """Square root; if it is not rational, a rational number close to it."""
-    n, d = math.isqrt(square.numerator), math.isqrt(square.denominator)
-    if n * n == square.numerator and d * d == square.denominator:
-        return Fraction(n, d)
+    if (root := rational_root(square)) is not None:
+        return root
     return Fraction(math.isqrt(square.numerator * square.denominator * DIGITS**2), square.denominator * DIGITS)
 
 

@@ -129,7 +129,7 @@ def _narrow_runs(planner: ArcPlanner, path: Path) -> Iterator[tuple[float, np.nd
     rows = np.column_stack([samples.xy, samples.theta])
     turned = rows.copy()
     turned[:, 2] = np.mod(turned[:, 2], 2 * math.pi)
-    is_free = planner.shapes.are_free(turned)
+    is_free = planner.arcs.are_free(turned)
     travel = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(rows[:, :2], axis=0).T))])
     edges = np.flatnonzero(np.diff(np.concatenate([[True], is_free, [True]]).astype(int)))
     for begin, end in edges.reshape(-1, 2).tolist():
@@ -230,7 +230,7 @@ def ways_out(planner: ArcPlanner, pose: Pose, other: Pose) -> list[Way]:
         The other end of the path: turns may go to its orientation.
     """
     near = TOUCHING * planner.angle_scale
-    if planner.shapes.distance(pose, near)[0] > near:
+    if planner.arcs.distance(pose, near)[0] > near:
         return []
     place, ways = (pose.x, pose.y), list[Way]()
     lengths = [planner.angle_scale * 2.0**k for k in range(3, -5, -1)]

@@ -13,7 +13,6 @@ from functools import cached_property
 from itertools import pairwise
 
 import cfree._core as _core
-from cfree.collision.arcs import ArcScene
 from cfree.collision.motion import joining
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.nearest_free import refuse_forbidden
@@ -50,7 +49,7 @@ class PosePlanner:
         Computed at first use by default.
     """
 
-    arcs: ArcScene | None = None  # of a planner among round shapes, whose polygons are a guide
+    is_among_arcs = False  # True of a planner among round shapes, whose polygons are a guide
 
     def __init__(self, scene: Scene, space: FreeSpace | None = None) -> None:
         self.scene, self._space = scene, space

@@ -52,7 +52,7 @@ class TruePlanner(ArcPlanner):
         """A planner with finer polygons, whose distances are nearer to the truth: for paths that are improved."""
         near = copy(self._near)
         near.errors = [max(error / FINER, near.least(k)) if error else error for k, error in enumerate(near.errors)]
-        return ArcPlanner(self.shapes, near)
+        return ArcPlanner(self.arcs, near)
 
     def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or a search give one."""

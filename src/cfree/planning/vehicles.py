@@ -122,7 +122,7 @@ class Question:
         """True if the robot touches something at a free pose."""
         x0, y0, x1, y1 = self.scene.bounds or (pose.x - 1, pose.y - 1, pose.x + 1, pose.y + 1)
         is_certainly_apart = _driving(self, [pose], 0.0, "short").distance > 0 and x0 < pose.x < x1 and y0 < pose.y < y1
-        return not is_certainly_apart and (self.planner.arcs is not None or bool(self.onward.pairs(pose)))
+        return not is_certainly_apart and (self.planner.is_among_arcs or bool(self.onward.pairs(pose)))
 
 
 def drive_along(
@@ -219,7 +219,7 @@ def _ways_out(question: Question, pose: Pose, name: str, other: Pose) -> Explore
     if not question.touches(pose):
         return None
     touching = question.onward if name == "start" else question.back
-    if question.planner.arcs is None:
+    if not question.planner.is_among_arcs:
         found, why = explore(touching, question.checker, pose, goal=other), "where it could leave is irrational"
     else:
         size, why = robot_length(question.scene, question.vehicle), "no first motion was found that leaves"

@@ -290,16 +290,17 @@ class Scene(Shown, Keeping):
         >>> Scene([(0, 0), (1, 0), (0, 1)]).grown("1/2").robot
         (<Curved in (-0.5, -0.5, 1.5, 1.5), 0 holes>,)
         """
-        other = copy(self)
-        object.__setattr__(other, "robot", tuple(_grown(shape, to_fraction(by)) for shape in self.robot))
-        object.__setattr__(other, "curved", True)
-        return other
+        return _with_round_robot(self, [_grown(shape, to_fraction(by)) for shape in self.robot])
 
 
 def grown_scene(scene: Scene, by: Fraction) -> Scene:
     """Return the scene with its robot grown by a disc, whatever its curves; for planners."""
-    other = copy(scene)
     robot = [part._grown_by(by) if isinstance(part, Curved) else _grown(part, by) for part in scene.robot]
+    return _with_round_robot(scene, robot)
+
+
+def _with_round_robot(scene: Scene, robot: Sequence[Curved]) -> Scene:
+    other = copy(scene)
     object.__setattr__(other, "robot", tuple(robot))
     object.__setattr__(other, "curved", True)
     return other

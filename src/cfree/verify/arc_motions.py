@@ -24,8 +24,6 @@ from cfree.verify.arcs import (
     Part,
     Point,
     Region,
-    dot,
-    minus,
     overlap,
     rational,
     region_of,
@@ -36,6 +34,7 @@ from cfree.verify.course import ALL, EVEN, Course, Interval, Placed, Poly, berns
 from cfree.verify.polygons import near
 from cfree.verify.positivity import positive, samples
 from cfree.verify.surds import Number
+from cfree.verify.surfaces import dot, minus
 
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene

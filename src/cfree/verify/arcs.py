@@ -11,7 +11,7 @@ two parts cross, and all points tried, have coordinates a + b sqrt(k).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, cmp_to_key
@@ -26,6 +26,7 @@ from cfree.curves.rings import Span
 from cfree.exact.number import ExactPoint
 from cfree.scene.scene import AnyShape
 from cfree.verify.surds import NONE, Number, Surd, between, order, sum_sign, surd_sign
+from cfree.verify.surfaces import cross, dot, minus
 
 Point = tuple[Number, Number]
 ZERO, ONE = fmpq(0), fmpq(1)
@@ -182,18 +183,6 @@ class Region:
 def add(x: Surd, y: Surd) -> Surd:
     """Sum of two numbers with one square root."""
     return x[0] + y[0], x[1] + y[1], x[2]
-
-
-def cross(u: Point, v: Point) -> Number:
-    return u[0] * v[1] - u[1] * v[0]
-
-
-def dot(u: Point, v: Point) -> Number:
-    return u[0] * v[0] + u[1] * v[1]
-
-
-def minus(p: Point, q: Point) -> Point:
-    return p[0] - q[0], p[1] - q[1]
 
 
 def exact(point: ExactPoint) -> Point:
@@ -427,8 +416,3 @@ def _is_near(point: Point, part: Part, radius: Number) -> bool:
     gap = {frozenset({0}): ONE, frozenset({1}): -ONE}
     squares = square, part.square
     return all(sum_sign({**{r: k * v for r, v in gap.items()}, NONE: -radius}, squares) < 0 for k in (1, -1))
-
-
-def any_overlap(robot: Iterable[Region], obstacles: Sequence[Region]) -> bool:
-    """True if the interior of a part of the robot meets that of an obstacle."""
-    return any(overlap(part, obstacle) for part in robot for obstacle in obstacles)

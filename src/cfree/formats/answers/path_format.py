@@ -251,6 +251,12 @@ class AnswerModel(Strict):
     def stamp(self) -> Stamp | None:
         return None if self.scene is None else self.scene.made
 
+    @property
+    def context(self) -> dict[str, Any]:
+        """Arguments that every kind of answer takes."""
+        moved = self.moved.made if self.moved else None
+        return {"units": self.units, "frame": self.frame, "stamp": self.stamp, "moved": moved, "whole": self.part_of}
+
 
 class PathModel(AnswerModel):
     """A path: a start, motions, and the goal they lead to."""
@@ -272,7 +278,5 @@ class PathModel(AnswerModel):
     def driven(self) -> Path:
         """The path of the motions from the start."""
         motions = (m for model in self.motions for m in model.motions)
-        clearance = self.clearance or Fraction(0), tuple(self.disc)
-        asked = self.moved.made if self.moved else None
-        context = self.units, self.frame, self._of_polygons, self.stamp
-        return Path(self.ends[0], motions, *context, *clearance, moved=asked, whole=self.part_of, vehicle=self.vehicle)
+        room: Any = {"clearance": self.clearance or Fraction(0), "disc": tuple(self.disc)}
+        return Path(self.ends[0], motions, scene=self._of_polygons, vehicle=self.vehicle, **room, **self.context)

@@ -141,12 +141,8 @@ class SeparationModel(AnswerModel):
             bounds=self.larger_bounds,
             clearance=self.clearance or Fraction(0),
             cores=tuple(part.polygon for part in self.cores),
-            units=self.units,
-            frame=self.frame,
             scene=self._of_polygons,
-            stamp=self.stamp,
-            moved=self.moved.made if self.moved else None,
-            whole=self.part_of,
+            **self.context,
         )
 
 

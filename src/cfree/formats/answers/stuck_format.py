@@ -43,9 +43,5 @@ class StuckModel(AnswerModel):
             self.of,
             tuple(self.rail),  # type: ignore[arg-type]
             tuple(self.obstacles),
-            units=self.units,
-            frame=self.frame,
-            stamp=self.stamp,
-            moved=self.moved.made if self.moved else None,
-            whole=self.part_of,
+            **self.context,
         )

@@ -79,10 +79,6 @@ class UnreachableModel(AnswerModel):
             tuple(map(tuple, self.pieces)),
             self.grid.made,
             self.boxes,
-            units=self.units,
-            frame=self.frame,
             scene=self._of_polygons,
-            stamp=self.stamp,
-            moved=self.moved.made if self.moved else None,
-            whole=self.part_of,
+            **self.context,
         )

@@ -35,7 +35,7 @@ from cfree.curves.drawn import (
     turn,
 )
 from cfree.curves.hulls import box_of
-from cfree.exact.number import ExactPoint
+from cfree.exact.number import ExactPoint, rational_root
 from cfree.formats.drawings.content import Curve
 from cfree.formats.drawings.source import CURVE_SHARE, Source
 from cfree.polygons.disc import around_disc
@@ -331,10 +331,7 @@ def _exact(width: Width) -> Fraction:
 def _unit(line: Line) -> tuple[ExactPoint, bool]:
     """Return the direction of a line, and True if it is exact; else its doubles."""
     x, y = line.end[0] - line.start[0], line.end[1] - line.start[1]
-    square = x * x + y * y
-    p, q = math.isqrt(square.numerator), math.isqrt(square.denominator)
-    if p * p == square.numerator and q * q == square.denominator:
-        length = Fraction(p, q)
+    if (length := rational_root(x * x + y * y)) is not None:
         return (x / length, y / length), True
     scale = max(abs(x), abs(y))
     u, v = float(x / scale), float(y / scale)
