@@ -54,7 +54,7 @@ def test_options_of_plan_are_one_frozen_record() -> None:
     wanted = {"clearance", "improve", "objective", "preferences"}
     wanted |= {"tolerance", "nearest_free", "max_seconds", "progress", "vehicle"}
     assert wanted <= set(inspect.signature(cfree.plan).parameters)
-    assert {item.name for item in fields(Options)} - {"phase", "stop", "work"} == wanted
+    assert {item.name for item in fields(Options)} - {"exact_discs", "phase", "stop", "work"} == wanted
     with pytest.raises(FrozenInstanceError):
         Options().improve = 1.0  # type: ignore[misc]
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from contextlib import suppress
 from functools import cached_property
 
 import cfree._core as _core
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import ArcScene
 from cfree.collision.motion_checker import MotionChecker
-from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.planning.contact_fits import Fits
 from cfree.planning.options import Options
@@ -53,7 +51,7 @@ class ArcPlanner(PosePlanner):
 
     def __init__(self, arcs: ArcScene, near: Approximations) -> None:
         super().__init__(near.scene(outward=False))
-        self.arcs, self.true, self._near = arcs, near.exact, near
+        self.arcs, self.true = arcs, near.exact
         count = len(near.exact.robot)
         errors = near.errors[:count], near.errors[count:]
         few = len(self.scene.obstacles) < len(near.exact.obstacles)  # one has no polygon inside
@@ -77,12 +75,3 @@ class ArcPlanner(PosePlanner):
         """Return poses of a path, if simple ways or a search give one."""
         found = self.quick(start, goal, options)
         return None if found is None else [*found]
-
-    def roomy_way(self, start: Pose, goal: Pose, options: Options) -> list[Pose] | None:
-        """Return poses of a path that a search among polygons around the shapes gives."""
-        with suppress(UndecidedError):
-            outer = PosePlanner(self._near.scene(outward=True))
-            if outer.checker.joins([start, start]) and outer.checker.joins([goal, goal]):
-                found = outer.quick(start, goal, options)
-                return None if found is None else [*found]
-        return None

@@ -45,6 +45,7 @@ class TruePlanner(ArcPlanner):
 
     def __init__(self, exact: Scene, clearance: Fraction, arcs: ArcScene, near: Approximations) -> None:
         super().__init__(arcs, near)
+        self._near = near
         self._exact, self._clearance, self._error = exact, clearance, max(near.errors)
 
     @cached_property
@@ -57,7 +58,7 @@ class TruePlanner(ArcPlanner):
     def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or a search give one."""
         way = [start] if start == goal else self.quick(start, goal, options)
-        way = way or self.roomy_way(start, goal, options) or way_out_of_contacts(self, start, goal, options)
+        way = way or way_out_of_contacts(self, start, goal, options)
         return self.finished(way, options) if way else None
 
     def mended(self, path: Path, options: Options) -> Path | Stuck | None:

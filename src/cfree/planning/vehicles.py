@@ -14,12 +14,12 @@ import os
 import threading
 import time
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import count, islice, pairwise
 from typing import Any
 
@@ -374,24 +374,24 @@ def driven(question: Question, way: Sequence[Pose], reach: Reach | None = None) 
     improve, shares = question.options.improve, SHARES[question.options.objective]
     begin = time.perf_counter()
     end = begin + improve if improve else math.inf
-    found = _best(question, way, shares, begin, _middle(begin, end), reach)
+    easily = cache(lambda: _guide(question, way, GUIDED))
+    found = _best(question, way, easily, shares, begin, _middle(begin, end), reach)
     if isinstance(found, Unreachable):
         return found
     drive, share = found
     while improve != 0 and drive.cusps > MANY_CUSPS and share > 0 and not question.enough.is_set():
         now = time.perf_counter()
         with suppress(UndecidedError):  # less of the distance may save changes of direction
-            nearer = _best(question, way, [s for s in shares if s < share], now, _middle(now, end))
+            nearer = _best(question, way, easily, [s for s in shares if s < share], now, _middle(now, end))
             if not isinstance(nearer, Unreachable) and _cost(drive) > MOST_DEARER * _cost(nearer[0]):
                 drive, share = nearer
                 continue
         break
+    stop = question.options.stop
     with suppress(KeyboardInterrupt):  # there is a path already
-        while time.perf_counter() < end < math.inf and not question.enough.is_set():
-            if question.options.stop.is_set():
-                raise KeyboardInterrupt
+        while time.perf_counter() < end < math.inf and not (question.enough.is_set() or stop.is_set()):
             drive.run(BLOCK)
-    if question.options.stop.is_set():
+    if stop.is_set():
         raise KeyboardInterrupt
     return _path(question, drive)
 
@@ -403,12 +403,15 @@ def _middle(begin: float, end: float) -> float:
 def _best(
     question: Question,
     way: Sequence[Pose],
+    easily: Callable[[], Sequence[Pose]],
     shares: Sequence[float],
     begin: float,
     end: float,
     reach: Reach | None = None,
 ) -> tuple[_core.Drive, float] | Unreachable:
     """Return the cheapest shortened words along a path that keep one of some shares of its distance; and the share.
+
+    They also follow `easily`, a path beside it that is easily driven.
 
     Raises
     ------
@@ -417,8 +420,8 @@ def _best(
     """
     improve, objective = question.options.improve, question.options.objective
     drives, guides, shortfalls = list[_core.Drive](), list[tuple[Sequence[Pose], float]](), list[tuple[float, int]]()
-    for preferences in (NONE, GUIDED):
-        guide = way if preferences is NONE else _guide(question, way, preferences)
+    for is_first in (True, False):
+        guide = way if is_first else easily()
         drive, share, reached = _followed(question, guide, shares)
         if drive is None:
             shortfalls.append(reached)

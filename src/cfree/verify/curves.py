@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import pairwise, zip_longest
 from typing import Any
 
@@ -22,6 +21,7 @@ from cfree.exact.number import ExactPoint as FractionPoint
 from cfree.polygons.polygon import Polygon
 from cfree.scene.naming import placed
 from cfree.scene.scene import AnyShape, Scene
+from cfree.verify.arcs import exact, rational
 
 DEEPEST = 60  # times that a piece is halved
 
@@ -85,7 +85,7 @@ def _shape(name: str, shape: AnyShape, polygons: Sequence[Polygon], outward: boo
             yield name, "the answer's polygon is another"
         return
     if shape.grown:
-        base, radius = _base(shape), _number(shape.grown)
+        base, radius = _base(shape), rational(shape.grown)
         for number, (piece, polygon) in enumerate(zip_longest(base.pieces, polygons)):
             corners = _ring([base.exact_vertices[k] for k in piece])
             fits = polygon is not None and len(polygon.ring_offsets) == 2
@@ -113,16 +113,8 @@ def _with_polygons(curves: Sequence[Curve], rings: Sequence[Sequence[FractionPoi
     return [outer, *(next((hole for hole in holes if _is_inside(hole, _ring(ring))), holes[0]) for ring in rings[1:])]
 
 
-def _number(value: Fraction) -> Number:
-    return fmpq(value.numerator, value.denominator)
-
-
-def _point(p: FractionPoint) -> ExactPoint:
-    return _number(p[0]), _number(p[1])
-
-
 def _ring(points: Sequence[FractionPoint]) -> list[ExactPoint]:
-    return [*map(_point, points)]
+    return [*map(exact, points)]
 
 
 # --- grown shapes ---
@@ -207,16 +199,16 @@ class _Bezier:
 def _parts(piece: Piece) -> Iterator[_Arc | _Bezier]:
     match piece:
         case Line(start, end):
-            yield _Bezier((_point(start), _point(end)))
+            yield _Bezier((exact(start), exact(end)))
         case Cubic(points):
-            yield _Bezier(tuple(map(_point, points)))
+            yield _Bezier(tuple(map(exact, points)))
         case _:
-            center, u, v = map(_point, (piece.center, piece.u, piece.v))
+            center, u, v = map(exact, (piece.center, piece.u, piece.v))
             for _ in range(piece.quarters):
                 yield _Arc(center, u, v, fmpq(0), fmpq(1))
                 u, v = v, (-u[0], -u[1])
             if piece.rest:
-                yield _Arc(center, u, v, fmpq(0), _number(piece.rest))
+                yield _Arc(center, u, v, fmpq(0), rational(piece.rest))
 
 
 def _is_around(curve: Sequence[Piece], ring: Ring) -> bool:
