@@ -117,6 +117,33 @@ static void small_integers_stay_exact() {
     CHECK(zeros > 100);
 }
 
+// Squares of what lies inside: (m - r)^2 <= x <= (m + r)^2 for x in the ball, as exact numbers.
+static void square_roots_are_enclosed() {
+    for (int k = 0; k < 40000; ++k) {
+        const int spreads[] = {2, 40, 300, 1000};
+        Both x = tree(k % 3, spreads[k / 4 % 4], false);
+        if (x.truth.n.sign() < 0) x = {-x.ball, -x.truth};
+        const Ball root = sqrt(x.ball);
+        if (!is_finite(root)) {
+            CHECK(!certain_sign(root) && !is_finite(x.ball));
+            continue;
+        }
+        const Exact middle = Exact::of(root.hi) + Exact::of(root.lo), low = middle + -Exact::of(root.radius);
+        const Exact high = middle + Exact::of(root.radius);
+        CHECK((high * high + -x.truth).n.sign() >= 0 && (low.n.sign() <= 0 || (x.truth + -(low * low)).n.sign() >= 0));
+        if (x.ball.radius == 0) CHECK(root.radius <= std::abs(root.hi) * 0x1p-100 + 0x1p-530);
+    }
+    for (int n = 0; n < 5000; ++n) {
+        const Ball root = sqrt(ball(Int(n) * n << 60u, 0));
+        CHECK(root.radius == 0 && root.hi == n * 0x1p30 && root.lo == 0);
+    }
+    const Int wide = (Int(1) << 100) + 1;  // its square is too long
+    CHECK(std::abs(sqrt(ball(wide * wide, 0)).radius) < 0x1p0);
+    CHECK(!certain_sign(sqrt(Ball(1, 0, 1))) && !certain_sign(sqrt(Ball(-0x1p-20, 0, 0x1p-10))) && !is_finite(sqrt(Ball(-1))));
+    CHECK(certain_sign(sqrt(Ball(0.0))) == 0 && certain_sign(sqrt(Ball(0x1p-900))) == 1);
+    CHECK(!is_finite(sqrt(Ball(0x1p1023) + Ball(0x1p1023))));
+}
+
 static void overflow_is_never_certain() {
     const Ball huge(0x1p1000);
     for (const Ball& x : {huge * huge, huge * huge - huge * huge, -(huge * huge), (huge * huge) * Ball(0.0)}) CHECK(!certain_sign(x));
@@ -143,6 +170,7 @@ int main() {
     the_truth_is_inside();
     subnormal_numbers_are_enclosed();
     small_integers_stay_exact();
+    square_roots_are_enclosed();
     overflow_is_never_certain();
     long_integers_are_enclosed();
     return failures > 0;

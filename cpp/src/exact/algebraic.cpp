@@ -7,7 +7,8 @@
 
 namespace cfree {
 
-void RealRoot::halve() {
+template <class P>
+void RootOf<P>::halve() {
     if (is_dyadic()) return;
     heed_stop();
     const Dyadic mid = Dyadic::middle(lo, hi);
@@ -18,7 +19,8 @@ void RealRoot::halve() {
 }
 
 // Largest d such that the interval is certainly narrower than 2^-d, or 0.
-unsigned RealRoot::digits() const {
+template <class P>
+unsigned RootOf<P>::digits() const {
     const unsigned k = std::max(lo.k, hi.k);
     const Int width = (hi.n << (k - hi.k)) - (lo.n << (k - lo.k));
     const unsigned size = width.is_zero() ? 0 : static_cast<unsigned>(msb(width)) + 1;
@@ -27,7 +29,8 @@ unsigned RealRoot::digits() const {
 
 // Cut the interval into 2^b parts, and test the part with the chord's root and its neighbours: once half of the digits are
 // right, this gives the others.
-void RealRoot::narrow() {
+template <class P>
+void RootOf<P>::narrow() {
     const unsigned k = std::max(lo.k, hi.k);
     const Int from = lo.n << (k - lo.k), width = (hi.n << (k - hi.k)) - from;
     heed_stop();
@@ -72,16 +75,20 @@ namespace {
 constexpr int few = 6;
 constexpr unsigned many = 40;
 
+int roots_in(const Poly& squarefree, const Dyadic& lo, const Dyadic& hi) { return Sturm(squarefree).roots_in(lo, hi); }
+
 // True if the root of x is one of g, a divisor of its polynomial.
-bool is_root_of_divisor(const Poly& g, const RealRoot& x) {
+template <class P>
+bool is_root_of_divisor(const P& g, const RootOf<P>& x) {
     if (g.size() <= 1) return false;
     const int l = sign_at(g, x.lo), h = sign_at(g, x.hi);
     if (l == 0 || h == 0 || l != h) return true;
-    return g.size() > 2 && Sturm(squarefree(g)).roots_in(x.lo, x.hi) > 0;
+    return g.size() > 2 && roots_in(squarefree(g), x.lo, x.hi) > 0;
 }
 
 // Order of a root and a dyadic number in its interval.
-int order_at(const RealRoot& x, const Dyadic& at) {
+template <class P>
+int order_at(const RootOf<P>& x, const Dyadic& at) {
     if (x.is_dyadic()) return compare(x.lo, at);
     const int s = sign_at(x.p, at);
     if (s == 0) return 0;
@@ -90,7 +97,8 @@ int order_at(const RealRoot& x, const Dyadic& at) {
 
 }  // namespace
 
-int sign_at(const Poly& q, RealRoot& x) {
+template <class P>
+int sign_at(const P& q, RootOf<P>& x) {
     if (q.empty()) return 0;
     bool differ = false;
     for (int k = 0; !x.is_dyadic(); ++k, x.narrow()) {
@@ -102,7 +110,8 @@ int sign_at(const Poly& q, RealRoot& x) {
     return sign_at(q, x.lo);
 }
 
-int compare(RealRoot& x, RealRoot& y) {
+template <class P>
+int compare(RootOf<P>& x, RootOf<P>& y) {
     if (compare(x.hi, y.lo) < 0) return -1;
     if (compare(y.hi, x.lo) < 0) return 1;
     bool differ = false;
@@ -112,27 +121,26 @@ int compare(RealRoot& x, RealRoot& y) {
         if (x.is_dyadic()) return -order_at(y, x.lo);
         if (y.is_dyadic()) return order_at(x, y.lo);
         if (differ || (k < 2 * few && std::min(x.digits(), y.digits()) < many)) continue;
-        const RealRoot both{{}, compare(x.lo, y.lo) < 0 ? y.lo : x.lo, compare(x.hi, y.hi) < 0 ? x.hi : y.hi};
+        const RootOf<P> both{{}, compare(x.lo, y.lo) < 0 ? y.lo : x.lo, compare(x.hi, y.hi) < 0 ? x.hi : y.hi};
         if (is_root_of_divisor(greatest_common_divisor(x.p, y.p), both)) return 0;
         differ = true;
     }
 }
 
-int sign_after(const Poly& q, RealRoot& x) {
-    Poly p = q;
-    for (;;) {
-        if (const int s = sign_at(p, x); s != 0) return s;
-        p = derivative(p);
-    }
+template <class P>
+int compare(const RootOf<P>& x, const Dyadic& y) {
+    if (compare(x.hi, y) < 0) return -1;
+    if (compare(y, x.lo) < 0) return 1;
+    return order_at(x, y);
 }
 
-int sign_before(const Poly& q, RealRoot& x) {
-    int flip = 1;
-    Poly p = q;
-    for (;; flip = -flip) {
-        if (const int s = sign_at(p, x); s != 0) return flip * s;
-        p = derivative(p);
-    }
-}
+template struct RootOf<Poly>;
+template struct RootOf<LongPoly>;
+template int sign_at(const Poly&, RealRoot&);
+template int sign_at(const LongPoly&, LongRoot&);
+template int compare(RealRoot&, RealRoot&);
+template int compare(LongRoot&, LongRoot&);
+template int compare(const RealRoot&, const Dyadic&);
+template int compare(const LongRoot&, const Dyadic&);
 
 }  // namespace cfree

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cfree/exact/squaring.hpp"
+
 namespace cfree {
 
 namespace {
@@ -49,109 +51,38 @@ Sum summed(const std::vector<Int>& c, const std::vector<Int>& roots) {
     return sum;
 }
 
-// Sign of x + y sqrt(d), d >= 0.
-int sign_of(const RootSum& x, const RootSum& y, const RootSum& d) {
-    const int a = x.sign(), b = y.sign() * d.sign();
-    if (a * b >= 0) return a != 0 ? a : b;
-    return a * (x * x - y * y * d).sign();
-}
-
-// Sign of x + y sqrt(d) + z sqrt(e); d, e >= 0.
-int sign_of(const RootSum& x, const RootSum& y, const RootSum& d, const RootSum& z, const RootSum& e) {
-    const int b = y.sign() * d.sign(), c = z.sign() * e.sign();
-    const RootSum first = y * y * d, second = z * z * e;
-    const int roots = b * c >= 0 ? (b != 0 ? b : c) : b * (first - second).sign();
-    const int a = x.sign();
-    if (a * roots >= 0) return a != 0 ? a : roots;
-    return a * sign_of(x * x - first - second, RootSum(-2) * y * z, d * e);
-}
+const auto sign_of = [](const RootSum& x) { return x.sign(); };
 
 Ratio middle(const Ratio& x, const Ratio& y) { return (x + y) * Ratio{1, 2}; }
 
 }  // namespace
 
-RootSum RootSum::root(const Int& n) {
-    const Int whole = root_below(n);
-    if (whole * whole == n) return RootSum(whole);
-    RootSum result;
-    result.roots = {n}, result.c = {0, 1};
-    return result;
+std::vector<Int> joined(const std::vector<Int>& x, const std::vector<Int>& y) {
+    if (x == y || y.empty()) return x;
+    std::vector<Int> all = x;
+    for (const Int& n : y) {
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Int& m) { return m == n || is_square(Int(m * n)); });
+        if (same == all.end()) all.push_back(n);
+        else if (*same != n) *same = gcd(*same, n);
+    }
+    std::sort(all.begin(), all.end());  // so that equal sets of roots are equal
+    return all;
 }
 
+template <>
 int RootSum::sign() const {
     if (roots.empty()) return c[0].sign();
     const Sum sum = summed(c, roots);
     if (std::abs(sum.v) > certain * sum.m) return sum.v > 0 ? 1 : -1;
     if (sum.m == 0) return 0;
-    const auto half = static_cast<std::ptrdiff_t>(c.size() / 2);
-    RootSum a, b;
-    a.roots = b.roots = {roots.begin(), roots.end() - 1};
-    a.c = {c.begin(), c.begin() + half}, b.c = {c.begin() + half, c.end()};
-    return sign_of(a, b, RootSum(roots.back()));
+    const auto [a, b] = split();
+    return sign_by_squaring(a, b, RootSum(roots.back()), sign_of);
 }
 
+template <>
 double RootSum::value() const {
     const Sum sum = summed(c, roots);
     return std::ldexp(sum.v, std::clamp(sum.e, -2000, 2000));
-}
-
-RootSum RootSum::over(const std::vector<Int>& more) const {
-    if (more.size() == roots.size()) return *this;
-    RootSum result;
-    result.roots = more;
-    result.c.assign(std::size_t(1) << more.size(), 0);
-    std::vector<std::size_t> place;
-    for (const Int& n : roots) place.push_back(static_cast<std::size_t>(std::find(more.begin(), more.end(), n) - more.begin()));
-    for (std::size_t k = 0; k < c.size(); ++k) {
-        std::size_t to = 0;
-        for (std::size_t i = 0; i < roots.size(); ++i) to |= (k >> i & 1) << place[i];
-        result.c[to] = c[k];
-    }
-    return result;
-}
-
-static std::vector<Int> together(const std::vector<Int>& x, const std::vector<Int>& y) {
-    std::vector<Int> all = x;
-    for (const Int& n : y)
-        if (std::find(all.begin(), all.end(), n) == all.end()) all.push_back(n);
-    std::sort(all.begin(), all.end());  // so that equal sets of roots are equal
-    return all;
-}
-
-RootSum RootSum::operator-() const {
-    RootSum result = *this;
-    for (Int& n : result.c) n = -n;
-    return result;
-}
-
-RootSum operator+(const RootSum& x, const RootSum& y) {
-    const std::vector<Int> all = together(x.roots, y.roots);
-    RootSum result = x.over(all);
-    const RootSum other = y.over(all);
-    for (std::size_t k = 0; k < result.c.size(); ++k) result.c[k] += other.c[k];
-    return result;
-}
-
-RootSum operator-(const RootSum& x, const RootSum& y) { return x + -y; }
-
-RootSum operator*(const RootSum& x, const RootSum& y) {
-    if (x.roots.empty() && y.roots.empty()) return RootSum(x.c[0] * y.c[0]);
-    const std::vector<Int> all = together(x.roots, y.roots);
-    const RootSum p = x.over(all), q = y.over(all);
-    RootSum result;
-    result.roots = all;
-    result.c.assign(p.c.size(), 0);
-    for (std::size_t i = 0; i < p.c.size(); ++i) {
-        if (p.c[i].is_zero()) continue;
-        for (std::size_t j = 0; j < q.c.size(); ++j) {
-            if (q.c[j].is_zero()) continue;
-            Int term = p.c[i] * q.c[j];
-            for (std::size_t k = 0; k < all.size(); ++k)
-                if ((i & j) >> k & 1) term *= all[k];
-            result.c[i ^ j] += term;
-        }
-    }
-    return result;
 }
 
 QuadraticRoot::QuadraticRoot(Terms terms, bool at_rise) : f(std::move(terms)), rises(at_rise) {}
@@ -176,7 +107,8 @@ int QuadraticRoot::against(const QuadraticRoot& other) const {
     };
     const Form x = form(f), y = form(other.f);
     const RootSum by = rises ? y.q : -y.q, less = other.rises ? -x.q : x.q;
-    return x.q.sign() * y.q.sign() * sign_of(x.p * y.q - y.p * x.q, by, x.d, less, y.d);
+    const int over = x.q.sign() * y.q.sign();
+    return over * sign_by_squaring(x.p * y.q - y.p * x.q, by, x.d, less, RootSum(0), y.d, sign_of);
 }
 
 // Guess of a root in doubles.

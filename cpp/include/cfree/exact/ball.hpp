@@ -5,6 +5,7 @@
 // If nothing is lost it stays zero: the value is exact, and even a zero is certain. This settles ties between small
 // integers; ties between long ones are left to exact integers.
 #pragma once
+#include <limits>
 #include <optional>
 
 #include "cfree/exact/number.hpp"
@@ -75,6 +76,22 @@ inline Ball operator*(const Ball& x, const Ball& y) {
     if (x.radius != 0 || y.radius != 0)
         lost += std::abs(x.hi) * y.radius + std::abs(y.hi) * x.radius + x.radius * y.radius + least_radius;
     return {hi, lo, lost * radius_growth};
+}
+
+// Square root of a number in the ball that is not negative; NaN if there is none. The residual x - y^2 bounds the error of
+// the root y: |sqrt(x) - y| <= |x - y^2| / y. Exact roots stay exact.
+inline Ball sqrt(const Ball& x) {
+    const double most = (std::abs(x.hi) + x.radius) * radius_growth;
+    if (most == 0) return {};
+    if (!(x.hi > 2 * x.radius)) {  // from zero to a bound
+        const double half = x.hi >= -x.radius ? std::sqrt(most) * radius_growth / 2 : std::numeric_limits<double>::quiet_NaN();
+        return {half, 0, half};
+    }
+    const double guess = std::sqrt(x.hi), correction = (std::fma(-guess, guess, x.hi) + x.lo) / (2 * guess);
+    const auto [hi, lo] = two_sum(guess, correction);
+    const Ball y(hi, lo, 0), residual = x - y * y;
+    const double rest = std::abs(residual.hi) + residual.radius;
+    return {hi, lo, rest == 0 ? 0 : rest / hi * radius_growth + least_radius};
 }
 
 // Sign of a ball, if it is certain.

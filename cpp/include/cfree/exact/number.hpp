@@ -53,6 +53,13 @@ inline Int root_below(const Int& n) {
     return root;
 }
 
+// True if n is the square of an integer; most others are known by their last six bits.
+inline bool is_square(const Int& n) {
+    if (n.sign() < 0 || (0x202021202030213u >> static_cast<unsigned>(n % 64u) & 1) == 0) return false;
+    const Int root = root_below(n);
+    return root * root == n;
+}
+
 // Only for numbers known to be wide enough.
 __extension__ typedef __int128 Wide;
 

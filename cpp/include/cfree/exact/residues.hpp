@@ -15,11 +15,18 @@ public:
         const Wide z = static_cast<Wide>(x) * y, m = static_cast<Wide>(static_cast<Word>(z) * inverse_of_p) * p;
         return minus(static_cast<Word>(z >> 64), static_cast<Word>(m >> 64));
     }
-    Word inverse(Word x) const;  // zero for zero
+    Word power(Word x, Word exponent) const;
+    Word inverse(Word x) const { return power(x, p - 2); }  // zero for zero
+    Int value(Word x) const { return times(x, 1); }  // from 0 to p - 1
+    Word modulus() const { return p; }
+    bool is_prime() const;  // of the modulus
 
 private:
     Word p, inverse_of_p, one, square;  // one: 2^64 modulo p; square: its square
 };
+
+// The integers modulo the k-th largest prime below 2^62.
+const Residues& large_field(std::size_t k);
 
 // One of these integers, with a pointer to the others.
 struct Residue {

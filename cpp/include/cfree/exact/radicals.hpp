@@ -1,0 +1,14 @@
+// Values with square roots of polynomials in tau, such as positions on circles: signs at angles, exactly.
+#pragma once
+#include "cfree/exact/surd_polynomial.hpp"
+
+namespace cfree {
+
+// a + b sqrt(d) + (c + f sqrt(d)) sqrt(e); the caller sees to it that d and e are not negative where a sign is taken.
+struct Radicals {
+    SurdPoly a, b, d, c, e, f;
+};
+int sign_at(const Radicals& p, const Dyadic& tau);
+int sign_at(const Radicals& p, LongRoot& x);  // narrows the root's interval
+
+}  // namespace cfree

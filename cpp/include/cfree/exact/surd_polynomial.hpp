@@ -1,0 +1,40 @@
+// Polynomials in tau whose coefficients are sums of square roots of integers: signs at angles, and roots, exactly.
+//
+// The norm is the product over all changes of signs of the roots of integers, so a polynomial with integer coefficients. Each
+// root of the polynomial is one of the norm, but not each of the norm's is one of the polynomial: some belong to conjugates.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "cfree/exact/algebraic.hpp"
+#include "cfree/exact/surd.hpp"
+
+namespace cfree {
+
+// Each of its c, see `Surds`, is a polynomial.
+using SurdPoly = Surds<LongPoly>;
+
+SurdPoly surd_polynomial(std::span<const RootSum> coefficients);  // from the constant up
+SurdPoly derivative(const SurdPoly& p);
+bool is_zero(const SurdPoly& p);  // at every angle
+LongPoly norm(const SurdPoly& p);  // without a common factor of its coefficients; zero only if p is
+
+int sign_at(const SurdPoly& p, const Dyadic& tau);
+// By balls if they are certain, else by squaring; narrows the root's interval.
+int sign_at(const SurdPoly& p, LongRoot& x);
+
+struct SurdRoot {
+    LongRoot at;        // a root of the norm
+    bool changes_sign;  // false: the polynomial only touches zero there
+};
+// The roots strictly between two angles, in order; the polynomial is not zero.
+std::vector<SurdRoot> roots_between(const SurdPoly& p, const Dyadic& lo, const Dyadic& hi);
+
+// Parts of the above for values with more roots, `radicals.hpp`.
+int degree(const SurdPoly& p);
+int size(const SurdPoly& p);                                          // bits of the longest coefficient
+RootSum value_at(const SurdPoly& p, const Dyadic& tau, int degree);   // times 2^(k degree), which is at least p's
+Ball value_at(const SurdPoly& p, const Ball& tau, int size);          // times 2^-size
+Ball narrow_ball(LongRoot& x);                                        // around the root, 2^-106 wide or less
+
+}  // namespace cfree
