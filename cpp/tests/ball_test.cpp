@@ -130,7 +130,8 @@ static void square_roots_are_enclosed() {
         }
         const Exact middle = Exact::of(root.hi) + Exact::of(root.lo), low = middle + -Exact::of(root.radius);
         const Exact high = middle + Exact::of(root.radius);
-        CHECK((high * high + -x.truth).n.sign() >= 0 && (low.n.sign() <= 0 || (x.truth + -(low * low)).n.sign() >= 0));
+        CHECK((high * high + -x.truth).n.sign() >= 0);
+        CHECK(low.n.sign() <= 0 || (x.truth + -(low * low)).n.sign() >= 0);
         if (x.ball.radius == 0) CHECK(root.radius <= std::abs(root.hi) * 0x1p-100 + 0x1p-530);
     }
     for (int n = 0; n < 5000; ++n) {

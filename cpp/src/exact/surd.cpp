@@ -61,7 +61,7 @@ std::vector<Int> joined(const std::vector<Int>& x, const std::vector<Int>& y) {
     if (x == y || y.empty()) return x;
     std::vector<Int> all = x;
     for (const Int& n : y) {
-        const auto same = std::find_if(all.begin(), all.end(), [&](const Int& m) { return m == n || is_square(Int(m * n)); });
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Int& m) { return is_multiple_of_root(m, n); });
         if (same == all.end()) all.push_back(n);
         else if (*same != n) *same = gcd(*same, n);
     }

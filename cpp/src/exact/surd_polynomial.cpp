@@ -56,7 +56,10 @@ int size(const SurdPoly& p) {
 
 RootSum value_at(const SurdPoly& p, const Dyadic& tau, int degree) {
     RootSum value(p.roots, {});
-    for (const LongPoly& part : p.c) value.c.push_back(value_at(part, tau) << (tau.k * static_cast<unsigned>(degree - part.degree())));
+    for (const LongPoly& part : p.c) {
+        const auto missing = static_cast<unsigned>(degree - part.degree());
+        value.c.push_back(value_at(part, tau) << (tau.k * missing));
+    }
     return value;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 #include <algorithm>
 #include <concepts>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "cfree/exact/polynomial.hpp"
 
@@ -46,12 +48,12 @@ LongPoly operator+(LongPoly p, const LongPoly& q);
 LongPoly operator-(const LongPoly& p, const LongPoly& q);
 LongPoly operator*(const LongPoly& p, const LongPoly& q);
 LongPoly derivative(const LongPoly& p);
-LongPoly primitive(LongPoly p);                                               // divided by the divisor of its coefficients
-std::optional<LongPoly> quotient(LongPoly p, const LongPoly& q);              // if q divides p in integers; q is not zero
-Int value_at(const LongPoly& p, const Dyadic& tau);                           // times 2^(k d), d the degree
+LongPoly primitive(LongPoly p);                                          // without a common factor of its coefficients
+std::optional<LongPoly> quotient(LongPoly p, const LongPoly& q);         // if it has integer coefficients; q is not zero
+Int value_at(const LongPoly& p, const Dyadic& tau);                      // times 2^(k d), d the degree
 int sign_at(const LongPoly& p, const Dyadic& tau);
-int sign_on(const LongPoly& p, const Dyadic& lo, const Dyadic& hi);           // on the whole closed interval, 0 if not certain
-LongPoly greatest_common_divisor(const LongPoly& p, const LongPoly& q);       // of coefficients without a common factor
+int sign_on(const LongPoly& p, const Dyadic& lo, const Dyadic& hi);      // on the whole closed interval, 0 if not certain
+LongPoly greatest_common_divisor(const LongPoly& p, const LongPoly& q);  // primitive
 LongPoly squarefree(const LongPoly& p);
 
 // The roots of a squarefree polynomial strictly between lo and hi, in order: open intervals, each with one root and without

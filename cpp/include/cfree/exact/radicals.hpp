@@ -4,7 +4,8 @@
 
 namespace cfree {
 
-// a + b sqrt(d) + (c + f sqrt(d)) sqrt(e); the caller sees to it that d and e are not negative where a sign is taken.
+// a + b sqrt(d) + (c + f sqrt(d)) sqrt(e). Where a sign is taken, d and e must not be negative; zero is allowed. With one root
+// c = f = e = 0.
 struct Radicals {
     SurdPoly a, b, d, c, e, f;
 };

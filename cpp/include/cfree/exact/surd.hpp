@@ -13,7 +13,9 @@
 
 namespace cfree {
 
-// The roots of both lists, in order; of numbers whose product is a square only one, their common divisor.
+// True if sqrt(m) is a rational multiple of sqrt(n): then both are integer multiples of the root of their common divisor.
+inline bool is_multiple_of_root(const Int& m, const Int& n) { return m == n || is_square(Int(m * n)); }
+// The numbers of both lists, in order; in place of those with such roots their common divisor.
 std::vector<Int> joined(const std::vector<Int>& x, const std::vector<Int>& y);
 
 // The sum of c[k] times the square roots whose bits are set in k. C is a ring that has the integers: `Int` or `LongPoly`.
@@ -67,14 +69,14 @@ struct Surds {
         return result;
     }
 
-    // The same with these roots, each a common divisor as above.
+    // The same sum with these roots, joined from its own and others.
     Surds over(const std::vector<Int>& more) const {
         if (more == roots) return *this;
         Surds result(more, std::vector<C>(std::size_t(1) << more.size(), C(0)));
         std::vector<std::size_t> place;
         std::vector<Int> factor;  // sqrt(roots[i]) = factor[i] sqrt(more[place[i]])
         for (const Int& n : roots) {
-            const auto same = std::find_if(more.begin(), more.end(), [&](const Int& m) { return m == n || is_square(Int(m * n)); });
+            const auto same = std::find_if(more.begin(), more.end(), [&](const Int& m) { return is_multiple_of_root(m, n); });
             place.push_back(static_cast<std::size_t>(same - more.begin()));
             factor.push_back(*same == n ? Int(1) : root_below(Int(n / *same)));
         }
