@@ -1,8 +1,6 @@
 // Arithmetic of polynomials of any degree.
 #include "cfree/exact/long_polynomial.hpp"
 
-#include "exact/evaluation.hpp"
-
 namespace cfree {
 
 LongPoly& LongPoly::operator+=(const LongPoly& q) {
@@ -69,9 +67,25 @@ std::optional<LongPoly> quotient(LongPoly p, const LongPoly& q) {
     return p.empty() ? std::optional(std::move(result)) : std::nullopt;
 }
 
-Int value_at(const LongPoly& p, const Dyadic& tau) { return exact_value(p, tau); }
+Int value_at(const LongPoly& p, const Dyadic& tau) {
+    Int value = 0;
+    for (int i = p.size(); i-- > 0;) {
+        value *= tau.n;
+        value += p[i] << (tau.k * static_cast<unsigned>(p.degree() - i));
+    }
+    return value;
+}
 int sign_at(const LongPoly& p, const Dyadic& tau) { return value_at(p, tau).sign(); }
-int sign_on(const LongPoly& p, const Dyadic& lo, const Dyadic& hi) { return certain_sign_on(p, lo, hi); }
+
+// By the slope's bound, as for `Poly`.
+int sign_on(const LongPoly& p, const Dyadic& lo, const Dyadic& hi) {
+    const unsigned k = std::max(lo.k, hi.k);
+    const Int from = lo.n << (k - lo.k), to = hi.n << (k - hi.k), most = std::max(Int(abs(from)), Int(abs(to)));
+    LongPoly slope = derivative(p);
+    for (Int& x : slope) x = abs(x);
+    const Int value = value_at(p, Dyadic{from, k});  // over 2^(k d), and so is its greatest change
+    return abs(value) > (to - from) * value_at(slope, Dyadic{most, k}) ? value.sign() : 0;
+}
 
 LongPoly squarefree(const LongPoly& p) {
     if (p.size() <= 2) return p;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cfree/support/lookout.hpp"
-#include "exact/evaluation.hpp"
 
 namespace cfree {
 
@@ -179,9 +178,30 @@ std::optional<int> sign_at(const Coefficients<Ball>& p, const Ball& tau) {
     return certain_sign(r);
 }
 
-Int value_at(const Poly& p, const Dyadic& tau) { return exact_value(p, tau); }
+Int value_at(const Poly& p, const Dyadic& tau) {
+    if (p.empty()) return 0;
+    Int r = p.back();
+    for (int i = p.size() - 1; i-- > 0;) {
+        r *= tau.n;
+        r += p[i] << (tau.k * static_cast<unsigned>(p.size() - 1 - i));
+    }
+    return r;
+}
 int sign_at(const Poly& p, const Dyadic& tau) { return value_at(p, tau).sign(); }
-int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi) { return certain_sign_on(p, lo, hi); }
+
+int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi) {
+    if (p.empty()) return 0;
+    const unsigned k = std::max(lo.k, hi.k);
+    const Int from = lo.n << (k - lo.k), to = hi.n << (k - hi.k);
+    // |p'| is at most the sum of i |p_i| 2^((i - 1) m) if |tau| is at most 2^m
+    const Int largest = std::max(Int(abs(from)), Int(abs(to)));
+    const unsigned bits = largest.is_zero() ? 0 : static_cast<unsigned>(msb(largest)) + 1, m = bits > k ? bits - k : 0;
+    Int slope = 0;
+    for (int i = 1; i < p.size(); ++i) slope += abs(p[i]) * i << (m * static_cast<unsigned>(i - 1));
+    const Int value = value_at(p, Dyadic{from, k});  // over 2^(k d), and so is its greatest change
+    const Int change = p.size() < 2 ? Int(0) : Int(((to - from) * slope) << (k * static_cast<unsigned>(p.size() - 2)));
+    return abs(value) > change ? value.sign() : 0;
+}
 
 Poly greatest_common_divisor(Poly p, Poly q) {
     if (are_coprime_modulo_prime(p, q)) return {1};
