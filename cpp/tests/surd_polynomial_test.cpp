@@ -219,6 +219,15 @@ static void roots_may_vanish() {
     }
 }
 
+// A root near zero, where balls have more digits than its interval: 2^-121/2, at which sqrt(2^121) tau is 1.
+static void the_width_of_the_interval_counts() {
+    const Int large = Int(1) << 121;
+    LongRoot x{LongPoly{-1, 0, large}, Dyadic{0, 0}, Dyadic{1, 60}};
+    const SurdPoly p = SurdPoly::root(large) * tau - 1;
+    CHECK(sign_at(p, x) == 0 && sign_at(p + SurdPoly::root(large) * tau, x) > 0 && sign_at(Radicals{-1, 1, large, 0, 0, 0}, x) > 0);
+    CHECK(sign_at(Radicals{-1, tau, large, 0, 0, 0}, x) == 0);
+}
+
 // Far below what balls can tell: a - sqrt(a^2 + s) with s small beside a.
 static void small_differences_are_told() {
     for (int k = 0; k < 6; ++k) {
@@ -226,9 +235,9 @@ static void small_differences_are_told() {
         const SurdPoly a = SurdPoly(large) * random_surd(k % 3, 3, 5), s = random_surd(2, 3, 5);
         LongRoot x = root_of(random_poly(4) * LongPoly{-2, 0, 0, 7});
         const Dyadic t{number(10), 11};
-        const Radicals r{a, 1, a * a + s, 0, 0, 0}, q{a, -1, a * a + s, -1, 1, 0};
-        for (const auto& [at_t, at_x, form] : {std::tuple{sign_at(r, t), sign_at(r, x), r}, {sign_at(q, t), sign_at(q, x), q}})
-            CHECK(at_t == sign(value(form, value(t))) && at_x == sign(value(form, value(x))));
+        const Radicals r{a, -1, a * a + s, 0, 0, 0}, q{a, -1, a * a + s, -1, 1, 0};
+        for (const Radicals& form : {r, q})
+            CHECK(sign_at(form, t) == sign(value(form, value(t))) && sign_at(form, x) == sign(value(form, value(x))));
     }
 }
 
@@ -298,6 +307,7 @@ int main() {
     zeros_are_told_from_their_conjugates();
     zeros_at_algebraic_angles();
     roots_may_vanish();
+    the_width_of_the_interval_counts();
     small_differences_are_told();
     roots_of_three_irrational_lengths();
     touches_change_no_sign();

@@ -108,8 +108,8 @@ std::vector<SurdRoot> roots_between(const SurdPoly& p, const Dyadic& lo, const D
     std::vector<SurdRoot> roots;
     for (const auto& [from, to] : isolate(all, lo, hi)) {
         LongRoot x{all, from, to};
-        if (x.is_dyadic()) {
-            if (sign_at(p, from) == 0) roots.push_back({x, changes_sign(p, from)});
+        if (x.is_dyadic()) {  // a rational root of one conjugate is a root of all
+            roots.push_back({x, changes_sign(p, from)});
         } else if (sign_at(p, from) != sign_at(p, to)) {  // p has no other root between, and none at the ends
             roots.push_back({x, true});
         } else if (sign_at(p, x) == 0) {

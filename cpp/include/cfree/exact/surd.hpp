@@ -25,7 +25,7 @@ struct Surds {
     std::vector<C> c;        // 2^(number of roots)
 
     template <class V = int>
-        requires std::convertible_to<V, C>
+        requires(!std::same_as<V, Surds> && std::convertible_to<V, C>)
     Surds(const V& value = 0) : c{C(value)} {}
     static Surds root(const Int& n) {  // sqrt(n), n >= 0
         const Int whole = root_below(n);
@@ -34,9 +34,9 @@ struct Surds {
     Surds(std::vector<Int> r, std::vector<C> coefficients) : roots(std::move(r)), c(std::move(coefficients)) {}
 
     bool is_rational() const { return roots.empty(); }
-    // Exact for integers; the value is rounded, and within the range of doubles.
-    int sign() const requires std::same_as<C, Int>;
-    double value() const requires std::same_as<C, Int>;
+    // With integers only. The sign is exact, the value rounded, and within the range of doubles.
+    int sign() const;
+    double value() const;
 
     Surds operator-() const {
         Surds result = *this;
