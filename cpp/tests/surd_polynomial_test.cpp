@@ -118,6 +118,7 @@ static void long_roots_are_compared() {
     const Int large = Int(1) << 300;
     LongRoot near{LongPoly{-large, 0, 2 * large - 1}, Dyadic{0, 0}, one};
     CHECK(compare(near, x) > 0 && sign_at(p, near) > 0);
+    CHECK(sign_at(LongPoly{1, 1, 7} * (p * large + 1), y) > 0);  // a common divisor with other roots
     LongRoot half{LongPoly{-1, 2}, Dyadic{0, 0}, one};
     CHECK(compare(half, Dyadic{1, 1}) == 0 && compare(half, x) < 0 && sign_at(LongPoly{-1, 2} * LongPoly{3, 1}, half) == 0);
     CHECK(sign_after(p * p, x) > 0 && sign_before(p, x) < 0);
