@@ -71,18 +71,25 @@ static void check_classes(const Shape& s) {
         }
     }
     for (Index p = 0; p < static_cast<Index>(s.X.size()); ++p)
-        for (Index q = 0; q < p; ++q)
-            CHECK((s.X[p] == s.X[q] && s.Y[p] == s.Y[q] && s.vertex_radius[p] == s.vertex_radius[q]) == (s.point[p] == s.point[q]));
+        for (Index q = 0; q < p; ++q) {
+            const bool is_one_place = s.X[p] == s.X[q] && s.Y[p] == s.Y[q];
+            CHECK((is_one_place && s.vertex_radius[p] == s.vertex_radius[q]) == (s.point[p] == s.point[q]));
+        }
     for (Index k = 0; k < s.pieces(); ++k)
         for (Index v = s.piece[k]; v < s.piece[k + 1]; ++v) CHECK(s.piece_radius[k] == s.vertex_radius[s.piece_vertex[v]]);
 }
 
 // True if an exact number of the scene's integers is within a ball, and the ball is small.
 static bool holds(const Ball& ball, const RootSum& exact, int shift) {
-    const auto against = [&](const Ratio& x) { return (exact * RootSum(x.d) - RootSum(x.n << static_cast<unsigned>(shift))).sign(); };
-    const Ratio middle = ratio_of(ball.hi) + ratio_of(ball.lo), radius = ratio_of(ball.radius);
-    return against(middle - radius) >= 0 && against(middle + radius) <= 0 && ball.radius <= std::abs(ball.hi) * 0x1p-103 &&
-           against(ratio_of(ball.hi * (1 - 0x1p-52))) >= 0 && against(ratio_of(ball.hi * (1 + 0x1p-52))) <= 0;
+    const auto is_within = [&](const Ratio& low, const Ratio& high) {
+        const auto against = [&](const Ratio& x) {
+            return (exact * RootSum(x.d) - RootSum(x.n << static_cast<unsigned>(shift))).sign();
+        };
+        return against(low) >= 0 && against(high) <= 0;
+    };
+    const Ratio middle = ratio_of(ball.hi) + ratio_of(ball.lo), error = ratio_of(ball.radius);
+    return is_within(middle - error, middle + error) && ball.radius <= std::abs(ball.hi) * 0x1p-103 &&
+           is_within(ratio_of(ball.hi * (1 - 0x1p-52)), ratio_of(ball.hi * (1 + 0x1p-52)));
 }
 
 // Doubles and balls of all radii and lengths are those of the exact numbers; rational lengths are whole.
@@ -129,8 +136,8 @@ static bool same_features(const Shape& a, const Shape& b) {
            a.piece_vertex == b.piece_vertex && a.piece_edge == b.piece_edge && a.piece_layer == b.piece_layer;
 }
 static bool same_numbers(const Shape& a, const Shape& b) {
-    return a.X == b.X && a.Y == b.Y && a.x == b.x && a.y == b.y && a.x_low == b.x_low && a.y_low == b.y_low && a.rounded == b.rounded &&
-           a.rounded_twice == b.rounded_twice && a.xy == b.xy;
+    return a.X == b.X && a.Y == b.Y && a.x == b.x && a.y == b.y && a.x_low == b.x_low && a.y_low == b.y_low && a.xy == b.xy &&
+           a.rounded == b.rounded && a.rounded_twice == b.rounded_twice;
 }
 
 static SceneShapes polygons_of_all_kinds() {
@@ -143,10 +150,11 @@ static SceneShapes polygons_of_all_kinds() {
         std::vector<RatioRing>{ring({{"0", "0"}, {"2", "0"}, {"2", "1"}, {"1", "1"}, {"1", "2"}, {"0", "2"}})});
     const auto holed = std::make_shared<Polygon>(std::vector<RatioRing>{ring({{"3", "0"}, {"6", "0"}, {"6", "3"}, {"3", "3"}}),
                                                              ring({{"4", "1"}, {"4", "2"}, {"5", "2"}, {"5", "1"}})});
-    const Ratio zero = number("0");
-    SceneShapes shapes{{l_shape, unit_box()}, {holed, l_shape, square(number("2"), number("1"), number("1"), number("2")), unit_box()},
-                       box(number("-9"), number("-9"), number("9"), number("8.5")), std::array{number("-8"), number("-8"), number("8"), zero}};
-    return shapes;
+    const auto slanted = square(number("2"), number("1"), number("1"), number("2"));
+    return {{l_shape, unit_box()},
+            {holed, l_shape, slanted, unit_box()},
+            box(number("-9"), number("-9"), number("9"), number("8.5")),
+            std::array{number("-8"), number("-8"), number("8"), number("0")}};
 }
 
 static void radii_of_zero_change_nothing() {
@@ -157,9 +165,10 @@ static void radii_of_zero_change_nothing() {
     CHECK(!plain.scene->is_round && !zero.scene->is_round && plain.rim == zero.rim && plain.scene->scale == zero.scene->scale);
     for (const Scene* scene : {plain.scene.get(), zero.scene.get()})
         for (const Shape* s : {&scene->robot, &scene->obstacles})
-            CHECK(s->radii.empty() && s->vertex_radius.empty() && s->edge_radius.empty() && s->piece_radius.empty() && s->lengths.empty());
-    CHECK(same_features(plain.scene->robot, zero.scene->robot) && same_numbers(plain.scene->robot, zero.scene->robot));
-    CHECK(same_features(plain.scene->obstacles, zero.scene->obstacles) && same_numbers(plain.scene->obstacles, zero.scene->obstacles));
+            CHECK(s->radii.empty() && s->lengths.empty() &&
+                  s->vertex_radius.size() + s->edge_radius.size() + s->piece_radius.size() == 0);
+    const Shape &A = plain.scene->robot, &B = zero.scene->robot, &O = plain.scene->obstacles, &P = zero.scene->obstacles;
+    CHECK(same_features(A, B) && same_numbers(A, B) && same_features(O, P) && same_numbers(O, P));
 }
 
 static void one_radius_of_all_changes_no_class() {
@@ -206,12 +215,13 @@ static void slanted_walls_of_rational_length_share_offset_lines() {
         for (const Ratio& more : {number("0"), power_of_two(-60), -power_of_two(-60)}) {
             const Ratio h = s + more;
             const auto one = square(at, at, number("4"), number("3"));
-            const auto other = square(at + number("3/5") * h + number("4") * along, at - number("4/5") * h + number("3") * along, number("8"),
-                                      number("6"));
+            const Ratio x = at + number("3/5") * h + number("4") * along, y = at - number("4/5") * h + number("3") * along;
+            const auto other = square(x, y, number("8"), number("6"));
             const auto f = features({unit_box()}, {one, other}, number("0"), {s, number("0")});
             check(f);
-            CHECK((f.scene->obstacles.line[0] == f.scene->obstacles.line[4]) == more.n.is_zero());
-            CHECK(length<Int>(f.scene->obstacles, 0) == 5 * f.scene->scale && length<Int>(f.scene->obstacles, 4) == 10 * f.scene->scale);
+            const Shape& O = f.scene->obstacles;
+            CHECK((O.line[0] == O.line[4]) == more.n.is_zero());
+            CHECK(length<Int>(O, 0) == 5 * f.scene->scale && length<Int>(O, 4) == 10 * f.scene->scale);
         }
 }
 
@@ -243,18 +253,19 @@ static void tiny_and_huge_radii_are_exact() {
     const Shape& s = f.scene->obstacles;
     CHECK(s.radii.size() == 4 && s.radii[1].exact == 3 && s.radii[3].exact == (Int(3) << 120));
     CHECK(f.scene->shift > 0 && s.vertex_radius[0] == 1 && s.vertex_radius[4] == 3 && s.vertex_radius[9] == 0);
-    // doubles of the reach stay below the largest that the core multiplies
-    CHECK(radius<Approx>(s, 3).v <= 0x1p100);
     const auto small = features({unit_box()}, {unit_box()}, number("1e-150"), {number("1e-150")});
     check(small);
     const auto large = features({unit_box()}, {unit_box()}, number("1e150"), {number("1e-150")});
     check(large);
+    // doubles stay below the largest that the core multiplies
+    CHECK(radius<Approx>(s, 3).v <= 0x1p100 && radius<Approx>(large.scene->robot, 1).v <= 0x1p100);
+    CHECK(radius<Approx>(large.scene->near().robot, 1).v <= 0x1p100);
 }
 
 static void far_cores_are_measured_from_near() {
     const Ratio far = number("1000000000");
-    const auto f = features({unit_box()}, {thin({{far, -far}}), thin({{far + number("1"), -far}, {far + number("2"), -far}})}, number("1/4"),
-                            {number("1/8"), number("1/2")});
+    const auto point = thin({{far, -far}}), segment = thin({{far + number("1"), -far}, {far + number("2"), -far}});
+    const auto f = features({unit_box()}, {point, segment}, number("1/4"), {number("1/8"), number("1/2")});
     check(f);
     CHECK(f.scene->moved && f.scene->near().obstacles.radii[1].exact == f.scene->scale / 8);
     CHECK(same_features(f.scene->obstacles, f.scene->near().obstacles));
@@ -262,7 +273,8 @@ static void far_cores_are_measured_from_near() {
 }
 
 static void points_and_segments_are_cores() {
-    const auto point = thin({{number("1/2"), number("1/3")}}), segment = thin({{number("0"), number("0")}, {number("3"), number("4")}});
+    const auto point = thin({{number("1/2"), number("1/3")}});
+    const auto segment = thin({{number("0"), number("0")}, {number("3"), number("4")}});
     CHECK(point->is_thin() && point->denominator == 6 && point->vertices.X[0] == 3 && point->is_convex() && !unit_box()->is_thin());
     CHECK((point->pieces() == Pieces{{0}} && segment->pieces() == Pieces{{0, 1}}));
     const auto f = features({point, segment}, {segment, point, point, point}, number("1/5"),
@@ -291,8 +303,12 @@ static void points_and_segments_are_cores() {
 }
 
 static void workspace_and_bounds_have_no_radius_and_reach_past_the_robots() {
-    SceneShapes shapes{{thin({{number("0"), number("0")}})}, {thin({{number("9"), number("4")}})}, box(number("0"), number("0"), number("9"), number("9")),
-                       std::array{number("1"), number("1"), number("8"), number("8")}, number("5"), {number("7")}};
+    SceneShapes shapes{{thin({{number("0"), number("0")}})},
+                       {thin({{number("9"), number("4")}})},
+                       box(number("0"), number("0"), number("9"), number("9")),
+                       std::array{number("1"), number("1"), number("8"), number("8")},
+                       number("5"),
+                       {number("7")}};
     CHECK(!range_fault(shapes));
     const auto f = scene_features(shapes);
     check(f);
@@ -331,11 +347,14 @@ static void wrong_radii_are_named() {
           "obstacles 1: the radius -2 is below 0; give 0 or more");
     CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, {}, {number("0"), number("2")}}) ==
           "obstacles -1: 2 radii for 1 obstacles; give one for each, or none");
-    CHECK(fault({{unit_box(), point}, {unit_box()}, {}, {}}) == "robot 1: a point or a segment has no interior; give it a radius above 0");
-    CHECK(fault({{unit_box()}, {point}, {}, {}, number("1"), {number("0")}}) ==
-          "obstacles 0: a point or a segment has no interior; give it a radius above 0");
-    CHECK(fault({{unit_box()}, {point}, {}, {}, number("1")}) != "" && fault({{unit_box()}, {point}, {}, {}, {}, {number("1")}}) == "");
-    CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, number("1e151")}) == "robot 0: the radius 1e151 is larger than 1e150; scale the scene");
+    const std::string thin_one = ": a point or a segment has no interior; give it a radius above 0";
+    CHECK(fault({{unit_box(), point}, {unit_box()}, {}, {}}) == "robot 1" + thin_one);
+    CHECK(fault({{unit_box()}, {point}, {}, {}, number("1"), {number("0")}}) == "obstacles 0" + thin_one);
+    CHECK(fault({{unit_box()}, {point}, {}, {}, number("1")}) == "obstacles 0" + thin_one);
+    CHECK(fault({{unit_box()}, {point}, {}, {}, {}, {number("1")}}) == "");
+    CHECK(fault({{point}, {unit_box()}, {}, {}, number("1")}) == "");
+    CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, number("1e151")}) ==
+          "robot 0: the radius 1e151 is larger than 1e150; scale the scene");
     const std::string fine = fault({{unit_box()}, {unit_box()}, {}, {}, {}, {number("1e-400")}});
     CHECK(fine.starts_with("obstacles 0: with the denominator 1e400 of its radius, the scene's coordinates, over one"));
 }

@@ -386,7 +386,8 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
         }
         Box outer = *given;
         // so that doubles can distinguish it
-        const Int reach = 1 + reach_x + reach_y + 2 * robot_radius + std::max(Int(outer.x1 - outer.x0), Int(outer.y1 - outer.y0)) / 8;
+        const Int size = std::max(Int(outer.x1 - outer.x0), Int(outer.y1 - outer.y0));
+        const Int reach = 1 + reach_x + reach_y + 2 * robot_radius + size / 8;
         outer = {outer.x0 - reach, outer.y0 - reach, outer.x1 + reach, outer.y1 + reach};
         result.rim = {nearest(outer.x0, scale), nearest(outer.y0, scale), nearest(outer.x1, scale),
                       nearest(outer.y1, scale)};
@@ -398,8 +399,8 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     const int shift = shift_of(std::max(widest_of(moving, zero), widest_of(still, zero)));
     const int near_shift = shift_of(std::max(widest_of(moving, robot_origin), widest_of(still, obstacle_origin)));
     result.robot = std::move(robot.owners), result.obstacles = std::move(obstacles.owners);
-    Scene scene{finished(std::move(robot), shift, {}, is_round), finished(std::move(obstacles), shift, whole.rounded, is_round), scale,
-                shift, result.rim.has_value(), {}, nullptr, is_round};
+    Scene scene{finished(std::move(robot), shift, {}, is_round), finished(std::move(obstacles), shift, whole.rounded, is_round),
+                scale, shift, result.rim.has_value(), {}, nullptr, is_round};
     result.scene = scene_around(std::move(scene), robot_origin, obstacle_origin, near_shift, whole.near_rounded);
     return result;
 }
