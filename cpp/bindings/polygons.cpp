@@ -198,7 +198,7 @@ void bind_polygons(nb::module_& m) {
             new (w) cfree::WholeScene{integer(scale), {}, {rounded[0], rounded[1]}, {rounded[2], rounded[3]}};
             if (box) w->box = std::array{integer((*box)[0]), integer((*box)[1]), integer((*box)[2]), integer((*box)[3])};
         }, "scale"_a, "box"_a.none(), "rounded"_a)
-        .def("add", &cfree::WholeScene::add, "polygon"_a)
+        .def("add", [](cfree::WholeScene& w, const Polygon& polygon) { w.add(polygon); }, "polygon"_a)
         .def_prop_ro("scale", [](const cfree::WholeScene& w) { return integer(w.scale); })
         .def_prop_ro("box", [](const cfree::WholeScene& w) {
             using Box = std::optional<std::tuple<nb::int_, nb::int_, nb::int_, nb::int_>>;

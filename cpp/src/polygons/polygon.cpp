@@ -151,6 +151,26 @@ Polygon::Polygon(std::vector<RatioRing> rings) {
 
 Polygon::Polygon(std::vector<Points> rings, const Int& common) : denominator(common) { check(std::move(rings), false); }
 
+Polygon Polygon::thin(const RatioRing& points) {
+    if (points.empty() || points.size() > 2)
+        throw InvalidPolygon(std::to_string(points.size()) + " points; give 1 for a point, 2 for a segment");
+    if (points.size() == 2 && points[0] == points[1])
+        throw InvalidPolygon("the two ends of the segment are the same; give 1 for a point, or another end");
+    Polygon result;
+    for (const auto& [x, y] : points) result.denominator = lcm(result.denominator, lcm(x.d, y.d));
+    std::vector<Int> X, Y;
+    for (const auto& [x, y] : points)
+        X.push_back(x.n * (result.denominator / x.d)), Y.push_back(y.n * (result.denominator / y.d));
+    result.vertices = Points(std::move(X), std::move(Y));
+    const Index count = result.vertices.size();
+    result.offsets = {0, count};
+    result.convex.assign(points.size(), 1);
+    result.is_convex_ring = true;
+    result.found_pieces.emplace_back(points.size());
+    std::iota(result.found_pieces[0].begin(), result.found_pieces[0].end(), 0);
+    return result;
+}
+
 void Polygon::check(std::vector<Points>&& rings, bool is_least) {
     // clean
     std::vector<Cleaned> kept;

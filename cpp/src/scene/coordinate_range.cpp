@@ -39,7 +39,27 @@ struct Extreme {
     std::string kind;
     Index index;
     Int value, denominator;  // the coordinate of largest size, times the denominator
+    bool is_radius = false;
 };
+
+// A radius below 0, none where a polygon has no interior, or another number of them than of obstacles.
+std::optional<RangeFault> radius_fault(const SceneShapes& shapes) {
+    const auto fault = [](const char* kind, Index index, const Polygon& polygon, const Ratio& radius) -> std::optional<RangeFault> {
+        if (radius.n.sign() < 0) return RangeFault{kind, index, "the radius " + text_of(radius) + " is below 0; give 0 or more"};
+        if (polygon.is_thin() && radius.n.is_zero())
+            return RangeFault{kind, index, "a point or a segment has no interior; give it a radius above 0"};
+        return {};
+    };
+    const std::size_t count = shapes.obstacles.size(), radii = shapes.obstacle_radii.size();
+    if (radii != 0 && radii != count)
+        return RangeFault{"obstacles", -1, std::to_string(radii) + " radii for " + std::to_string(count) +
+                                               " obstacles; give one for each, or none"};
+    for (std::size_t k = 0; k < shapes.robot.size(); ++k)
+        if (auto wrong = fault("robot", static_cast<Index>(k), *shapes.robot[k], shapes.robot_radius)) return wrong;
+    for (std::size_t k = 0; k < count; ++k)
+        if (auto wrong = fault("obstacles", static_cast<Index>(k), *shapes.obstacles[k], shapes.obstacle_radius(k))) return wrong;
+    return shapes.workspace ? fault("workspace", -1, *shapes.workspace, {}) : std::nullopt;
+}
 
 std::vector<Extreme> extremes(const SceneShapes& shapes) {
     std::vector<Extreme> result;
@@ -50,8 +70,15 @@ std::vector<Extreme> extremes(const SceneShapes& shapes) {
                 if (abs(*c) > abs(*widest)) widest = c;
         result.push_back({kind, index, *widest, polygon.denominator});
     };
+    const auto add_radius = [&](const char* kind, std::size_t index, const Ratio& radius) {
+        if (!radius.n.is_zero()) result.push_back({kind, static_cast<Index>(index), radius.n, radius.d, true});
+    };
+    add_radius("robot", 0, shapes.robot_radius);
     for (std::size_t k = 0; k < shapes.robot.size(); ++k) add("robot", static_cast<Index>(k), *shapes.robot[k]);
-    for (std::size_t k = 0; k < shapes.obstacles.size(); ++k) add("obstacles", static_cast<Index>(k), *shapes.obstacles[k]);
+    for (std::size_t k = 0; k < shapes.obstacles.size(); ++k) {
+        add_radius("obstacles", k, shapes.obstacle_radius(k));
+        add("obstacles", static_cast<Index>(k), *shapes.obstacles[k]);
+    }
     if (shapes.workspace) add("workspace", -1, *shapes.workspace);
     for (std::size_t k = 0; shapes.bounds && k < 4; ++k) {
         const Ratio& bound = (*shapes.bounds)[k];
@@ -64,13 +91,15 @@ std::vector<Extreme> extremes(const SceneShapes& shapes) {
 
 std::optional<RangeFault> range_fault(const SceneShapes& shapes) {
     static const Int largest = boost::multiprecision::pow(Int(10), 150);
+    if (auto wrong = radius_fault(shapes)) return wrong;
     Int widest = 0, widest_denominator = 1, scale = 1;
     const Extreme* finest = nullptr;
     const auto found = extremes(shapes);
     for (const Extreme& next : found) {
         const Int size = abs(next.value);
         if (size > largest * next.denominator)
-            return RangeFault{next.kind, next.index, "the coordinate " + shown(floor_divide(next.value, next.denominator)) +
+            return RangeFault{next.kind, next.index, (next.is_radius ? "the radius " : "the coordinate ") +
+                                                         shown(floor_divide(next.value, next.denominator)) +
                                                          " is larger than 1e150; scale the scene"};
         if (size * widest_denominator > widest * next.denominator) widest = size, widest_denominator = next.denominator;
         if (!finest || next.denominator > finest->denominator ||
@@ -82,8 +111,9 @@ std::optional<RangeFault> range_fault(const SceneShapes& shapes) {
     const unsigned needed = std::max(bits(widest * scale / widest_denominator), bits(scale));
     if (needed <= most_bits) return {};
     return RangeFault{finest->kind, finest->index,
-                      "with its denominator " + shown(finest->denominator) +
-                          " the scene's coordinates, over one common denominator, are integers of " + grouped(needed) +
+                      (finest->is_radius ? "with the denominator " + shown(finest->denominator) + " of its radius, "
+                                         : "with its denominator " + shown(finest->denominator) + " ") +
+                          "the scene's coordinates, over one common denominator, are integers of " + grouped(needed) +
                           " bits or more, and " + grouped(most_bits) +
                           " are allowed; keep lengths between 1e-150 and 1e150, in decimals or in few denominators"};
 }

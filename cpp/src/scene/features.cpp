@@ -20,6 +20,7 @@ struct Box {
         if (y < y0) y0 = y;
         if (y > y1) y1 = y;
     }
+    Box grown(const Int& radius) const { return {x0 - radius, y0 - radius, x1 + radius, y1 + radius}; }
 };
 
 Box box_of(const std::vector<Int>& x, const std::vector<Int>& y) {
@@ -30,9 +31,14 @@ Box box_of(const std::vector<Int>& x, const std::vector<Int>& y) {
 
 Points rectangle(const Int& x0, const Int& y0, const Int& x1, const Int& y1) { return {{x0, x1, x1, x0}, {y0, y0, y1, y1}}; }
 
+// A radius times the common denominator.
+Int scaled(const Ratio& radius, const Int& scale) { return radius.n * (scale / radius.d); }
+
 // Builder of a shape from polygons.
 struct Builder {
     const Int& scale;
+    std::vector<Int> radii{0};  // that occur, in order
+    std::vector<Index> vertex_radius;
     std::vector<Int> x, y;
     std::vector<Index> next, previous, layer, piece{0}, piece_vertex, piece_layer;
     Owners owners;
@@ -48,6 +54,19 @@ struct Builder {
 
     Index count() const { return static_cast<Index>(x.size()); }
 
+    // Number the radii that occur; before polygons are added.
+    template <class Radii>
+    void number_radii(const Radii& all) {
+        for (const Ratio& radius : all) radii.push_back(scaled(radius, scale));
+        std::sort(radii.begin(), radii.end());
+        radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
+    }
+    bool is_round() const { return radii.size() > 1; }
+    const Int& radius(Index v) const { return radii[vertex_radius[v]]; }
+
+    // Set the class of the radius of the latest vertices.
+    void set_radius(Index radius_class) { vertex_radius.resize(x.size(), radius_class); }
+
     // Close a ring of the latest vertices, from `first` on.
     void close_ring(Index first) {
         const Index n = count() - first;
@@ -56,9 +75,11 @@ struct Builder {
     }
 
     template <class Owner>
-    void add_polygon(const Polygon& polygon, Index owner, bool emit_outer, Owner owner_of) {
+    void add_polygon(const Polygon& polygon, const Ratio& radius, Index owner, bool emit_outer, Owner owner_of) {
         const Int factor = scale / polygon.denominator;
         const Index first = count();
+        const auto radius_class = static_cast<Index>(
+            is_round() ? std::lower_bound(radii.begin(), radii.end(), scaled(radius, scale)) - radii.begin() : 0);
         for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
             const Index start = count();
             for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
@@ -70,6 +91,7 @@ struct Builder {
             }
             close_ring(start);
         }
+        set_radius(radius_class);
         for (const auto& vertices : polygon.pieces()) {
             for (const Index v : vertices) piece_vertex.push_back(first + v);
             close_piece(body_layer);
@@ -134,7 +156,32 @@ std::vector<Index> place_orders(const Points& points) {
     return place;
 }
 
-Shape finished(Builder&& from, int shift, const Rounded& before) {
+// Add radii and lengths, without their doubles. Returned for each edge is a key, the same for edges of one direction whose
+// lines, moved outwards by their radii s, are one: their offset times |D|, v x D + s |D|, for the least integer vector D along
+// the edge. If |D| is irrational the two parts are equal only one by one, and are a pair.
+std::vector<std::pair<Int, Int>> add_radii(Shape& s, Builder& from, const Points& points) {
+    for (const Int& radius : from.radii) s.radii.push_back({radius, {}});
+    s.vertex_radius = std::move(from.vertex_radius);
+    for (std::size_t p = 0; p + 1 < from.piece.size(); ++p)
+        s.piece_radius.push_back(s.vertex_radius[from.piece_vertex[from.piece[p]]]);
+    std::vector<std::pair<Int, Int>> keys(s.v.size());
+    s.lengths.resize(s.v.size());
+    for (Index e = 0; e < static_cast<Index>(s.v.size()); ++e) {
+        const Index v = s.v[e], w = s.w[e];
+        s.edge_radius.push_back(s.vertex_radius[v]);
+        if (points.same(v, w)) continue;
+        const Vec<Int> E{points.X[w] - points.X[v], points.Y[w] - points.Y[v]};
+        const Int divisor = gcd(abs(E.x), abs(E.y)), &radius = s.radii[s.edge_radius[e]].exact;
+        const Vec<Int> D{E.x / divisor, E.y / divisor};
+        const Int square = dot(D, D), root = root_below(square), offset = cross(Vec<Int>{points.X[v], points.Y[v]}, D);
+        const bool is_rational = root * root == square;
+        s.lengths[e] = is_rational ? Length{divisor * root, 1, {}} : Length{divisor, square, {}};
+        keys[e] = is_rational ? std::pair{Int(offset + radius * root), Int(0)} : std::pair{offset, radius};
+    }
+    return keys;
+}
+
+Shape finished(Builder&& from, int shift, const Rounded& before, bool is_round) {
     Shape s;
     s.rounded = before.once, s.rounded_twice = before.twice;
     Points points(std::move(from.x), std::move(from.y));
@@ -165,7 +212,11 @@ Shape finished(Builder&& from, int shift, const Rounded& before) {
     along_x.push_back(0), along_y.push_back(0);
     const Points vectors(std::move(along_x), std::move(along_y));
     const auto origin = static_cast<Index>(s.v.size());
-    s.point = classes(place.size(), [&](Index p, Index q) { return place[p] < place[q]; });
+    std::vector<std::pair<Int, Int>> offset_line;
+    if (is_round) offset_line = add_radii(s, from, points);
+    s.point = classes(place.size(), [&](Index p, Index q) {
+        return place[p] != place[q] ? place[p] < place[q] : is_round && s.vertex_radius[p] < s.vertex_radius[q];
+    });
     s.direction = classes(s.v.size(), [&](Index e, Index f) {
         if (!s.has_extent(e) || !s.has_extent(f)) return !s.has_extent(e) && s.has_extent(f);
         return vectors.turn(origin, e, origin, f) > 0;
@@ -174,7 +225,8 @@ Shape finished(Builder&& from, int shift, const Rounded& before) {
         if (s.direction[e] != s.direction[f]) return s.direction[e] < s.direction[f];
         if (!s.has_extent(e)) return e < f;
         const bool backward = low(e) != s.v[e], other_backward = low(f) != s.v[f];
-        return backward != other_backward ? other_backward : points.orient(low(e), high(e), low(f)) > 0;
+        if (backward != other_backward) return other_backward;
+        return is_round ? offset_line[e] < offset_line[f] : points.orient(low(e), high(e), low(f)) > 0;
     });
     // geometry, not numbering, decides the owner of coinciding features
     const std::size_t rings = from.next.size();
@@ -187,8 +239,8 @@ Shape finished(Builder&& from, int shift, const Rounded& before) {
     return s;
 }
 
-// Add the forbidden region of a workspace: a frame around it and all else, thicker than the robot, and its holes.
-void add_workspace(const Polygon& workspace, const Builder& robot, Builder& obstacles, const std::optional<Box>& others) {
+// Add the forbidden region of a workspace: a frame around it and all else, thicker than the robot of that size, and its holes.
+void add_workspace(const Polygon& workspace, const Box& size, Builder& obstacles, const std::optional<Box>& others) {
     const Int factor = obstacles.scale / workspace.denominator;
     std::vector<Int> x, y;
     for (Index k = 0; k < workspace.vertices.size(); ++k)
@@ -196,7 +248,6 @@ void add_workspace(const Polygon& workspace, const Builder& robot, Builder& obst
     const Points corners(x, y);
     Box around = box_of(x, y);
     if (others) around.add(others->x0, others->y0), around.add(others->x1, others->y1);
-    const Box size = box_of(robot.x, robot.y);
     const Int thickness = 1 + 2 * (abs(size.x0) + abs(size.y0) + abs(size.x1) + abs(size.y1));
     const Points frame = rectangle(around.x0 - thickness, around.y0 - thickness, around.x1 + thickness, around.y1 + thickness);
     for (std::size_t r = 0; r + 1 < workspace.offsets.size(); ++r) {
@@ -205,7 +256,7 @@ void add_workspace(const Polygon& workspace, const Builder& robot, Builder& obst
         const Points points = corners.chosen(ring);
         const Polygon part(r ? std::vector{points} : std::vector{frame, points}, obstacles.scale);
         // turned around, its first point kept; the frame's rim stands for infinity, and has no owner
-        obstacles.add_polygon(part, workspace_owner, r > 0, [&](std::size_t of_part, Index k) -> Index {
+        obstacles.add_polygon(part, {}, workspace_owner, r > 0, [&](std::size_t of_part, Index k) -> Index {
             if (r == 0 && of_part == 0) return -1;
             const Index n = static_cast<Index>(ring.size()), place = k - (r == 0 ? 4 : 0);
             return ring[place ? n - place : 0];
@@ -228,6 +279,7 @@ void add_bounds(Builder& robot, Builder& obstacles, const std::vector<Int>& inne
         }
         obstacles.close_piece(reference_layer);
     }
+    robot.set_radius(0), obstacles.set_radius(0);
 }
 
 Int widest_of(const Box& box, const Vec<Int>& from) {
@@ -260,19 +312,22 @@ Int floor_divide(const Int& n, const Int& d) {
     return rest.sign() < 0 ? Int(q - 1) : q;
 }
 
-void WholeScene::add(const Polygon& polygon) {
-    if (scale % polygon.denominator != 0) {
-        const Int more = lcm(scale, polygon.denominator) / scale;
+void WholeScene::add(const Polygon& polygon, const Ratio& radius) {
+    for (const Int* denominator : {&polygon.denominator, &radius.d}) {
+        if (scale % *denominator == 0) continue;
+        const Int more = lcm(scale, *denominator) / scale;
         scale *= more;
         if (box)
             for (Int& c : *box) c *= more;
     }
-    const Int factor = scale / polygon.denominator;
+    is_round |= !radius.n.is_zero();
+    const Int factor = scale / polygon.denominator, reach = scaled(radius, scale);
     for (Index k = 0; k < polygon.offsets[1]; ++k) {
         const Int x = polygon.vertices.X[k] * factor, y = polygon.vertices.Y[k] * factor;
-        if (!box) box = {x, y, x, y};
+        if (!box) box = {x - reach, y - reach, x + reach, y + reach};
         auto& [x0, y0, x1, y1] = *box;
-        x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
+        x0 = std::min(x0, Int(x - reach)), y0 = std::min(y0, Int(y - reach));
+        x1 = std::max(x1, Int(x + reach)), y1 = std::max(y1, Int(y + reach));
     }
 }
 
@@ -286,6 +341,8 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     for (const auto* polygons : {&shapes.robot, &shapes.obstacles})
         for (const auto& polygon : *polygons) include(polygon->denominator);
     if (shapes.workspace) include(shapes.workspace->denominator);
+    include(shapes.robot_radius.d);
+    for (const Ratio& radius : shapes.obstacle_radii) include(radius.d);
     std::vector<Int> bounds;
     if (shapes.bounds) {
         for (const Ratio& bound : *shapes.bounds) include(bound.d);
@@ -293,22 +350,33 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     }
     Builder robot(scale), obstacles(scale);
     robot.reserve(shapes.robot), obstacles.reserve(shapes.obstacles);
+    robot.number_radii(std::array{shapes.robot_radius}), obstacles.number_radii(shapes.obstacle_radii);
+    const bool is_round = whole.is_round || robot.is_round() || obstacles.is_round();
     const auto own = [](std::size_t, Index k) { return k; };
     for (std::size_t k = 0; k < shapes.robot.size(); ++k)
-        robot.add_polygon(*shapes.robot[k], static_cast<Index>(k), true, own);
+        robot.add_polygon(*shapes.robot[k], shapes.robot_radius, static_cast<Index>(k), true, own);
     for (std::size_t k = 0; k < shapes.obstacles.size(); ++k)
-        obstacles.add_polygon(*shapes.obstacles[k], static_cast<Index>(k), true, own);
-    std::optional<Box> given;  // box around all obstacles of the whole, and bounds
+        obstacles.add_polygon(*shapes.obstacles[k], shapes.obstacle_radius(k), static_cast<Index>(k), true, own);
+    const Int robot_radius = scaled(shapes.robot_radius, scale);
+    std::optional<Box> given;  // box around all obstacles of the whole, with their radii, and bounds
     const auto give = [&](const Int& x, const Int& y) { given ? given->add(x, y) : void(given = Box{x, y, x, y}); };
     if (whole.box) {
         const Int more = scale / whole.scale;
         const auto& [x0, y0, x1, y1] = *whole.box;
         give(x0 * more, y0 * more), give(x1 * more, y1 * more);
     }
-    const auto give_all = [&] { for (Index k = 0; k < obstacles.count(); ++k) give(obstacles.x[k], obstacles.y[k]); };
+    const auto give_all = [&] {
+        for (Index k = 0; k < obstacles.count(); ++k) {
+            const Int &x = obstacles.x[k], &y = obstacles.y[k];
+            give(x, y);
+            if (!is_round) continue;
+            const Int& radius = obstacles.radius(k);
+            give(x - radius, y - radius), give(x + radius, y + radius);
+        }
+    };
     give_all();
     for (std::size_t k = 0; k < bounds.size(); k += 2) give(bounds[k], bounds[k + 1]);
-    if (shapes.workspace) add_workspace(*shapes.workspace, robot, obstacles, given);
+    if (shapes.workspace) add_workspace(*shapes.workspace, box_of(robot.x, robot.y).grown(robot_radius), obstacles, given);
     if (shapes.workspace || shapes.bounds) {
         give_all();
         Int reach_x = 0, reach_y = 0;
@@ -318,20 +386,21 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
         }
         Box outer = *given;
         // so that doubles can distinguish it
-        const Int reach = 1 + reach_x + reach_y + std::max(Int(outer.x1 - outer.x0), Int(outer.y1 - outer.y0)) / 8;
+        const Int size = std::max(Int(outer.x1 - outer.x0), Int(outer.y1 - outer.y0));
+        const Int reach = 1 + reach_x + reach_y + 2 * robot_radius + size / 8;
         outer = {outer.x0 - reach, outer.y0 - reach, outer.x1 + reach, outer.y1 + reach};
         result.rim = {nearest(outer.x0, scale), nearest(outer.y0, scale), nearest(outer.x1, scale),
                       nearest(outer.y1, scale)};
         if (shapes.bounds) add_bounds(robot, obstacles, bounds, outer);
     }
     give_all();
-    const Box moving = box_of(robot.x, robot.y), still = given.value_or(Box{0, 0, 0, 0});
+    const Box moving = box_of(robot.x, robot.y).grown(robot_radius), still = given.value_or(Box{0, 0, 0, 0});
     const Vec<Int> zero{0, 0}, robot_origin = place_near(moving, scale), obstacle_origin = place_near(still, scale);
     const int shift = shift_of(std::max(widest_of(moving, zero), widest_of(still, zero)));
     const int near_shift = shift_of(std::max(widest_of(moving, robot_origin), widest_of(still, obstacle_origin)));
     result.robot = std::move(robot.owners), result.obstacles = std::move(obstacles.owners);
-    Scene scene{finished(std::move(robot), shift, {}), finished(std::move(obstacles), shift, whole.rounded), scale, shift,
-                result.rim.has_value(), {}, nullptr};
+    Scene scene{finished(std::move(robot), shift, {}, is_round), finished(std::move(obstacles), shift, whole.rounded, is_round),
+                scale, shift, result.rim.has_value(), {}, nullptr, is_round};
     result.scene = scene_around(std::move(scene), robot_origin, obstacle_origin, near_shift, whole.near_rounded);
     return result;
 }

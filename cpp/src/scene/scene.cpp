@@ -8,6 +8,21 @@
 
 namespace cfree {
 
+namespace {
+
+constexpr int root_bits = 110;  // of a root that becomes a ball
+
+Ball about(const Length& length, int shift) {
+    if (length.is_rational()) return ball(length.factor, shift);
+    const Int square = length.factor * length.factor * length.radicand;
+    const int more = std::max(0, root_bits - static_cast<int>(msb(square)) / 2);
+    Ball root = ball(root_below(square << (2 * static_cast<unsigned>(more))), shift + more);
+    root.radius = ball_error(root.hi);  // ball() cuts at most half of it; what root_below() cuts is less than 2^-109 of the root
+    return root;
+}
+
+}  // namespace
+
 void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift, const Int& scale) {
     X = std::move(exact_x), Y = std::move(exact_y);
     const auto convert = [&](const std::vector<Int>& exact, std::vector<double>& high, std::vector<double>& low) {
@@ -20,6 +35,8 @@ void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, 
         }
     };
     convert(X, x, x_low), convert(Y, y, y_low);
+    for (Radius& radius : radii) radius.about = ball(radius.exact, shift);
+    for (Length& length : lengths) length.about = about(length, shift);
     xy.clear();
     for (std::size_t k = 0; k < X.size(); ++k) xy.push_back(nearest(X[k], scale)), xy.push_back(nearest(Y[k], scale));
 }
@@ -39,7 +56,7 @@ std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_ori
     scene.frame = {ratio(obstacle_origin.x, scene.scale), ratio(obstacle_origin.y, scene.scale),
                    ratio(robot_origin.x, scene.scale), ratio(robot_origin.y, scene.scale)};
     Scene moved{around(scene.robot, robot_origin, {}), around(scene.obstacles, obstacle_origin, near_rounded), scene.scale, near_shift,
-                scene.is_bounded, scene.frame, nullptr};
+                scene.is_bounded, scene.frame, nullptr, scene.is_round};
     scene.moved = std::make_shared<const Scene>(std::move(moved));
     return std::make_shared<const Scene>(std::move(scene));
 }

@@ -2,7 +2,8 @@
 //
 // Vertices are numbered over all rings, the outer ring first. Edge i goes from vertex i to the next of its ring. Rings are
 // checked once, exactly, when a polygon is made: it is simple, its outer ring runs counter-clockwise and its holes
-// clockwise, and no vertex is straight.
+// clockwise, and no vertex is straight. A thin polygon, a point or a segment, is the core of a disc or a stadium: scenes take
+// it with a radius only.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -42,6 +43,8 @@ public:
     explicit Polygon(std::vector<RatioRing> rings);
     // Rings of integers over a denominator.
     Polygon(std::vector<Points> rings, const Int& denominator);
+    // A point; or a segment, by its two different ends: a ring of two edges there and back.
+    static Polygon thin(const RatioRing& points);
 
     Points vertices;  // times the denominator, the least that makes them whole
     Int denominator = 1;
@@ -49,11 +52,13 @@ public:
     std::vector<char> convex;    // true for each vertex with an interior angle below pi
     std::vector<Removed> removed;
     bool is_convex() const { return is_convex_ring; }
+    bool is_thin() const { return vertices.size() < 3; }
 
     // Convex pieces that cover the polygon and do not overlap, computed at the first call; not for two threads at once.
     const Pieces& pieces() const;
 
 private:
+    Polygon() = default;
     bool is_convex_ring = false;
     mutable Pieces found_pieces;
     void check(std::vector<Points>&& rings, bool is_least);  // is_least: the denominator is the least

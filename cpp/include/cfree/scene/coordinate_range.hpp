@@ -1,7 +1,8 @@
 // Documented range of a scene's coordinates, checked once, when a scene is made.
 //
 // Coordinates become integers over one common denominator. If they have at most `most_bits` the core's doubles neither
-// overflow nor underflow, and its exact integers stay fast: lengths from 1e-150 to 1e150 may meet in one scene.
+// overflow nor underflow, and its exact integers stay fast: lengths from 1e-150 to 1e150 may meet in one scene. Radii are
+// lengths; none is below 0, and a point or a segment has one above 0.
 #pragma once
 #include <optional>
 #include <string>

@@ -6,6 +6,9 @@
 //
 // Two layers meet only themselves: the robot's polygons with the obstacles (and the complement of the workspace), and the
 // robot's reference point, as a shape of its own, with the complement of the bounds.
+//
+// Radii are data of features, in integers of the same denominator. The workspace and the bounds have none: the robot's counts
+// against the workspace, and not against the bounds, which its reference point keeps.
 #pragma once
 #include <array>
 #include <memory>
@@ -17,20 +20,24 @@
 
 namespace cfree {
 
-// Shapes of a scene.
+// Shapes of a scene. Each polygon of the robot and each obstacle is grown by its radius; a thin one has a radius above 0.
 struct SceneShapes {
     std::vector<std::shared_ptr<const Polygon>> robot, obstacles;
     std::shared_ptr<const Polygon> workspace;         // optional; the whole robot stays in it
     std::optional<std::array<Ratio, 4>> bounds;       // xmin, ymin, xmax, ymax: the reference point stays in them
+    Ratio robot_radius = {};                          // of all its polygons
+    std::vector<Ratio> obstacle_radii = {};           // one for each obstacle; or empty, and all are 0
+    Ratio obstacle_radius(std::size_t k) const { return obstacle_radii.empty() ? Ratio{} : obstacle_radii.at(k); }
 };
 
 // Data of the whole scene that the features of its parts need, so that all parts have the numbers of the whole.
 struct WholeScene {
     Int scale = 1;                          // the common denominator
-    std::optional<std::array<Int, 4>> box;  // box of its obstacles, times the denominator: xmin, ymin, xmax, ymax
+    std::optional<std::array<Int, 4>> box;  // box of its obstacles, grown, times the denominator: xmin, ymin, xmax, ymax
     Rounded rounded, near_rounded;          // rounding in the scene, and in the scene near its shapes
+    bool is_round = false;                  // true if a radius is above 0
     // Add an obstacle.
-    void add(const Polygon& polygon);
+    void add(const Polygon& polygon, const Ratio& radius = {});
 };
 
 inline constexpr Index body_layer = 0, reference_layer = 1;

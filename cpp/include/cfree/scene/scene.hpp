@@ -3,6 +3,10 @@
 // Coordinates are integers (the user's rationals times one common denominator). Vertices that coincide share a
 // `point`, directed edges on one line with one direction share a `line`, and parallel edges (either way) share a
 // `direction`: equality of features is decided once, before any predicate.
+//
+// A shape may be rounded: each of its polygons, which is then called a core, and may be a point or a segment, is grown by a
+// radius of its own. In such a scene vertices share a point only with one radius, and edges share a line only if these lines,
+// moved outwards by their radii, are one.
 #pragma once
 #include <array>
 #include <memory>
@@ -11,6 +15,20 @@
 #include "cfree/exact/ball.hpp"
 
 namespace cfree {
+
+// A radius: exactly, in the scene's integers, and in doubles, times 2^-shift.
+struct Radius {
+    Int exact = 0;
+    Ball about;  // of radius 0 and without a lower part if its double is exact
+};
+
+// Length of an edge, factor sqrt(radicand) in the scene's integers. The radicand is 1 if the length is rational; else all
+// parallel edges share it, and it is no square.
+struct Length {
+    Int factor = 0, radicand = 1;
+    Ball about;  // times 2^-shift; its upper part is the length rounded once
+    bool is_rational() const { return radicand == 1; }
+};
 
 struct Shape {
     std::vector<Int> X, Y;         // exact coordinates
@@ -31,13 +49,18 @@ struct Shape {
     // Convex pieces, counter-clockwise; piece k has vertices piece_vertex[piece[k] .. piece[k + 1]) and as many edges,
     // none when it is a single point.
     std::vector<Index> piece, piece_vertex, piece_edge, piece_layer;
+    // Only in scenes with a radius, else empty: different radii by class, which rise from 0, the radius of class 0; classes of
+    // the radius of each vertex, edge and piece; lengths of edges.
+    std::vector<Radius> radii;
+    std::vector<Index> vertex_radius, edge_radius, piece_radius;
+    std::vector<Length> lengths;
 
     Index pieces() const { return static_cast<Index>(piece.size()) - 1; }
     bool has_extent(Index e) const { return v[e] != w[e]; }  // or is the ring a single point
     // Vertices in the user's units, correctly rounded: x0, y0, x1, ...
     std::vector<double> xy;
-    // Set X and Y and the data derived from them; flags of rounding that are set stay set. Both shapes of a scene have the
-    // same scale, integers in a unit, and shift: 0, or enough to keep products of four doubles finite.
+    // Set X and Y and the doubles, also those of radii and lengths; flags of rounding that are set stay set. Both shapes of a
+    // scene have the same scale, integers in a unit, and shift: 0, or enough to keep products of four doubles finite.
     void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0, const Int& scale = 1);
 };
 
@@ -51,6 +74,7 @@ struct Scene {
     // vertices are the same; positions of the robot move by `frame`: obstacles' origin - R robot's origin.
     std::array<double, 4> frame{};      // the two origins in the user's units: x and y of the obstacles', of the robot's
     std::shared_ptr<const Scene> moved; // null if it is the same
+    bool is_round = false;              // true if a radius is above 0
     const Scene& near() const { return moved ? *moved : *this; }
     double unit() const { return ratio(Int(1) << static_cast<unsigned>(shift), scale); }  // the doubles' unit, in the user's units
 };

@@ -1,0 +1,46 @@
+// Radii of shapes and lengths of edges, in scenes with a radius, as each rung of a decision takes them.
+//
+// T is Approx or Ball, times 2^-shift; Int, in the scene's integers, for lengths that are rational; or RootSum, alike for all.
+#pragma once
+#include "cfree/exact/surd.hpp"
+#include "cfree/scene/scene.hpp"
+
+namespace cfree {
+
+template <class T>
+T radius(const Shape& s, Index radius_class);
+
+template <>
+inline Approx radius(const Shape& s, Index radius_class) {
+    const double r = s.radii[radius_class].about.hi;
+    return {r, r};
+}
+template <>
+inline Ball radius(const Shape& s, Index radius_class) { return s.radii[radius_class].about; }
+template <>
+inline Int radius(const Shape& s, Index radius_class) { return s.radii[radius_class].exact; }
+template <>
+inline RootSum radius(const Shape& s, Index radius_class) { return s.radii[radius_class].exact; }
+
+// Sum of a radius of the robot and one of the obstacles, by their classes; it is 0 if both are class 0, and only then.
+template <class T>
+T rho(const Scene& scene, Index robot_class, Index obstacle_class) {
+    return radius<T>(scene.robot, robot_class) + radius<T>(scene.obstacles, obstacle_class);
+}
+
+template <class T>
+T length(const Shape& s, Index e);  // |E|
+
+template <>
+inline Approx length(const Shape& s, Index e) {
+    const double l = s.lengths[e].about.hi;
+    return {l, l};
+}
+template <>
+inline Ball length(const Shape& s, Index e) { return s.lengths[e].about; }
+template <>
+inline Int length(const Shape& s, Index e) { return s.lengths[e].factor; }  // rational ones only
+template <>
+inline RootSum length(const Shape& s, Index e) { return RootSum(s.lengths[e].factor) * RootSum::root(s.lengths[e].radicand); }
+
+}  // namespace cfree
