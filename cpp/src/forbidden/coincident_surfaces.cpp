@@ -12,7 +12,7 @@ Range range_of(const Scene& scene, const Feature& contact, Counters& counters) {
     const Index i = contact.robot, j = contact.obstacle;
     const Event first_end{{}, {}, -1, -1}, last_end{{}, {}, 1, 1};
     const bool on_edge = contact.kind == Kind::vertex_edge;
-    if (on_edge && A.previous[i] == i)  // a point touches at every orientation
+    if (on_edge ? A.previous[i] == i : O.previous[j] == j)  // a point touches at every orientation
         return {2, {0, 1}, {first_end, first_end}, {last_end, last_end}};
     const auto start = on_edge ? Predicates::range_end(scene, i, j, true, counters)
                                : Predicates::range_end(scene, i, O.previous[j], true, counters);

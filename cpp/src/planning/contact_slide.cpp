@@ -12,7 +12,8 @@ namespace {
 constexpr int degree = 4;  // degree of slides
 
 bool touches(const Scene& scene, const Feature& contact) {
-    const auto [kind, i, j] = contact;
+    const auto kind = contact.kind;
+    const Index i = contact.robot, j = contact.obstacle;
     const Shape &A = scene.robot, &O = scene.obstacles;
     if (i >= A.ring_vertices || j >= O.ring_vertices) return false;
     return A.emit[i] && O.emit[j] && A.layer[i] == O.layer[j];  // bounds apply only to the reference point

@@ -129,6 +129,10 @@ Event Predicates::restored(const Event& x, int place) {
 }
 
 bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
+    if (scene.is_round) {
+        const auto p = coefficients<Ball>(x.first, x.second);
+        return cfree::sign_at(p, lo).value_or(0) * cfree::sign_at(p, hi).value_or(0) < 0;
+    }
     const Form f = form(x);
     return f.sign(lo) * f.sign(hi) < 0;
 }
@@ -284,9 +288,14 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
             if (p && q && is_below((*p)[1], (*q)[0])) return -1;
             if (p && q && is_below((*q)[1], (*p)[0])) return 1;
         }
-        if (x.is_touch == y.is_touch && alone(x) &&
+        if (!scene.is_round && x.is_touch == y.is_touch && alone(x) &&
             are_proportional(coefficients<T>(x.first, x.second), coefficients<T>(y.first, y.second)).value_or(false))
             return 0;
+        if (scene.is_round) {
+            if constexpr (std::is_same_v<T, Ball>) return {};
+            LongRoot p = long_root_of(x), q = long_root_of(y);
+            return cfree::compare(p, q);
+        }
         const auto first = meets_parallel<T>(x, y), second = meets_parallel<T>(y, x);
         if (!first || !second) return {};
         if ((*first && alone(y)) || (*second && alone(x))) return 0;
@@ -309,6 +318,9 @@ int Predicates::order(const Event& x, const Sample& at) {
             const auto p = simple(x);
             if (!p) return {};
             here = cfree::sign_at(*p, at.ball()), below = cfree::sign_at(*p, x.lo);
+        } else if (scene.is_round) {
+            LongRoot root = long_root_of(x);
+            return cfree::compare(root, at.exact());
         } else {
             const RealRoot root = root_of(x);
             const Dyadic t = at.exact();
@@ -347,9 +359,11 @@ Sample Predicates::between(const Event& x, const Event& y, int attempt) {
             if (!p || !q || !is_below((*p)[1], (*q)[0])) return {};
             return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
         } else {
-            RealRoot p = root_of(x), q = root_of(y);
-            while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
-            return {{p.hi, q.lo}};
+            const auto apart = [](auto p, auto q) -> std::array<Dyadic, 2> {
+                while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+                return {p.hi, q.lo};
+            };
+            return scene.is_round ? apart(long_root_of(x), long_root_of(y)) : apart(root_of(x), root_of(y));
         }
     });
     const double lo = below.rounded_up(), hi = above.rounded_down();

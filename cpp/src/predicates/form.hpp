@@ -60,7 +60,7 @@ Terms<Q> terms(Constants first, const Q& N1, const Q& D1, Constants second, cons
 // Coefficients of a quadratic.
 template <class T>
 Coefficients<T> derivative(const Coefficients<T>& p) {
-    return {{p.c[1], p.c[2] + p.c[2], {}, {}, {}}, 3};
+    return {{p.c[1], p.c[2] + p.c[2]}, 3};
 }
 
 // A quadratic p, or the quartic p q - r s, in doubles.

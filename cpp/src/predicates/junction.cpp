@@ -91,7 +91,8 @@ RealRoot& Junction::here() const {
 // The surface's line is P + t U, U = E_j or -R E_i.
 template <class T>
 Trig<T> Junction::along(const Feature& x, Index a, Index b) const {
-    const auto [kind, a0, b0] = end_helix(scene, x, 0);
+    const Feature start = end_helix(scene, x, 0);
+    const Index a0 = start.robot, b0 = start.obstacle;
     const auto w = difference<T>(scene.obstacles, b, b0), d = difference<T>(scene.robot, a, a0);
     if (is_on_edge(x)) {
         const auto E = edge<T>(scene.obstacles, x.obstacle);
@@ -146,7 +147,8 @@ int Junction::parallel(const Feature& x, const Feature& y) {
 int Junction::side(const Feature& x, const Feature& y) {
     if (code(scene, x) == code(scene, y)) return 0;
     if (are_one_line(x, y)) return 0;
-    const auto [kind, a, b] = end_helix(scene, y, 0);
+    const Feature start = end_helix(scene, y, 0);
+    const Index a = start.robot, b = start.obstacle;
     const int found = side(x, a, b);
     if (found != 0) return found;
     const auto on_x = helices(x), on_y = helices(y);
@@ -198,7 +200,8 @@ void Junction::know_parallel(Index g, Index f) {
 }
 
 Interval Junction::offset(const Feature& x, const Feature& y) const {
-    const auto [kind, a, b] = end_helix(scene, y, 0);
+    const Feature start = end_helix(scene, y, 0);
+    const Index a = start.robot, b = start.obstacle;
     return range(filtered(on(x).offset_trig<Approx>(a, b)));
 }
 
@@ -236,7 +239,8 @@ std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) co
     if constexpr (!std::is_same_v<T, Approx>) {
         if (p.given) {
             const T n = number<T>(p.given->n), d = number<T>(p.given->d);
-            const auto [kind, a, b] = end_helix(scene, p.on, 0);
+            const Feature start = end_helix(scene, p.on, 0);
+            const Index a = start.robot, b = start.obstacle;
             const Trig<T> N = sum(times(d, along<T>(line, a, b)), times(n, directions_dot<T>(line, p.on)));
             return {N, times(d, directions_dot<T>(line, line))};
         }
@@ -336,7 +340,8 @@ int Junction::order_exactly(const Feature& line, const Spot& p, const Spot& q) {
 
 int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
     // U_x x (P + t U - P_x) = offset of the line's start + t U_x x U, with t = N / D
-    const auto [kind, a, b] = end_helix(scene, line, 0);
+    const Feature start = end_helix(scene, line, 0);
+    const Index a = start.robot, b = start.obstacle;
     if (!p.given) {
         const auto [N, D] = position<Approx>(line, p);
         const Predicates::Form form{{4, filtered(on(x).offset_trig<Approx>(a, b)), filtered(D), filtered(N),
@@ -361,7 +366,8 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
         if (above && below) break;
         (above ? high : low) = n;
     }
-    const auto [kind, a, b] = end_helix(scene, x, 0);
+    const Feature start = end_helix(scene, x, 0);
+    const Index a = start.robot, b = start.obstacle;
     const Trig<Int> g = sum(times(d, on(y).offset_trig<Int>(a, b)), times(n, directions_cross<Int>(y, x)));
     const Poly offset = polynomial(g);
     if (offset.empty()) return 0;

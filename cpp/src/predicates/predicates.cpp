@@ -1,5 +1,6 @@
 // Signs of the quadratics: offsets, parallels, curves; theory, "Degrees".
 #include "predicates/form.hpp"
+#include "predicates/round_orders.hpp"
 
 namespace cfree {
 
@@ -12,8 +13,9 @@ Code code(const Scene& scene, const Feature& f) {
         case Kind::edge_vertex: i = A.line[f.robot], j = O.point[f.obstacle]; break;
         case Kind::vertex_vertex: i = A.point[f.robot], j = O.point[f.obstacle]; break;
         case Kind::edge_edge: i = A.direction[f.robot], j = O.direction[f.obstacle]; break;
+        case Kind::seam: i = A.point[f.robot], j = O.point[f.obstacle]; break;
     }
-    return static_cast<Code>(f.kind) << 61 | static_cast<Code>(i) << 31 | static_cast<Code>(j);
+    return static_cast<Code>(f.kind) << 61 | static_cast<Code>(f.branch & 3) << 59 | static_cast<Code>(i) << 31 | static_cast<Code>(j);
 }
 
 Feature end_helix(const Scene& scene, const Feature& contact, int end) {
@@ -52,6 +54,7 @@ std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
 }
 
 Curve Predicates::curve(const Feature& f) const {
+    if (scene.is_round) return {f, code(scene, f), false, false, false, {}, {}};
     const auto [N, D] = curve_trig<Approx>(f);
     const bool constant = f.kind == Kind::vertex_vertex;
     return {f, code(scene, f), constant, constant || f.kind == surface.contact.kind, false, filtered(N), filtered(D)};
@@ -84,12 +87,14 @@ bool Predicates::turns_parallel(bool robot, Index v, Index w, Index e, double lo
 
 template <class T>
 Coefficients<T> Predicates::coefficients(const Trig<T>& f) const {
-    if (kappa > 0) return {{f.a + f.b, f.c + f.c, f.a - f.b, {}, {}}, 3};
-    return {{f.a - f.b, -(f.c + f.c), f.a + f.b, {}, {}}, 3};
+    if (kappa > 0) return {{f.a + f.b, f.c + f.c, f.a - f.b}, 3};
+    return {{f.a - f.b, -(f.c + f.c), f.a + f.b}, 3};
 }
 
 template <class T>
 Coefficients<T> Predicates::coefficients(const Feature& first, const Feature& second) const {
+    if constexpr (std::is_same_v<T, Ball>)
+        if (scene.is_round) return RoundOrders(scene, surface).in_balls(first, second);
     if (second.kind == Kind::none) {
         if (first.kind == Kind::edge_edge) return coefficients(parallel_trig<T>(first.robot, first.obstacle));
         return coefficients(offset_trig<T>(first.robot, first.obstacle));

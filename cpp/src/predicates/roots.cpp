@@ -1,41 +1,15 @@
 // Isolate roots, at which signs change, in doubles, then in balls, then exactly; theory, "Degrees".
 #include <stdexcept>
 
-#include "predicates/form.hpp"
+#include "predicates/isolation.hpp"
 
 namespace cfree {
 
 namespace {
 
-// None of these constants decides anything: signs at the ends of an interval decide, and open cases go to the next rung.
-constexpr double closest = 0x1p-51;          // false position stops here: two units in the last place of 1
-constexpr double nearby = 0x1p-30;           // the slope at a root is taken over this distance
-constexpr double margin = 0x1p-40;           // search for roots so far beyond the ends, in case one is there
-constexpr double narrow = 0x1p-20;           // roots closer than this are left to balls
-constexpr double narrow_in_balls = 0x1p-46;  // and closer than this to exact integers
-
-enum class Found { none, one, unclear, hopeless };
-
-// Number of roots inside, by the variations of certain signs; uncertain signs are allowed only if they cannot add any.
-Found roots_inside(const int* sign, int degree) {
-    int changes = 0, last = 0, gap = 0;
-    bool ends = true;
-    for (int i = 0; i <= degree; ++i) {
-        if (sign[i] == 0) {
-            if (i == 0 || i == degree) ends = false;
-            gap = 1;
-            continue;
-        }
-        if (last != 0) {
-            if (sign[i] != last) ++changes;
-            else if (gap) ends = false;
-        }
-        last = sign[i], gap = 0;
-    }
-    if (last == 0) return Found::hopeless;
-    if (!ends) return Found::unclear;
-    return changes == 0 ? Found::none : changes == 1 ? Found::one : Found::unclear;
-}
+// These decide nothing either.
+constexpr double closest = 0x1p-51;  // false position stops here: two units in the last place of 1
+constexpr double nearby = 0x1p-30;   // the slope at a root is taken over this distance
 
 // Illinois method: false position that halves the value of an end that stays twice.
 template <class Form>
@@ -60,21 +34,10 @@ double false_position(const Form& form, double a, double b, double fa, double fb
     return t;
 }
 
-// Shrink an interval with certain, opposite signs at its ends and one root inside around t: widen until the signs are
-// certain again.
-template <class Form>
-std::array<double, 2> around(const Form& form, double t, double delta, double lo, double hi) {
-    const int below = form.sign(lo), above = form.sign(hi);
-    if (!(delta < hi - lo)) delta = hi - lo;
-    for (int k = 0; k < 64; ++k, delta *= 2) {
-        const double x = std::max(lo, t - delta), y = std::min(hi, t + delta);
-        if ((x == lo || form.sign(x) == below) && (y == hi || form.sign(y) == above)) return {x, y};
-    }
-    return {lo, hi};
-}
+}  // namespace
 
 template <class Form>
-std::array<double, 2> refine(const Form& form, double lo, double hi) {
+static std::array<double, 2> refine(const Form& form, double lo, double hi) {
     double t = lo, width;
     if (form.degree == 2) {  // (a - b) tau^2 + 2 c tau + (a + b)
         const double A = form.p.a - form.p.b, B = form.p.c, C = form.p.a + form.p.b;
@@ -91,122 +54,10 @@ std::array<double, 2> refine(const Form& form, double lo, double hi) {
     return around(form, t, width + 2 * u, lo, hi);
 }
 
-// The same polynomial in balls.
-struct Balls {
-    Coefficients<Ball> p;
-    int degree;
-
-    explicit Balls(const Coefficients<Ball>& c) : p(c), degree(c.count - 1) {}
-    explicit Balls(const Poly& exact) : p{{}, exact.size() <= 3 ? 3 : 5}, degree(p.count - 1) {
-        int most = 0;
-        for (const Int& c : exact) most = std::max(most, c.is_zero() ? 0 : static_cast<int>(msb(abs(c))));
-        for (int i = 0; i < exact.size(); ++i) p.c[i] = ball(exact[i], most);
-    }
-    bool may_touch() const { return false; }
-    int sign(double t) const { return sign_at(p, t).value_or(0); }
-    // Place that separates two close roots, if possible: an extremum, by Newton's method.
-    std::optional<double> extremum(double lo, double hi) const {
-        double t = 0.5 * (lo + hi);
-        for (int k = 0; k < 8; ++k) {
-            double slope = 0, bend = 0;
-            for (int i = degree; i > 0; --i) bend = bend * t + slope, slope = slope * t + i * p.c[i].hi;
-            const double next = t - slope / bend;
-            if (!(next > lo && next < hi)) return {};
-            if (std::abs(next - t) <= 4 * u) return next;
-            t = next;
-        }
-        return {};
-    }
-    // Bernstein coefficients, times 2 or 12, by the polar form: elementary symmetric functions of ends of the interval.
-    void signs(double lo, double hi, int* sign) const {
-        for (int i = 0; i <= degree; ++i) {
-            Ball e[5] = {1.0, {}, {}, {}, {}};
-            for (int k = 0; k < degree; ++k)
-                for (int j = k + 1; j > 0; --j) e[j] = e[j] + e[j - 1] * Ball(k < i ? hi : lo);
-            const double weight[2][5] = {{2, 1, 2, 0, 0}, {12, 3, 2, 3, 12}};  // over binomial coefficients
-            Ball sum;
-            for (int j = 0; j <= degree; ++j) sum = sum + Ball(weight[degree / 4][j]) * (p.c[j] * e[j]);
-            sign[i] = certain_sign(sum).value_or(0);
-        }
-    }
-};
-
-std::array<double, 2> refine(const Balls& form, double lo, double hi) {
-    double t = 0.5 * (lo + hi);
-    for (int k = 0; k < 8; ++k) {  // Newton's method; if it fails, halving
-        double value = form.p.c[form.degree].hi, slope = 0;
-        for (int i = form.degree; i-- > 0;) slope = slope * t + value, value = value * t + form.p.c[i].hi;
-        const double next = t - value / slope;
-        if (!(next > lo && next < hi) || next == t) break;
-        t = next;
-    }
-    const auto close = around(form, t, 2 * u, lo, hi);
-    if (close[1] - close[0] < narrow_in_balls) return close;
-    const int below = form.sign(lo);
-    for (;;) {
-        const double mid = 0.5 * (lo + hi);
-        if (!(lo < mid && mid < hi)) return {lo, hi};
-        const int s = form.sign(mid);
-        if (s == 0) return around(form, mid, (hi - lo) * 0x1p-40, lo, hi);
-        (s == below ? lo : hi) = mid;
-    }
-}
-
-constexpr int enough = 8;
-using Brackets = Few<std::array<double, 2>, enough>;
-
-// Find brackets of the roots in [lo, hi], in order; false if certain signs do not suffice.
 template <class Form>
-bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brackets& found) {
-    struct Span {
-        double lo, hi;
-    };
-    Span stack[64];
-    int top = 0;
-    stack[top++] = {lo, hi};
-    int budget = 60;
-    found = {};
-    while (top > 0) {
-        const Span s = stack[--top];
-        int sign[5];
-        form.signs(s.lo, s.hi, sign);
-        const Found inside = roots_inside(sign, form.degree);
-        if (inside == Found::none) continue;
-        if (inside == Found::hopeless) return false;
-        if (inside == Found::one) {
-            found.push_back(refine(form, s.lo, s.hi));
-            if (found.size() == enough) return false;
-            continue;
-        }
-        if (--budget == 0 || s.hi - s.lo < least || top > 60 || form.may_touch()) return false;
-        const auto extremum = form.extremum(s.lo, s.hi);
-        double mid = extremum.value_or(0.5 * (s.lo + s.hi));
-        if (form.sign(mid) == 0) {
-            if (extremum) return false;
-            mid = s.lo + 0.4375 * (s.hi - s.lo);
-        }
-        stack[top++] = {mid, s.hi};
-        stack[top++] = {s.lo, mid};
-    }
-    return true;
-}
-
-// Find brackets a little beyond the two ends, as a root may be one of them.
-template <class Form>
-bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {
+static bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {
     return isolate_by_signs(form, lo - margin, hi + margin, narrow, found);
 }
-bool isolate_around(const Balls& form, double lo, double hi, Brackets& found) {
-    return isolate_by_signs(form, lo - margin, hi + margin, narrow_in_balls, found);
-}
-
-}  // namespace
-
-// Roots in the interval and a little beyond it.
-struct Predicates::Candidates {
-    Few<Event, enough> at;
-    bool all_zero = false;
-};
 
 // Interval around a simple root near its double, with certain, opposite signs.
 std::optional<std::array<double, 2>> straddling(const Coefficients<Ball>& p, double t) {
@@ -328,13 +179,14 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
                                     const Event& to) {
     Candidates all;
     Brackets found;
-    if (isolate_around(f, from.lo, to.hi, found) || double_only) {
+    if (!scene.is_round && (isolate_around(f, from.lo, to.hi, found) || double_only)) {
         ++counters.filter;
         for (const auto& [below, above] : found) all.at.push_back({first, second, below, above});
     } else {
         all = settled(counters, [&]<class T>() -> std::optional<Candidates> {
             if constexpr (std::is_same_v<T, Ball>) return roots_by_balls(first, second, from.lo, to.hi);
-            else return roots_exactly(first, second, from.lo, to.hi);
+            else return scene.is_round ? roots_exactly_round(first, second, from.lo, to.hi)
+                                       : roots_exactly(first, second, from.lo, to.hi);
         });
     }
     Roots result;
@@ -391,6 +243,7 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
         return result;
     };
     if (p.code == q.code) return ++counters.identity, constant(0);
+    if (scene.is_round) return compare_round(p.feature, q.feature, from, to);
     const Form f = form(p, q);
     const int everywhere = f.sign_on(from.lo, to.hi);
     result.strict = everywhere != 0;

@@ -21,10 +21,10 @@ struct Dyadic {
 };
 int compare(const Dyadic& p, const Dyadic& q);
 
-// Three or five coefficients from the constant up, of any number type; leading ones may vanish.
+// Three, five or seven coefficients from the constant up, of any number type; leading ones may vanish.
 template <class T>
 struct Coefficients {
-    T c[5];
+    T c[7];
     int count;
 };
 std::optional<int> sign_at(const Coefficients<Ball>& p, const Ball& tau);

@@ -81,6 +81,8 @@ public:
     Predicates decide;
 
 protected:
+    // With nothing live yet.
+    Trimmer(const Scene& s, const Surface& on) : decide(s, on), scene(s), surface(on) {}
     struct Span {
         Index from, to;  // events
     };
@@ -197,13 +199,13 @@ protected:
     void find_curves(State& state);
     void add_band(const State& state, const Span& span, Index p, Index k);
     bool covers_at(const Band& band, Index event);
-    bool crosses_at(const Band& band, Index event);
-    int order_at(Index event, Index p, Index q);
+    virtual bool crosses_at(const Band& band, Index event);
+    virtual int order_at(Index event, Index p, Index q);
     bool touches_along(const State& state) const;
     void cut_at(Index event);
     Index curve_of(const Feature& feature, bool flipped);
     Feature normal_form(const Feature& feature) const;
-    double extreme(const Curve& curve, double lo, double hi, bool want_max) const;
+    virtual double extreme(const Curve& curve, double lo, double hi, bool want_max) const;
     void bounds(Area& area) const;
     // Treatment of a band, and of a state in which the line does not pass through the pillar.
     virtual void take(const Band& band) { subtract(band); }

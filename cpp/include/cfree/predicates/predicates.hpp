@@ -15,16 +15,24 @@
 #include <vector>
 
 #include "cfree/exact/algebraic.hpp"
+#include "cfree/exact/surd_polynomial.hpp"
 #include "cfree/scene/scene.hpp"
 #include "cfree/support/few.hpp"
 
 namespace cfree {
 
 // Kind of a feature pair (robot feature, obstacle feature), which names a curve on a surface, or a critical angle.
-enum class Kind : std::uint8_t { none, vertex_edge, edge_vertex, vertex_vertex, edge_edge };
+// A `seam` is an end of a quadrant of a circle, `branch` times a quarter turn from the x axis.
+enum class Kind : std::uint8_t { none, vertex_edge, edge_vertex, vertex_vertex, edge_edge, seam };
 struct Feature {
     Kind kind = Kind::none;
+    // Where shapes are grown: as a curve, the branch on which a surface meets another, see round_surfaces.hpp; as a patch of a
+    // circle, its quadrant.
+    std::int8_t branch = 0;
     Index robot = 0, obstacle = 0;
+
+    constexpr Feature() = default;
+    constexpr Feature(Kind k, Index r, Index o, int b = 0) : kind(k), branch(static_cast<std::int8_t>(b)), robot(r), obstacle(o) {}
 };
 // Equal features have equal codes: vertices by point, edges by line (parallels: by direction).
 using Code = std::uint64_t;
@@ -117,7 +125,7 @@ public:
     // Roots strictly between two angles, in order, those without a change of sign among them.
     // all_zero: the polynomial vanishes identically.
     struct Roots {
-        Few<Event, 4> at;
+        Few<Event, 6> at;
         bool all_zero = false;
     };
     Roots offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to);
@@ -125,12 +133,18 @@ public:
     // Order of two curves between two angles: the angles at which it may change, and the sign of p - q before, between and
     // after.
     struct Order {
-        Few<Event, 4> at;
-        int sign[5]{};        // all 0 if the curves are one
+        Few<Event, 6> at;
+        int sign[7]{};        // all 0 if the curves are one
         bool strict = false;  // the same sign also at the two ends
         bool is(int everywhere) const { return at.empty() && sign[0] == everywhere; }
     };
     Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
+
+    // Sign at a sample, and roots, of the polynomial of an event's features.
+    int event_sign(const Feature& first, const Feature& second, const Sample& at);
+    Roots event_roots(const Feature& first, const Feature& second, const Event& from, const Event& to);
+    // Sign on the whole closed interval, 0 if not certain.
+    int event_sign_on(const Feature& first, const Feature& second, double lo, double hi) const;
 
     // True if the polynomial that two curves, or a helix alone, define on the surface is zero at every angle.
     bool vanishes(const Feature& first, const Feature& second) const { return polynomial(first, second).empty(); }
@@ -159,6 +173,7 @@ public:
     static double of_few_digits_near(double tau) { return std::nearbyint(16 * tau) / 16; }
     // Angle as an exact number.
     RealRoot root_of(const Event& x) const;
+    LongRoot long_root_of(const Event& x) const;  // where shapes are grown
     // Interval of an angle shrunk to about the precision of balls, if possible: between certain, opposite signs.
     using Bracket = std::array<Ball, 2>;
     std::optional<Bracket> bracket(const Event& x) const;
@@ -202,6 +217,10 @@ private:
     Candidates roots_exactly(const Feature& first, const Feature& second, double lo, double hi);
     Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
     Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
+    // The same where shapes are grown (round_predicates.cpp).
+    Order compare_round(const Feature& p, const Feature& q, const Event& from, const Event& to);
+    Candidates roots_exactly_round(const Feature& first, const Feature& second, double lo, double hi);
+    bool meet_at(const Feature& p, const Feature& q, const Event& x) const;
     int sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at);
     bool is_touch_of_quadratic(const Event& x) const;
     std::optional<Coefficients<Ball>> simple(const Event& x) const;

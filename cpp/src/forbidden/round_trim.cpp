@@ -1,0 +1,528 @@
+// Coverage of a line, or of a quadrant of a circle, by a rounded pillar: its states; theory, "Rounded shapes".
+#include "forbidden/round_trim.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace cfree {
+
+RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to) : Trimmer(s, on), orders(s, on) {
+    events = {from, to};
+    if (is_circle(on.contact)) {
+        begin_quadrant();
+        return;
+    }
+    ends[0] = end_helix(s, on.contact, 0), ends[1] = end_helix(s, on.contact, 1);
+    const Index t0 = curve_of(ends[0], false), t1 = curve_of(ends[1], false);
+    live.push_back({0, 1, t0, t1, 0, 1});
+}
+
+static Feature with_branch(Feature f, int branch) {
+    f.branch = static_cast<std::int8_t>(branch);
+    return f;
+}
+
+// The directions of a quadrant in the cones of both vertices, between joints with the edges beside them and ends of the quadrant,
+// change only where two of these are parallel.
+void RoundTrimmer::begin_quadrant() {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature& x = surface.contact;
+    const Index i = x.robot, j = x.obstacle;
+    const Feature seams[2] = {{Kind::seam, i, j, x.branch}, {Kind::seam, i, j, (x.branch + 1) & 3}};
+    std::vector<std::array<Feature, 2>> cones;  // first and last direction
+    if (O.has_extent(j)) cones.push_back({Feature{Kind::vertex_edge, i, O.previous[j]}, Feature{Kind::vertex_edge, i, j}});
+    if (A.has_extent(i)) cones.push_back({Feature{Kind::edge_vertex, A.previous[i], j}, Feature{Kind::edge_vertex, i, j}});
+    std::vector<Event> cuts;
+    const auto add = [&](const Predicates::Roots& roots) { cuts.insert(cuts.end(), roots.at.begin(), roots.at.end()); };
+    for (const auto& [first, last] : cones)
+        for (const Feature& f : {first, last}) {
+            if (f.kind != Kind::edge_vertex) continue;
+            for (const Feature& seam : seams) add(decide.event_roots(f, seam, events[0], events[1]));
+            for (const auto& other : cones)
+                for (const Feature& g : other)
+                    if (g.kind == Kind::vertex_edge) add(decide.parallel_roots(f.robot, g.obstacle, events[0], events[1]));
+        }
+    std::sort(cuts.begin(), cuts.end(), [&](const Event& p, const Event& q) { return decide.order(p, q) < 0; });
+    cuts.push_back(events[1]);
+    for (Index from = 0; const Event& cut : cuts) {
+        if (decide.order(events[from], cut) == 0) continue;
+        const Index to = intern(cut);
+        const Dyadic at = decide.between(events[from], events[to]).exact();
+        const auto is_inside = [&](const Feature& u) {
+            if (orders.turn(seams[0], u, at) < 0 || orders.turn(u, seams[1], at) < 0) return false;
+            return std::all_of(cones.begin(), cones.end(), [&](const auto& cone) {
+                return orders.turn(cone[0], u, at) >= 0 && orders.turn(u, cone[1], at) >= 0;
+            });
+        };
+        std::optional<Feature> limits[2];
+        for (const int end : {0, 1}) {  // a joint in an end of the quadrant bounds
+            if (is_inside(seams[end])) limits[end] = seams[end];
+            for (const auto& cone : cones)
+                if (is_inside(cone[end])) limits[end] = cone[end];
+        }
+        if (limits[0] && limits[1] && orders.turn(*limits[0], *limits[1], at) > 0)
+            live.push_back({from, to, curve_of(*limits[0], false), curve_of(*limits[1], false), 0, 1});
+        from = to;
+    }
+    for (Area& area : live) bounds(area);
+}
+
+void RoundTrimmer::cover(Index p, Index k) {
+    static const State crossing{Meets::crosses, {}, {}, {}, 0, 0, {}, {}};
+    todo.assign(1, {0, 1});
+    while (!todo.empty() && !empty()) {
+        const Span whole = todo.back();
+        todo.pop_back();
+        Span span = whole;
+        Cover found;
+        for (int attempt = 0;; ++attempt) {
+            if (attempt == Predicates::most_attempts) throw std::logic_error("no sample decides a pillar's state");
+            const Sample at = decide.between(events[whole.from], events[whole.to], attempt);
+            Pillar pillar;
+            span = whole;
+            is_critical = false;
+            if (!shape(p, k, at, pillar)) continue;
+            found = is_line(surface.contact) ? on_line(pillar, at) : on_circle(pillar, at);
+            if (!is_critical && narrow(found, at, span)) break;
+        }
+        for (const auto& [lower, upper] : found.bands) {
+            Area band{span.from, span.to, curve_of(lower, false), curve_of(upper, false), 0, 1};
+            bounds(band);
+            take({band, p, k, &crossing});
+        }
+        if (span.to != whole.to) todo.push_back({span.to, whole.to});
+        if (span.from != whole.from) todo.push_back({whole.from, span.from});
+    }
+}
+
+// --- the pillar at a sample ------------------------------------------------------------------------------------------
+
+// Sign at a sample; one that is zero there, and not at every angle, makes it critical.
+int RoundTrimmer::sign_of(const Feature& first, const Feature& second, const Sample& at) {
+    const int sign = decide.event_sign(first, second, at);
+    is_critical |= sign == 0 && !is_zero(orders.exactly(first, second));
+    return sign;
+}
+
+// Merge the edges of both pieces by direction; false if the sample is critical. An edge F of the obstacle is supported by the
+// robot's vertex with R G_before x F <= 0 <= R G_after x F; as F turns on, so does that vertex.
+bool RoundTrimmer::shape(Index p, Index k, const Sample& at, Pillar& out) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index *a = &A.piece_vertex[A.piece[p]], *b = &O.piece_vertex[O.piece[k]];
+    const Index n = A.piece[p + 1] - A.piece[p], m = O.piece[k + 1] - O.piece[k];
+    const Index *ga = n > 1 ? &A.piece_edge[A.piece[p]] : nullptr, *fb = m > 1 ? &O.piece_edge[O.piece[k]] : nullptr;
+    const auto add_arcs = [&](Index from, Index to, Index y) {  // the robot's vertices from one to another at one of the obstacle
+        for (Index x = from; x <= to; ++x) {
+            out.arcs.push_back({a[x % n], b[y]});
+            if (x < to) out.edges.push_back({{Kind::edge_vertex, ga[x % n], b[y]}, {m > 1 ? fb[(y + m - 1) % m] : -1, m > 1 ? fb[y] : -1}});
+        }
+    };
+    if (m == 1) {
+        if (n == 1) return add_arcs(0, 0, 0), true;
+        add_arcs(0, n, 0);
+        out.arcs.pop_back();
+        return true;
+    }
+    const auto sign = [&](Index x, Index y) { return decide.parallel_sign(ga[x % n], fb[y], decide.parallel(ga[x % n], fb[y]), at); };
+    Index x = 0;
+    const auto turn_on = [&](Index y) {
+        for (int s; n > 1 && !is_critical && (s = sign(x, y)) <= 0; ++x) is_critical = s == 0;
+    };
+    if (n > 1)
+        while (sign(x + n - 1, m - 1) >= 0 || sign(x, m - 1) <= 0)  // support of the last edge
+            if (++x == n) return false;                              // an edge is parallel to it
+    const Index first = x;
+    for (Index y = 0; y < m && !is_critical; ++y) {
+        const Index from = x;
+        if (y + 1 < m) turn_on(y);
+        else x = first + (n > 1 ? n : 0);  // once around
+        add_arcs(from, x, y);
+        out.edges.push_back({{Kind::vertex_edge, a[x % n], fb[y]}, {n > 1 ? ga[(x + n - 1) % n] : -1, n > 1 ? ga[x % n] : -1}});
+    }
+    return !is_critical;
+}
+
+// Joints in counter-clockwise order, two for each edge: with the arc before it, and with the one after it.
+RoundTrimmer::Joint RoundTrimmer::joint(const Pillar& pillar, int k) const {
+    const int n = 2 * pillar.count(), j = (k % n + n) % n, edge = j / 2;
+    return {edge, j % 2 == 0 ? edge : (edge + 1) % pillar.count()};
+}
+
+bool RoundTrimmer::has_extent(const Feature& circle) const {
+    return scene.robot.vertex_radius[circle.robot] != 0 || scene.obstacles.vertex_radius[circle.obstacle] != 0;
+}
+
+// Sign of a joint: 1 left of the line or outside the circle; of those that are on it at every angle 0.
+int RoundTrimmer::joint_sign(const Pillar& pillar, int k, const Sample& at) {
+    const auto [edge, arc] = joint(pillar, k);
+    const Feature line = pillar.edges[static_cast<std::size_t>(edge)].line, circle = pillar.arcs[static_cast<std::size_t>(arc)].circle();
+    const Feature& x = surface.contact;
+    if (is_smooth(scene, x, circle))  // two tangents of one circle, or two lines through a point
+        return code(scene, x) != code(scene, line) && has_extent(circle) ? 1 : 0;
+    return sign_of(line, circle, at);
+}
+
+void RoundTrimmer::watch_joint(const Pillar& pillar, int k, int sign, Cover& out) const {
+    const auto [edge, arc] = joint(pillar, k);
+    const Feature line = pillar.edges[static_cast<std::size_t>(edge)].line, circle = pillar.arcs[static_cast<std::size_t>(arc)].circle();
+    if (!is_smooth(scene, surface.contact, circle)) out.watched.push_back({line, circle, sign, true});
+}
+
+void RoundTrimmer::watch_edge(const Edge& edge, Cover& out) const {
+    const Feature& f = edge.line;
+    const auto parallel = [&](Index g, Index e, int sign) { out.watched.push_back({{Kind::edge_edge, g, e}, {}, sign, false}); };
+    if (edge.around[0] < 0) return;
+    if (f.kind == Kind::vertex_edge) {  // R G_before x F <= 0 <= R G_after x F
+        parallel(edge.around[0], f.obstacle, -1), parallel(edge.around[1], f.obstacle, 1);
+    } else {  // R G x F_after <= 0 <= R G x F_before
+        parallel(f.robot, edge.around[0], 1), parallel(f.robot, edge.around[1], -1);
+    }
+}
+
+void RoundTrimmer::watch_arc(const Pillar& pillar, int k, Cover& out) const {
+    const int n = pillar.count();
+    if (n == 0) return;
+    watch_edge(pillar.edges[static_cast<std::size_t>((k + n - 1) % n)], out), watch_edge(pillar.edges[static_cast<std::size_t>(k)], out);
+}
+
+// Curve of the feature between a joint and the next one, as its name on the surface.
+Feature RoundTrimmer::feature_after(const Pillar& pillar, int k, int branch) const {
+    const auto [edge, arc] = joint(pillar, k);
+    const bool is_edge = arc == edge && k % 2 == 0;
+    Feature f = is_edge ? pillar.edges[static_cast<std::size_t>(edge)].line : pillar.arcs[static_cast<std::size_t>(arc)].circle();
+    const Feature& x = surface.contact;
+    if (is_line(x)) {
+        if (is_smooth(scene, x, f)) {
+            const bool at_end = code(scene, f) == code(scene, ends[1]);
+            return ends[at_end ? 1 : 0];
+        }
+        f.branch = static_cast<std::int8_t>(is_line(f) ? 0 : branch);
+    } else {
+        f.branch = static_cast<std::int8_t>(is_smooth(scene, f, x) ? 0 : branch);
+    }
+    return f;
+}
+
+// --- states ----------------------------------------------------------------------------------------------------------
+
+// Sign of the surface's vector U x V at a sample.
+int RoundTrimmer::cross_with_line(const Feature& line, const Sample& at) {
+    const Feature& x = surface.contact;
+    if (x.kind == line.kind)
+        return x.kind == Kind::vertex_edge ? decide.cross_sign(scene.obstacles, x.obstacle, line.obstacle)
+                                           : decide.cross_sign(scene.robot, x.robot, line.robot);
+    const Index g = x.kind == Kind::vertex_edge ? line.robot : x.robot, f = x.kind == Kind::vertex_edge ? x.obstacle : line.obstacle;
+    const int sign = decide.parallel_sign(g, f, decide.parallel(g, f), at);
+    is_critical |= sign == 0;
+    return x.kind == Kind::vertex_edge ? sign : -sign;
+}
+
+// Counter-clockwise around the pillar, the line enters where joints on its left are followed by one on its right, and leaves where
+// they come back. If no joint is on one side, an arc may still be.
+RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at) {
+    Cover out;
+    const Feature& x = surface.contact;
+    const int n = 2 * pillar.count();
+    std::vector<int> sign(static_cast<std::size_t>(n));
+    bool left = false, right = false;
+    for (int k = 0; k < n; ++k) {
+        const int s = sign[static_cast<std::size_t>(k)] = joint_sign(pillar, k, at);
+        left |= s > 0, right |= s < 0;
+    }
+    const auto of = [&](int k) { return sign[static_cast<std::size_t>(k % n)]; };
+    if (left && right) {
+        Feature ends_of_band[2];
+        for (const int side : {1, -1}) {  // down: the line enters; up: it leaves
+            int k = 0;
+            while (of(k) != side) ++k;
+            while (of(k + 1) != -side) ++k;
+            ends_of_band[side > 0 ? 0 : 1] = feature_after(pillar, k % n, -side);
+            watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
+            watch_edge(pillar.edges[static_cast<std::size_t>(joint(pillar, k).edge)], out);
+            watch_edge(pillar.edges[static_cast<std::size_t>(joint(pillar, k + 1).edge)], out);
+        }
+        out.bands.push_back({ends_of_band[0], ends_of_band[1]});
+        return out;
+    }
+    // the arc farthest on the side where no joint is
+    const int side = left ? -1 : 1;
+    const int count = pillar.count();
+    int far = 0;
+    for (int k = 0; k < count; ++k) {
+        const int before = side * cross_with_line(pillar.edges[static_cast<std::size_t>((k + count - 1) % count)].line, at);
+        const int after = side * cross_with_line(pillar.edges[static_cast<std::size_t>(k)].line, at);
+        if (before >= 0 && after <= 0 && before != after) far = k;
+    }
+    const Feature circle = pillar.arcs[static_cast<std::size_t>(far)].circle();
+    if (is_smooth(scene, x, circle)) {  // it touches the line at its end
+        watch_arc(pillar, far, out);
+        return out;
+    }
+    const auto reaches = [&](int to) {  // strictly to this side of the line
+        const Feature tangent = with_branch(circle, to);
+        const bool does = sign_of(tangent, {}, at) == to;
+        out.watched.push_back({tangent, {}, does ? to : -to, !does});
+        return does;
+    };
+    watch_arc(pillar, far, out);
+    if (count > 0)
+        for (const int k : {2 * far - 1 + n, 2 * far}) watch_joint(pillar, k, -side, out);
+    if (!reaches(side) || (count == 0 && !reaches(-side))) return out;
+    out.bands.push_back({with_branch(circle, -1), with_branch(circle, 1)});
+    return out;
+}
+
+// Place of the circle's centre along an edge, from the centre of an arc; see Event.
+std::array<Feature, 2> RoundTrimmer::foot(const Pillar& pillar, int edge, int arc) const {
+    return {pillar.edges[static_cast<std::size_t>(edge)].line, with_branch(pillar.arcs[static_cast<std::size_t>(arc)].circle(), 2)};
+}
+int RoundTrimmer::foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at) {
+    const auto [line, circle] = foot(pillar, edge, arc);
+    return sign_of(line, circle, at);
+}
+
+// Counter-clockwise around the pillar, its rim goes into the circle where this leaves the pillar, and comes out where it enters.
+// No joint may be inside though the rim cuts the circle in one feature; else the centre's nearest feature decides.
+RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& at) {
+    Cover out;
+    const Feature& x = surface.contact;
+    const int count = pillar.count(), n = 2 * count;
+    for (int k = 0; k < count; ++k)  // the circle is one of its own: all but that arc is inside
+        if (Feature own = pillar.arcs[static_cast<std::size_t>(k)].circle(); own.branch = x.branch, code(scene, own) == code(scene, x)) {
+            watch_arc(pillar, k, out);
+            Feature enter = pillar.edges[static_cast<std::size_t>(k)].line, leave = pillar.edges[static_cast<std::size_t>((k + count - 1) % count)].line;
+            enter.branch = leave.branch = 0;
+            clip({{enter, true}, {leave, false}}, at, out);
+            return out;
+        }
+    std::vector<int> sign(static_cast<std::size_t>(n));
+    bool outside = false, inside = false;
+    for (int k = 0; k < n; ++k) {
+        const int s = sign[static_cast<std::size_t>(k)] = joint_sign(pillar, k, at);
+        outside |= s > 0, inside |= s < 0;
+    }
+    if (!orders.has_radius_of(pillar.arcs[0].circle())) return on_any_circle(pillar, sign, at);
+    const auto of = [&](int k) { return sign[static_cast<std::size_t>(k % n)]; };
+    if (inside && outside) {
+        Feature ends_of_band[2];
+        for (const int side : {-1, 1}) {  // -1: out of the circle, which enters; 1: into it, and it leaves
+            int k = 0;
+            while (of(k) != side) ++k;
+            while (of(k + 1) != -side) ++k;
+            ends_of_band[side < 0 ? 0 : 1] = feature_after(pillar, k % n, side);
+            watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
+            watch_edge(pillar.edges[static_cast<std::size_t>(joint(pillar, k).edge)], out);
+            watch_edge(pillar.edges[static_cast<std::size_t>(joint(pillar, k + 1).edge)], out);
+        }
+        clip({{ends_of_band[0], true}, {ends_of_band[1], false}}, at, out);
+        return out;
+    }
+    // nearest feature to the centre: an edge beyond which it is, between its ends; an arc in whose cone it is; or none, inside
+    for (int k = 0; k < count; ++k) {
+        const Edge& edge = pillar.edges[static_cast<std::size_t>(k)];
+        if (foot_sign(pillar, k, k, at) <= 0 || foot_sign(pillar, k, (k + 1) % count, at) >= 0) continue;
+        const int beyond = sign_of(with_branch(edge.line, -1), {}, at);  // of the ungrown edge, as radii are equal
+        if (beyond >= 0) continue;
+        const int touches = sign_of(with_branch(edge.line, 1), {}, at);
+        watch_edge(edge, out);
+        out.watched.push_back({with_branch(edge.line, 1), {}, touches > 0 ? 1 : -1, touches <= 0});
+        if (touches <= 0) return out;
+        out.watched.push_back({with_branch(edge.line, -1), {}, -1, true});
+        for (const int j : {2 * k, 2 * k + 1}) watch_joint(pillar, j, 1, out);
+        clip({{with_branch(edge.line, -1), true}, {with_branch(edge.line, 1), false}}, at, out);
+        return out;
+    }
+    for (int k = 0; k < std::max(count, 1); ++k) {
+        const int before = (k + count - 1) % std::max(count, 1);
+        if (count > 0 && (foot_sign(pillar, before, k, at) < 0 || foot_sign(pillar, k, k, at) > 0)) continue;
+        const Feature circle = pillar.arcs[static_cast<std::size_t>(k)].circle();
+        const int apart = sign_of(with_branch(circle, 1), {}, at);
+        watch_arc(pillar, k, out);
+        out.watched.push_back({with_branch(circle, 1), {}, apart >= 0 ? 1 : -1, apart >= 0});
+        if (apart >= 0) {
+            for (const int edge : {before, k}) {
+                if (count == 0) break;
+                const auto [line, foot_of] = foot(pillar, edge, k);
+                out.watched.push_back({line, foot_of, edge == before ? 1 : -1, true});
+            }
+            return out;
+        }
+        if (count > 0)
+            for (const int j : {2 * k - 1 + n, 2 * k}) watch_joint(pillar, j, 1, out);
+        clip({{with_branch(circle, -1), true}, {with_branch(circle, 1), false}}, at, out);
+        return out;
+    }
+    // the centre is inside the ungrown pillar
+    for (const Edge& edge : pillar.edges) {
+        watch_edge(edge, out);
+        out.watched.push_back({with_branch(edge.line, -1), {}, 1, true});
+    }
+    const Index i = x.robot, j = x.obstacle;
+    out.bands.push_back({Feature{Kind::seam, i, j, x.branch}, Feature{Kind::seam, i, j, (x.branch + 1) & 3}});
+    return out;
+}
+
+// A circle of another radius than the pillar's rounding may cross each of its features twice. All are watched.
+RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at) {
+    Cover out;
+    std::vector<Crossing> crossings;
+    const int count = pillar.count(), n = 2 * count;
+    const auto watch = [&](const Feature& first, const Feature& second, int wanted) {  // true if it has this sign
+        const int found = sign_of(first, second, at);
+        out.watched.push_back({first, second, found == wanted ? wanted : -wanted, found != wanted});
+        return found == wanted;
+    };
+    const auto watch_foot = [&](int edge, int arc, int wanted) {
+        const auto [line, circle] = foot(pillar, edge, arc);
+        return watch(line, circle, wanted);
+    };
+    const auto cross_once = [&](const Feature& f, bool is_into) { crossings.push_back({with_branch(f, is_into ? 1 : -1), !is_into}); };
+    const auto cross_twice = [&](const Feature& f) { cross_once(f, true), cross_once(f, false); };
+    for (int k = 0; k < n; ++k) watch_joint(pillar, k, sign[static_cast<std::size_t>(k)], out);
+    for (int k = 0; k < count; ++k) {
+        const Edge& edge = pillar.edges[static_cast<std::size_t>(k)];
+        watch_edge(edge, out);
+        const int first = sign[static_cast<std::size_t>(2 * k)], last = sign[static_cast<std::size_t>(2 * k + 1)];
+        const Feature name = is_smooth(scene, edge.line, surface.contact) ? with_branch(edge.line, 0) : edge.line;
+        if (first * last < 0) cross_once(name, first > 0);
+        else if (first >= 0 && last >= 0 && watch(with_branch(edge.line, 1), {}, 1) && watch(with_branch(edge.line, -1), {}, -1) &&
+                 watch_foot(k, k, 1) && watch_foot(k, (k + 1) % count, -1))
+            cross_twice(name);
+    }
+    bool is_apart = false;
+    for (int k = 0; k < std::max(count, 1); ++k) {
+        const Feature circle = pillar.arcs[static_cast<std::size_t>(k)].circle();
+        const int before = count > 0 ? (k + count - 1) % count : 0;
+        const int first = count > 0 ? sign[static_cast<std::size_t>((2 * k - 1 + n) % n)] : 0, last = count > 0 ? sign[static_cast<std::size_t>(2 * k)] : 0;
+        if (first * last < 0) {
+            cross_once(circle, first > 0);
+            continue;
+        }
+        const bool is_inside = first < 0 || last < 0;
+        if (!watch(with_branch(circle, 1), {}, -1) || !watch(with_branch(circle, -1), {}, 1)) continue;
+        const int side = is_inside ? -1 : 1;
+        if (count > 0 && (!watch_foot(before, k, side) || !watch_foot(k, k, -side))) continue;
+        if (!is_inside) cross_twice(circle);
+        else cross_once(circle, false), cross_once(circle, true);
+    }
+    if (!crossings.empty()) {
+        clip(crossings, at, out);
+        return out;
+    }
+    // all of the circle is inside, or outside: beyond an edge or an arc, or around the pillar
+    for (int k = 0; k < count; ++k)
+        is_apart |= foot_sign(pillar, k, k, at) > 0 && foot_sign(pillar, k, (k + 1) % count, at) < 0 &&
+                    sign_of(with_branch(pillar.edges[static_cast<std::size_t>(k)].line, 1), {}, at) <= 0;
+    for (int k = 0; k < std::max(count, 1); ++k) {
+        const bool is_in_cone = count == 0 || (foot_sign(pillar, (k + count - 1) % count, k, at) >= 0 && foot_sign(pillar, k, k, at) <= 0);
+        is_apart |= is_in_cone && sign_of(with_branch(pillar.arcs[static_cast<std::size_t>(k)].circle(), 1), {}, at) >= 0;
+    }
+    const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
+                           (count == 0 && sign_of(with_branch(pillar.arcs[0].circle(), -1), {}, at) <= 0);
+    const Feature& x = surface.contact;
+    if (!is_apart && !is_around)
+        out.bands.push_back({Feature{Kind::seam, x.robot, x.obstacle, x.branch}, Feature{Kind::seam, x.robot, x.obstacle, (x.branch + 1) & 3}});
+    return out;
+}
+
+// The covered parts of the quadrant, from crossings in any order: between one where the circle enters and the next one.
+void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out) {
+    const Feature& x = surface.contact;
+    const Feature seams[2] = {{Kind::seam, x.robot, x.obstacle, x.branch}, {Kind::seam, x.robot, x.obstacle, (x.branch + 1) & 3}};
+    const Dyadic tau = at.exact();
+    struct Placed {
+        Crossing crossing;
+        int quadrant;  // quarter turns from the beginning of this one
+    };
+    std::vector<Placed> placed;
+    for (const Crossing& c : crossings) {
+        for (const Feature& seam : seams) {
+            const int sign = sign_of(c.curve, seam, at);
+            out.watched.push_back({c.curve, seam, sign, sign == 0});
+        }
+        const int ahead = orders.coordinate_sign(c.curve, 0, tau), back = orders.coordinate_sign(c.curve, 1, tau);
+        placed.push_back({c, ahead >= 0 ? (back <= 0 ? 0 : 1) : (back > 0 ? 2 : 3)});
+    }
+    if (is_critical) return;
+    std::sort(placed.begin(), placed.end(), [&](const Placed& p, const Placed& q) {
+        if (p.quadrant != q.quadrant) return p.quadrant < q.quadrant;
+        Surface there = surface;
+        there.contact.branch = static_cast<std::int8_t>((x.branch + p.quadrant) & 3);
+        const int order = RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, tau);
+        return order != 0 ? order < 0 : p.crossing.enters < q.crossing.enters;
+    });
+    bool is_covered = placed.back().crossing.enters;
+    Feature from = seams[0];
+    for (const auto& [crossing, quadrant] : placed) {
+        if (quadrant > 0) break;
+        if (is_covered) out.bands.push_back({from, crossing.curve});
+        is_covered = crossing.enters, from = crossing.curve;
+    }
+    if (is_covered) out.bands.push_back({from, seams[1]});
+}
+
+// Narrow a span to the angles at which a state holds; false if the sample is critical.
+bool RoundTrimmer::narrow(Cover& cover, const Sample& sample, Span& span) {
+    for (const Watch& w : cover.watched) {
+        if (decide.event_sign_on(w.first, w.second, events[span.from].lo, events[span.to].hi) == w.sign) continue;
+        const auto roots = decide.event_roots(w.first, w.second, events[span.from], events[span.to]);
+        if (roots.all_zero) {
+            if (!w.may_vanish) throw std::logic_error("a sign of a pillar's state is zero at every angle");
+            continue;
+        }
+        const int at = decide.event_sign(w.first, w.second, sample);
+        if (at == 0) return false;
+        if (at != w.sign && w.sign != 0) throw std::logic_error("a pillar's state contradicts its own signs");
+        for (const Event& root : roots.at) {
+            const bool is_before = decide.order(root, sample) < 0;
+            (is_before ? span.from : span.to) = intern(root);
+            if (!is_before) break;
+        }
+    }
+    return true;
+}
+
+// --- at one angle ----------------------------------------------------------------------------------------------------
+
+// True if the line passes through the open pillar at an end of a band: discs around its vertices are on both sides; or if the
+// two curves do not meet there.
+bool RoundTrimmer::crosses_at(const Band& band, Index event) {
+    if (!is_line(surface.contact)) return order_at(event, band.area.lower, band.area.upper) != 0;
+    const Event& e = events[event];
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    bool left = false, right = false;
+    std::optional<LongRoot> root;
+    for (Index x = A.piece[band.p]; x < A.piece[band.p + 1]; ++x)
+        for (Index y = O.piece[band.k]; y < O.piece[band.k + 1] && !(left && right); ++y)
+            for (const int side : {1, -1}) {
+                const Feature circle{Kind::vertex_vertex, A.piece_vertex[x], O.piece_vertex[y], side};
+                if (side < 0 && is_smooth(scene, surface.contact, circle)) continue;
+                int sign = decide.event_sign_on(circle, {}, e.lo, e.hi);
+                if (sign == 0) {
+                    if (!root) root = decide.long_root_of(e);
+                    sign = sign_at(orders.exactly(circle, {}), *root);
+                }
+                (side > 0 ? left : right) |= sign == side;
+            }
+    return left && right;
+}
+
+int RoundTrimmer::order_at(Index event, Index p, Index q) {
+    const Curve &x = curves[p], &y = curves[q];
+    if (x.code == y.code) return 0;
+    const Event& e = events[event];
+    if (e.first.kind != Kind::none && e.second.kind != Kind::none) {
+        const Code first = code(scene, e.first), second = code(scene, e.second);
+        if ((first == x.code && second == y.code) || (first == y.code && second == x.code)) return 0;
+    }
+    if (orders.is_below(x.feature, y.feature, e.lo, e.hi)) return -1;
+    if (orders.is_below(y.feature, x.feature, e.lo, e.hi)) return 1;
+    LongRoot root = decide.long_root_of(e);
+    return orders.order_at(x.feature, y.feature, root);
+}
+
+double RoundTrimmer::extreme(const Curve& c, double lo, double hi, bool want_max) const {
+    return orders.range(c.feature, lo, hi)[want_max ? 1 : 0];
+}
+
+}  // namespace cfree

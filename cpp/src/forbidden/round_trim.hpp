@@ -1,0 +1,80 @@
+// Trimming of a patch among grown shapes: a pillar is a convex region of arcs and edges, and a patch is a line or a quadrant of a
+// circle.
+//
+// A pillar's state is how the line, or the circle, enters and leaves it. It changes only where a joint of the features passes
+// by which it does, where one of them appears or vanishes, or where they are touched; theory, "Rounded shapes".
+#pragma once
+#include "cfree/forbidden/trim.hpp"
+#include "predicates/round_orders.hpp"
+
+namespace cfree {
+
+class RoundTrimmer final : public Trimmer {
+public:
+    // The part of a patch between two angles of one chart. A quadrant starts with the parts of it that are in the cones of its
+    // two vertices.
+    RoundTrimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to);
+    // Subtract the pillar of robot piece p and obstacle piece k.
+    void cover(Index p, Index k);
+
+private:
+    // A pillar at a sample: arcs[k] is followed counter-clockwise by edges[k]. A point has one arc and no edge.
+    struct Arc {
+        Index s, v;
+        Feature circle() const { return {Kind::vertex_vertex, s, v}; }
+    };
+    struct Edge {
+        Feature line;
+        Index around[2];  // edges of the other shape before and after its supporting vertex, -1 if it is a point
+    };
+    struct Pillar {
+        std::vector<Arc> arcs;
+        std::vector<Edge> edges;
+        int count() const { return static_cast<int>(edges.size()); }
+    };
+    struct Joint {
+        int edge, arc;
+    };
+    // A sign that holds as long as a state does.
+    struct Watch {
+        Feature first, second;  // see Event
+        int sign;
+        bool may_vanish;
+    };
+    // A curve by which the circle enters the pillar, or leaves it.
+    struct Crossing {
+        Feature curve;
+        bool enters;
+    };
+    struct Cover {
+        std::vector<std::array<Feature, 2>> bands;
+        std::vector<Watch> watched;
+    };
+    bool shape(Index p, Index k, const Sample& at, Pillar& out);
+    bool has_extent(const Feature& circle) const;  // its radius is not 0
+    Joint joint(const Pillar& pillar, int k) const;
+    int joint_sign(const Pillar& pillar, int k, const Sample& at);
+    void watch_joint(const Pillar& pillar, int k, int sign, Cover& out) const;
+    void watch_edge(const Edge& edge, Cover& out) const;
+    void watch_arc(const Pillar& pillar, int k, Cover& out) const;
+    Feature feature_after(const Pillar& pillar, int joint, int branch) const;
+    Cover on_line(const Pillar& pillar, const Sample& at);
+    Cover on_circle(const Pillar& pillar, const Sample& at);
+    Cover on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at);
+    std::array<Feature, 2> foot(const Pillar& pillar, int edge, int arc) const;
+    int foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at);
+    void clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out);
+    bool narrow(Cover& cover, const Sample& at, Span& span);
+    int cross_with_line(const Feature& line, const Sample& at);
+    void begin_quadrant();
+    bool crosses_at(const Band& band, Index event) override;
+    int order_at(Index event, Index p, Index q) override;
+    double extreme(const Curve& curve, double lo, double hi, bool want_max) const override;
+
+    int sign_of(const Feature& first, const Feature& second, const Sample& at);
+
+    RoundOrders orders;
+    bool is_critical = false;  // true if the sample is itself a critical angle
+};
+
+}  // namespace cfree

@@ -1,0 +1,60 @@
+// Orders of curves on a contact surface of grown shapes, and the angles at which they change; theory, "Rounded shapes".
+//
+// On a line the place of a curve is t, on a quadrant of a circle a coordinate of the unit vector u. Both are of the form
+// (a + b sqrt(d)) / c, with b = 0 for a joint, for the end of a quadrant and for a line on a line.
+#pragma once
+#include "cfree/exact/radicals.hpp"
+#include "predicates/round_surfaces.hpp"
+
+namespace cfree {
+
+class RoundOrders {
+public:
+    RoundOrders(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
+
+    // True if two curves are certainly in this order everywhere between two angles.
+    bool is_below(const Feature& p, const Feature& q, double lo, double hi) const;
+    // True if the surface is a circle as large as another one.
+    bool has_radius_of(const Feature& circle) const;
+    // Bounds of a curve's place between two angles, or of all.
+    std::array<double, 2> range(const Feature& curve, double lo, double hi) const;
+    // Sign of p - q at a sample, in balls if that is certain.
+    std::optional<int> order_in_balls(const Feature& p, const Feature& q, const Ball& tau) const;
+    int order_at(const Feature& p, const Feature& q, const Dyadic& tau) const;
+    // True if the two curves meet at a root of the polynomial of their surfaces.
+    bool meet_at(const Feature& p, const Feature& q, LongRoot& root) const;
+    // Branch on which a line and a circle that is smooth with it go through their joint where that is on the surface, if it
+    // is certain everywhere between two angles; and at a root.
+    std::optional<int> joint_branch(const Feature& line, const Feature& circle, double lo, double hi) const;
+    int joint_branch(const Feature& line, const Feature& circle, LongRoot& root) const;
+
+    // Sign at a root of p - q, places at which no denominator is zero there.
+    int order_at(const Feature& p, const Feature& q, LongRoot& root) const;
+    // Sign of u x v for two unit vectors to joints or to ends of quadrants.
+    int turn(const Feature& f, const Feature& g, const Dyadic& tau) const;
+    // Sign at a sample of a coordinate of a curve on a circle, see `place`.
+    int coordinate_sign(const Feature& curve, int axis, const Dyadic& tau) const;
+
+    // Polynomial of an event's features, times a power of 1 + tau^2.
+    Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
+    SurdPoly exactly(const Feature& first, const Feature& second) const;
+
+private:
+    template <class K, class Ring>
+    auto event(const Feature& first, const Feature& second, const Ring& in) const;
+    template <class V>
+    struct Place {
+        V a, b, d, c;
+        bool has_root;
+    };
+    template <class K>
+    Trig<K> joint_direction(const Feature& line, const Feature& circle) const;
+    template <class K, class Ring>
+    auto place(const Feature& curve, int axis, const Ring& in) const;
+
+    const Scene& scene;
+    Surface surface;
+    double kappa;
+};
+
+}  // namespace cfree

@@ -1,0 +1,102 @@
+// Orders of curves and of angles where shapes are grown: in intervals, in balls, exactly; theory, "Rounded shapes".
+#include <algorithm>
+#include <stdexcept>
+
+#include "predicates/isolation.hpp"
+#include "predicates/round_orders.hpp"
+
+namespace cfree {
+
+// Roots in the interval and a little beyond it, where certain signs in balls do not suffice.
+Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, const Feature& second, double lo, double hi) {
+    Candidates result;
+    const SurdPoly p = RoundOrders(scene, surface).exactly(first, second);
+    result.all_zero = is_zero(p);
+    if (result.all_zero) return result;
+    for (const SurdRoot& root : roots_between(p, Dyadic::from(std::nextafter(lo, -2)), Dyadic::from(std::nextafter(hi, 2)))) {
+        const double below = root.at.lo.rounded_down(), above = root.at.hi.rounded_up();
+        Event x{first, second, below, above, static_cast<Index>(fine.size()), !root.changes_sign};
+        fine.push_back({root.at.lo, root.at.hi});
+        result.at.push_back(x);
+    }
+    return result;
+}
+
+int Predicates::event_sign(const Feature& first, const Feature& second, const Sample& at) {
+    return settled(counters, [&]<class T>() -> std::optional<int> {
+        if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(coefficients<Ball>(first, second), at.ball());
+        else return cfree::sign_at(RoundOrders(scene, surface).exactly(first, second), at.exact());
+    });
+}
+Predicates::Roots Predicates::event_roots(const Feature& first, const Feature& second, const Event& from, const Event& to) {
+    return roots({}, first, second, from, to);
+}
+
+int Predicates::event_sign_on(const Feature& first, const Feature& second, double lo, double hi) const {
+    const Balls p(coefficients<Ball>(first, second));
+    int sign[7], sum = 0;
+    p.signs(lo, hi, sign);
+    for (int i = 0; i <= p.degree; ++i) sum += sign[i];
+    return std::abs(sum) <= p.degree ? 0 : sum > 0 ? 1 : -1;
+}
+
+LongRoot Predicates::long_root_of(const Event& x) const {
+    const Dyadic lo = x.fine >= 0 ? fine[x.fine][0] : Dyadic::from(x.lo), hi = x.fine >= 0 ? fine[x.fine][1] : Dyadic::from(x.hi);
+    if (cfree::compare(lo, hi) == 0) return {LongPoly{-lo.n, Int(1) << lo.k}, lo, hi};
+    auto roots = roots_between(RoundOrders(scene, surface).exactly(x.first, x.second), lo, hi);
+    if (roots.size() != 1) throw std::logic_error("an angle is not the only root in its interval");
+    return roots[0].at;
+}
+
+// True if two curves meet at a root of the polynomial of the three surfaces: if another branch does, they do not.
+bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) const {
+    const RoundOrders orders(scene, surface);
+    const Feature &line = is_line(p) ? p : q, &circle = is_line(p) ? q : p;
+    if (is_smooth(scene, line, circle)) {
+        auto branch = x.fine < 0 ? orders.joint_branch(line, circle, x.lo, x.hi) : std::nullopt;
+        if (!branch) {
+            LongRoot root = long_root_of(x);
+            branch = orders.joint_branch(line, circle, root);
+        }
+        return circle.branch == *branch && (is_line(surface.contact) || line.branch == *branch);
+    }
+    if (x.fine < 0 && (orders.is_below(p, q, x.lo, x.hi) || orders.is_below(q, p, x.lo, x.hi))) return false;
+    LongRoot root = long_root_of(x);
+    return orders.meet_at(p, q, root);
+}
+
+Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, const Event& from, const Event& to) {
+    const RoundOrders orders(scene, surface);
+    Order result;
+    for (const int sign : {-1, 1})
+        if (orders.is_below(sign < 0 ? p : q, sign < 0 ? q : p, from.lo, to.hi)) {
+            result.sign[0] = sign, result.strict = true;
+            return ++counters.filter, result;
+        }
+    const Roots all = roots({}, p, q, from, to);
+    const auto sign_at_sample = [&](const Sample& at) {
+        if (const auto sign = orders.order_in_balls(p, q, at.ball())) return ++counters.interval, *sign;
+        return ++counters.exact, orders.order_at(p, q, at.exact());
+    };
+    if (all.all_zero) {  // a branch of the one meets a branch of the other everywhere
+        for (int attempt = 0; attempt < 3 && result.sign[0] == 0; ++attempt) result.sign[0] = sign_at_sample(between(from, to, attempt));
+        return result;
+    }
+    int last = 0;
+    for (int k = 0; k <= all.at.size(); ++k) {
+        const Event &before = k == 0 ? from : all.at[k - 1], &after = k == all.at.size() ? to : all.at[k];
+        int sign = 0;
+        for (int attempt = 0; sign == 0; ++attempt) {  // a sample may be where the curves touch
+            if (attempt == most_attempts) throw std::logic_error("two different curves are equal at every sample");
+            sign = sign_at_sample(between(before, after, attempt));
+        }
+        if (k > 0 && (sign != last || meet_at(p, q, before))) {
+            result.at.push_back(before);
+            result.at[result.at.size() - 1].is_touch = sign == last;
+        }
+        result.sign[result.at.size()] = last = sign;
+    }
+    return result;
+}
+
+}  // namespace cfree

@@ -1,0 +1,154 @@
+// Contact surfaces of grown shapes at one orientation, which are lines and circles of the plane, and the polynomials of their
+// meetings; theory, "Rounded shapes".
+//
+// Features of radii r and s touch, with rho = r + s, where the robot's position x satisfies
+//     v-e, e-v:  V x (x - Q) + rho |V| = 0,    V an edge F of the obstacles or -R G, Q = b - R a at its start,
+//     v-v:       |x - C| = rho,                C = b - R a.
+// Inside of the pillar is left of the line and inside the circle.
+//
+// From the centre of a circle of radius rho, u a unit vector, C + rho u is inside another surface where rho n . u > delta. They
+// meet at
+//     rho |n|^2 u = delta n + b sqrt(rho^2 |n|^2 - delta^2) J n,     b = -1 where the circle enters, b = 1 where it leaves,
+// counter-clockwise. Along the line P + t U + rho nu, nu the outward normal, a line is met at t = N / D and a circle at
+//     t |U|^2 = B + b sqrt(sigma^2 |U|^2 - M^2),      b = -1 where the line enters, b = 1 where it leaves.
+// A line is smooth with a circle if they are contacts of an edge and of its end: they touch at every orientation, in a joint.
+#pragma once
+#include "cfree/scene/lengths.hpp"
+#include "predicates/moving_vector.hpp"
+
+namespace cfree {
+
+// Point b - R a for vertices of the two shapes.
+struct Site {
+    Index robot, obstacle;
+};
+
+inline bool is_line(const Feature& f) { return f.kind == Kind::vertex_edge || f.kind == Kind::edge_vertex; }
+inline bool is_circle(const Feature& f) { return f.kind == Kind::vertex_vertex; }
+
+// True if a line and a circle are contacts of an edge and of its end.
+inline bool is_smooth(const Scene& scene, const Feature& line, const Feature& circle) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (!is_line(line) || !is_circle(circle)) return false;
+    if (line.kind == Kind::vertex_edge)
+        return A.point[line.robot] == A.point[circle.robot] &&
+               (O.point[O.v[line.obstacle]] == O.point[circle.obstacle] || O.point[O.w[line.obstacle]] == O.point[circle.obstacle]);
+    return O.point[line.obstacle] == O.point[circle.obstacle] &&
+           (A.point[A.v[line.robot]] == A.point[circle.robot] || A.point[A.w[line.robot]] == A.point[circle.robot]);
+}
+
+template <>
+inline Vec<RootSum> difference(const Shape& s, Index p, Index q) { return {RootSum(s.X[p] - s.X[q]), RootSum(s.Y[p] - s.Y[q])}; }
+
+// The surfaces' data in a number type.
+template <class K>
+class RoundSurfaces {
+public:
+    explicit RoundSurfaces(const Scene& s) : scene(s) {}
+
+    Site site(const Feature& f) const {
+        if (f.kind == Kind::vertex_edge) return {f.robot, scene.obstacles.v[f.obstacle]};
+        if (f.kind == Kind::edge_vertex) return {scene.robot.v[f.robot], f.obstacle};
+        return {f.robot, f.obstacle};
+    }
+    K rho(const Feature& f) const {
+        const Site at = site(f);
+        return cfree::rho<K>(scene, scene.robot.vertex_radius[at.robot], scene.obstacles.vertex_radius[at.obstacle]);
+    }
+    // Vector V of a line, and its length.
+    MovingVector<K> along(const Feature& f) const {
+        if (f.kind == Kind::vertex_edge) return {edge<K>(scene.obstacles, f.obstacle), zero()};
+        return {zero(), edge<K>(scene.robot, f.robot)};
+    }
+    K length(const Feature& f) const {
+        return f.kind == Kind::vertex_edge ? cfree::length<K>(scene.obstacles, f.obstacle) : cfree::length<K>(scene.robot, f.robot);
+    }
+    K square_of_length(const Feature& f) const {
+        const auto V = f.kind == Kind::vertex_edge ? edge<K>(scene.obstacles, f.obstacle) : edge<K>(scene.robot, f.robot);
+        return dot(V, V);
+    }
+    // Vector from the second feature's site to the first one's.
+    MovingVector<K> between(const Feature& f, const Feature& g) const {
+        const Site to = site(f), from = site(g);
+        return {difference<K>(scene.obstacles, to.obstacle, from.obstacle), difference<K>(scene.robot, to.robot, from.robot)};
+    }
+    // Offset of a feature's site from a line, times |V|, positive on its left.
+    Trig<K> offset(const Feature& line, const Feature& from) const {
+        return cross(along(line), between(from, line)) + rho(line) * length(line);
+    }
+
+    // Another surface seen from a circle.
+    struct Seen {
+        MovingVector<K> n;
+        Trig<K> delta, square;  // |n|^2
+    };
+    Seen seen(const Feature& circle, const Feature& other) const {
+        if (is_line(other)) return {quarter_turn(along(other)), -offset(other, circle), constant(square_of_length(other))};
+        const MovingVector<K> d = between(other, circle);
+        const Trig<K> square = dot(d, d);
+        const K two = K(2), r = rho(circle), s = rho(other);
+        return {{{two * d.p.x, two * d.p.y}, {two * d.q.x, two * d.q.y}}, square + (r * r - s * s), K(4) * square};
+    }
+
+    // Quadratic of the angles at which two surfaces touch: on the left (1) or right (-1) of the first line; two circles, of which
+    // none is a line, touch from outside (1) or inside (-1).
+    Trig<K> tangency(const Feature& f, const Feature& g, int side) const {
+        if (is_line(f)) return offset(f, g) + K(side) * rho(g) * length(f);
+        if (is_line(g)) return tangency(g, f, side);
+        const MovingVector<K> d = between(g, f);
+        const K sum = rho(f) + K(side) * rho(g);
+        return dot(d, d) - sum * sum;
+    }
+    // Quadratic of the angles at which the joint of a line and a circle is on another surface, positive on a line's left and
+    // outside a circle.
+    Trig<K> joint(const Feature& line, const Feature& circle, const Feature& on) const {
+        const K length_of_line = length(line), r = rho(circle);
+        if (is_line(on)) return length_of_line * offset(on, circle) - r * dot(along(on), along(line));
+        const MovingVector<K> d = between(circle, on);
+        const K s = rho(on);
+        return length_of_line * (dot(d, d) + (r * r - s * s)) - K(2) * r * cross(along(line), d);
+    }
+    // Quadratic of the angles at which the end C + rho e of a quadrant is on another surface; positive on a line's left and
+    // outside a circle. The joint of a line that is smooth with the circle is in the end where V . e = 0.
+    Trig<K> end_of_quadrant(const Feature& circle, int quadrant, const Feature& on) const {
+        const MovingVector<K> e = axis(quadrant);
+        if (is_smooth(scene, on, circle)) return dot(along(on), e);
+        if (is_line(on)) return offset(on, circle) + rho(circle) * cross(along(on), e);
+        const MovingVector<K> d = between(on, circle);
+        const K r = rho(circle), s = rho(on);
+        return dot(d, d) + (r * r - s * s) - K(2) * r * dot(d, e);
+    }
+    // Unit vector, a number of quarter turns from the x axis.
+    static MovingVector<K> axis(int turns) {
+        constexpr int x[4] = {1, 0, -1, 0};
+        return {{K(x[turns & 3]), K(x[(turns + 3) & 3])}, zero()};
+    }
+    static Trig<K> constant(const K& k) { return {k, K(0), K(0)}; }
+
+private:
+    static Vec<K> zero() { return {K(0), K(0)}; }
+    const Scene& scene;
+};
+
+// Polynomial of the angles at which three surfaces meet in a point, from the ring of `in`: numbers at an angle, or polynomials.
+// All its terms are homogeneous in 1, cos and sin, so it is the true one times a power of 1 + tau^2.
+template <class K, class Ring>
+auto meeting(const RoundSurfaces<K>& of, const Scene& scene, const Feature& x, const Feature& y, const Feature& z, const Ring& in) {
+    for (const auto& [line, circle, on] : {std::array{&x, &y, &z}, std::array{&y, &x, &z}, std::array{&x, &z, &y},
+                                           std::array{&z, &x, &y}, std::array{&y, &z, &x}, std::array{&z, &y, &x}})
+        if (is_smooth(scene, *line, *circle)) return in(of.joint(*line, *circle, *on));
+    if (is_line(x) && is_line(y) && is_line(z)) {
+        const auto U = of.along(x), V = of.along(y), W = of.along(z);
+        const auto from_x = RoundSurfaces<K>::constant(of.rho(x) * of.length(x));
+        return in(from_x) * in(cross(V, W)) + in(of.offset(y, x)) * in(cross(W, U)) + in(of.offset(z, x)) * in(cross(U, V));
+    }
+    const Feature &circle = is_circle(x) ? x : is_circle(y) ? y : z, &first = is_circle(x) ? y : x;
+    const Feature& second = is_circle(x) || is_circle(y) ? z : y;
+    const auto p = of.seen(circle, first), q = of.seen(circle, second);
+    const auto d = in(p.delta), e = in(q.delta), c = in(cross(p.n, q.n));
+    const K r = of.rho(circle);
+    return d * d * in(q.square) + e * e * in(p.square) - in(K(2) * dot(p.n, q.n)) * d * e -
+           in(RoundSurfaces<K>::constant(r * r)) * c * c;
+}
+
+}  // namespace cfree

@@ -1,0 +1,162 @@
+// Curves on lines and circles of grown shapes: their orders and where these change, against long doubles.
+#include "rounded.hpp"
+
+// A circle at an end of a line, on the same branch if that has one.
+static Feature neighbour(const Scene& s, const Feature& f) {
+    const int branch = f.branch != 0 ? f.branch : random_between(0, 1) ? 1 : -1;
+    if (f.kind == Kind::vertex_edge) return {Kind::vertex_vertex, f.robot, random_between(0, 1) ? s.obstacles.v[f.obstacle] : s.obstacles.w[f.obstacle], branch};
+    if (f.kind == Kind::edge_vertex) return {Kind::vertex_vertex, random_between(0, 1) ? s.robot.v[f.robot] : s.robot.w[f.robot], f.obstacle, branch};
+    return random_feature(s);
+}
+
+static void orders_agree_with_long_doubles() {
+    int compared = 0, changes = 0;
+    for (int k = 0; k < 6000; ++k) {
+        const SceneFeatures made = random_scene();
+        const Scene& s = *made.scene;
+        Feature x = random_feature(s);
+        x.branch = x.kind == Kind::vertex_vertex ? static_cast<std::int8_t>(random_between(0, 3)) : std::int8_t(0);
+        const Surface surface{x, static_cast<int>(random_between(0, 1))};
+        const RoundOrders orders(s, surface);
+        const auto random_curve = [&]() -> Feature {
+            if (is_circle(x) && random_between(0, 5) == 0) return {Kind::seam, x.robot, x.obstacle, static_cast<int>(x.branch + random_between(0, 1)) & 3};
+            Feature f = random_feature(s);
+            if ((is_line(x) && is_line(f)) || is_smooth(s, x, f) || is_smooth(s, f, x)) f.branch = 0;
+            return f;
+        };
+        const Feature p = random_curve(), q = random_between(0, 2) > 0 ? random_curve() : neighbour(s, p);
+        if (code(s, x) == code(s, p) || code(s, x) == code(s, q) || code(s, p) == code(s, q)) continue;
+        // at the angles from `lo` to `hi` both exist, and on a circle are in the quadrant
+        const Real quarter = std::acos(Real(-1)) / 2;
+        const auto here = [&](const Feature& f, Real tau) {
+            const Real v = value(s, x, f, 2 * std::atan(tau) + surface.chart * 2 * quarter);
+            const bool is_far = is_circle(x) ? v < -1e-15L || v > quarter + 1e-15L : std::abs(v) > 50;
+            return is_far ? Real(std::nan("")) : v;
+        };
+        const auto exist = [&](double tau) { return std::abs(tau) <= 1 && std::isfinite(here(p, tau)) && std::isfinite(here(q, tau)); };
+        double lo = std::ldexp(double(random_between(-1024, 1024)), -10), hi = lo;
+        if (!exist(lo)) continue;
+        const auto is_near = [&](const Feature& f, double tau, double next) {  // not across a pole
+            return std::abs(here(f, tau) - here(f, next)) < 1 && std::abs(here(f, (tau + next) / 2) - here(f, next)) < 1;
+        };
+        const auto goes_on = [&](double tau, double next) { return exist(next) && is_near(p, tau, next) && is_near(q, tau, next); };
+        while (goes_on(lo, lo - 0x1p-9)) lo -= 0x1p-9;
+        while (goes_on(hi, hi + 0x1p-9)) hi += 0x1p-9;
+        if (lo == hi) continue;
+        Predicates decide(s, surface);
+        const Curve first{p, code(s, p), false, false, false, {}, {}}, second{q, code(s, q), false, false, false, {}, {}};
+        const Event begin{{}, {}, lo, lo}, end{{}, {}, hi, hi};
+        const auto found = decide.compare(first, second, begin, end);
+        ++compared, changes += found.at.size();
+        for (int n = 1; n < 64; ++n) {
+            const double tau = lo + (hi - lo) * n / 64;
+            const Real difference = here(p, tau) - here(q, tau);
+            if (!(std::abs(difference) > 1e-12L)) continue;  // also where circles touch all the time, by rounding
+            const int sign = difference > 0 ? 1 : -1;
+            int piece = 0;
+            while (piece < found.at.size() && found.at[piece].hi < tau) ++piece;
+            if (piece < found.at.size() && found.at[piece].lo <= tau) continue;
+            CHECK(found.sign[piece] == sign);
+            if (n % 16 == 0) {
+                CHECK(orders.order_at(p, q, Dyadic::from(tau)) == sign);
+                const auto in_balls = orders.order_in_balls(p, q, Ball(tau));
+                CHECK(!in_balls || *in_balls == sign);
+            }
+        }
+    }
+    std::printf("%d pairs of curves, %d changes of order\n", compared, changes);
+    CHECK(compared > 200 && changes > 40);
+}
+
+static Curve curve_of(const Scene& s, const Feature& f) { return {f, code(s, f), false, false, false, {}, {}}; }
+static const Event chart_begin{{}, {}, -1, -1}, chart_end{{}, {}, 1, 1};
+
+// A disc touches discs about 0, 6 and 3 + 3i, all of radius 3 with its own: the three circles meet in 3 at all angles.
+static void circles_that_always_meet_in_a_point_are_tied() {
+    const SceneFeatures made = scene_of(polygon({{0, 0}}), {1, 1}, {polygon({{0, 0}}), polygon({{6, 0}}), polygon({{3, 3}})},
+                                        {{2, 1}, {2, 1}, {2, 1}});
+    const Scene& s = *made.scene;
+    for (int quadrant : {0, 3}) {
+        Predicates decide(s, {{Kind::vertex_vertex, 0, 0, quadrant}, 0});
+        for (int b : {-1, 1})
+            for (int c : {-1, 1}) {
+                if (quadrant == 3 && c == 1) continue;  // at 90 degrees
+                const auto order = decide.compare(curve_of(s, {Kind::vertex_vertex, 0, 1, b}), curve_of(s, {Kind::vertex_vertex, 0, 2, c}),
+                                                  chart_begin, chart_end);
+                // circle 1 touches at 0 degrees; circle 2 is met at 0 and at 90 degrees
+                CHECK(order.at.empty() && order.sign[0] == (c == -1 ? 0 : -1));
+            }
+    }
+}
+
+// A line and the circle at its end are met by another line in their joint, and do not cross there.
+static void smooth_neighbours_touch_in_their_joint() {
+    const SceneFeatures made = scene_of(polygon({{0, 0}, {7, 1}}), {1, 2}, {polygon({{0, 0}, {4, 0}, {4, 3}})}, {{1, 3}});
+    const Scene& s = *made.scene;
+    int touches = 0;
+    for (const int chart : {0, 1}) {
+        Predicates decide(s, {{Kind::edge_vertex, 0, 0}, chart});
+        for (int b : {-1, 1}) {
+            const Curve line = curve_of(s, {Kind::vertex_edge, 1, 1}), circle = curve_of(s, {Kind::vertex_vertex, 1, 2, b});
+            const Surface on{{Kind::edge_vertex, 0, 0}, chart};
+            const auto p = RoundOrders(s, on).in_balls(line.feature, circle.feature);
+            CHECK(p.count == 3);  // the joint's quadratic, not its square
+            // at angles at which the robot's line cuts the disc
+            for (double lo = -1; lo < 1; lo += 0x1p-5) {
+                const double hi = lo + 0x1p-5;
+                const auto cuts = [&](double tau) {
+                    return std::isfinite(value(s, on.contact, circle.feature, 2 * std::atan(Real(tau)) + chart * std::acos(Real(-1))));
+                };
+                if (!cuts(lo) || !cuts(hi) || !cuts(lo + 0x1p-6)) continue;
+                const auto order = decide.compare(line, circle, {{}, {}, lo, lo}, {{}, {}, hi, hi});
+                touches += order.at.size();
+                for (int k = 0; k < order.at.size(); ++k) CHECK(order.at[k].is_touch && order.sign[k] == order.sign[k + 1]);
+            }
+        }
+    }
+    CHECK(touches == 2);
+}
+
+// Angles of several curves on one surface, in order: by their intervals, and equal where two names mean one angle.
+static void angles_are_ordered() {
+    for (int k = 0; k < 60; ++k) {
+        const SceneFeatures made = random_scene();
+        const Scene& s = *made.scene;
+        Feature x = random_feature(s);
+        x.branch = 0;
+        Predicates decide(s, {x, 0});
+        std::vector<Event> events;
+        for (int n = 0; n < 12; ++n) {
+            const Feature p = random_feature(s), q = random_feature(s);
+            if (code(s, {p.kind, p.robot, p.obstacle}) == code(s, {q.kind, q.robot, q.obstacle})) continue;
+            for (const Feature& f : {p, q})
+                if (code(s, {f.kind, f.robot, f.obstacle}) == code(s, {x.kind, x.robot, x.obstacle})) goto next;
+            for (const Event& e : decide.event_roots(p, q, chart_begin, chart_end).at) events.push_back(e);
+            for (const Event& e : decide.event_roots(q, p, chart_begin, chart_end).at) events.push_back(e);
+        next:;
+        }
+        for (const Event& e : events)
+            for (const Event& f : events) {
+                const int order = decide.order(e, f);
+                CHECK(order == -decide.order(f, e));
+                if (e.hi < f.lo) CHECK(order == -1);
+                if (order != 0) continue;
+                CHECK(e.lo <= f.hi && f.lo <= e.hi);
+            }
+        for (std::size_t n = 0; n + 1 < events.size(); n += 2)
+            for (std::size_t m = n + 1; m < events.size(); ++m)
+                if (events[n].first.robot == events[m].second.robot && events[n].first.obstacle == events[m].second.obstacle &&
+                    events[n].lo == events[m].lo && events[n].first.kind == events[m].second.kind &&
+                    events[n].second.kind == events[m].first.kind && events[n].second.robot == events[m].first.robot &&
+                    events[n].second.obstacle == events[m].first.obstacle)
+                    CHECK(decide.order(events[n], events[m]) == 0);
+    }
+}
+
+int main() {
+    orders_agree_with_long_doubles();
+    circles_that_always_meet_in_a_point_are_tied();
+    smooth_neighbours_touch_in_their_joint();
+    angles_are_ordered();
+    return failures > 0;
+}
