@@ -38,7 +38,7 @@ static SampleTuple sample(const cfree::Sample& at) {
 }
 static FilteredTuple filtered(const cfree::Filtered& f) { return {f.a, f.b, f.c, f.err}; }
 
-static std::vector<EventTuple> events(const cfree::Few<cfree::Event, 4>& at) {
+static std::vector<EventTuple> events(const cfree::Few<cfree::Event, 6>& at) {
     std::vector<EventTuple> list;
     for (const cfree::Event& x : at) list.push_back(event(x));
     return list;

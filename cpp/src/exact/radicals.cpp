@@ -31,7 +31,7 @@ std::optional<int> ball_sign(const Radicals& p, const Ball& tau) {
 
 int sign_at(const Radicals& p, const Dyadic& tau) {
     if (const auto sign = ball_sign(p, ball(tau.n, static_cast<int>(tau.k)))) return *sign;
-    const Measures m = measures(p, degree);
+    const Measures m = measures(p, degree_of);
     const auto at = [&](const SurdPoly& part, int n) { return value_at(part, tau, n); };
     return sign_by_squaring(at(p.a, m.a), at(p.b, m.b), at(p.d, m.d), at(p.c, m.c), at(p.f, m.f), at(p.e, m.e),
                             [](const RootSum& x) { return x.sign(); });

@@ -40,7 +40,7 @@ LongPoly norm(const SurdPoly& p) {
     return primitive(product.c[0]);
 }
 
-int degree(const SurdPoly& p) {
+int degree_of(const SurdPoly& p) {
     int most = 0;
     for (const LongPoly& part : p.c) most = std::max(most, part.degree());
     return most;
@@ -84,7 +84,7 @@ Ball narrow_ball(LongRoot& x) {
     return x.is_dyadic() ? end : Ball(end.hi, end.lo, (end.radius + 0x1p-106) * radius_growth);
 }
 
-int sign_at(const SurdPoly& p, const Dyadic& tau) { return value_at(p, tau, degree(p)).sign(); }
+int sign_at(const SurdPoly& p, const Dyadic& tau) { return value_at(p, tau, degree_of(p)).sign(); }
 
 int sign_at(const SurdPoly& p, LongRoot& x) {
     if (x.is_dyadic()) return sign_at(p, x.lo);

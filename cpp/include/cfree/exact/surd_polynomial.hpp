@@ -31,7 +31,7 @@ struct SurdRoot {
 std::vector<SurdRoot> roots_between(const SurdPoly& p, const Dyadic& lo, const Dyadic& hi);
 
 // Parts of the above, for values with more roots (`radicals.hpp`).
-int degree(const SurdPoly& p);
+int degree_of(const SurdPoly& p);
 int size(const SurdPoly& p);                                         // bits of the longest coefficient
 RootSum value_at(const SurdPoly& p, const Dyadic& tau, int degree);  // times 2^(k degree), which is at least p's
 Ball value_at(const SurdPoly& p, const Ball& tau, int size);         // times 2^-size
