@@ -301,7 +301,7 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         const int s = sign[static_cast<std::size_t>(k)] = joint_sign(pillar, k, at);
         outside |= s > 0, inside |= s < 0;
     }
-    if (!orders.has_radius_of(pillar.arcs[0].circle())) return on_any_circle(pillar, sign, at);
+    if (orders.compare_radius(pillar.arcs[0].circle()) != 0) return on_any_circle(pillar, sign, at);
     const auto of = [&](int k) { return sign[static_cast<std::size_t>(k % n)]; };
     if (inside && outside) {
         Feature ends_of_band[2];
@@ -362,7 +362,8 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
     return out;
 }
 
-// A circle of another radius than the pillar's rounding may cross each of its features twice. All are watched.
+// A circle of another radius than the pillar's rounding may cross each of its features twice. All are watched. A joint that is on the
+// circle at every angle counts as outside: the rim crosses there in either of its features.
 RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at) {
     Cover out;
     std::vector<Crossing> crossings;
@@ -384,8 +385,8 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
         watch_edge(edge, out);
         const int first = sign[static_cast<std::size_t>(2 * k)], last = sign[static_cast<std::size_t>(2 * k + 1)];
         const Feature name = is_smooth(scene, edge.line, surface.contact) ? with_branch(edge.line, 0) : edge.line;
-        if (first * last < 0) cross_once(name, first > 0);
-        else if (first >= 0 && last >= 0 && watch(with_branch(edge.line, 1), {}, 1) && watch(with_branch(edge.line, -1), {}, -1) &&
+        if ((first < 0) != (last < 0)) cross_once(name, last < 0);
+        else if (first >= 0 && watch(with_branch(edge.line, 1), {}, 1) && watch(with_branch(edge.line, -1), {}, -1) &&
                  watch_foot(k, k, 1) && watch_foot(k, (k + 1) % count, -1))
             cross_twice(name);
     }
@@ -394,11 +395,11 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
         const Feature circle = pillar.arcs[static_cast<std::size_t>(k)].circle();
         const int before = count > 0 ? (k + count - 1) % count : 0;
         const int first = count > 0 ? sign[static_cast<std::size_t>((2 * k - 1 + n) % n)] : 0, last = count > 0 ? sign[static_cast<std::size_t>(2 * k)] : 0;
-        if (first * last < 0) {
-            cross_once(circle, first > 0);
+        if ((first < 0) != (last < 0)) {
+            cross_once(circle, last < 0);
             continue;
         }
-        const bool is_inside = first < 0 || last < 0;
+        const bool is_inside = first < 0;
         if (!watch(with_branch(circle, 1), {}, -1) || !watch(with_branch(circle, -1), {}, 1)) continue;
         const int side = is_inside ? -1 : 1;
         if (count > 0 && (!watch_foot(before, k, side) || !watch_foot(k, k, -side))) continue;
@@ -418,7 +419,7 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
         is_apart |= is_in_cone && sign_of(with_branch(pillar.arcs[static_cast<std::size_t>(k)].circle(), 1), {}, at) >= 0;
     }
     const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
-                           (count == 0 && sign_of(with_branch(pillar.arcs[0].circle(), -1), {}, at) <= 0);
+                           (count == 0 && orders.compare_radius(pillar.arcs[0].circle()) > 0);
     const Feature& x = surface.contact;
     if (!is_apart && !is_around)
         out.bands.push_back({Feature{Kind::seam, x.robot, x.obstacle, x.branch}, Feature{Kind::seam, x.robot, x.obstacle, (x.branch + 1) & 3}});

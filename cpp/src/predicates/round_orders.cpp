@@ -150,9 +150,9 @@ static std::optional<Bounds> range_of(Place x) {
     return outwards(std::min(x.a.lo / x.c.lo, x.a.lo / x.c.hi), std::max(x.a.hi / x.c.lo, x.a.hi / x.c.hi));
 }
 
-bool RoundOrders::has_radius_of(const Feature& circle) const {
+int RoundOrders::compare_radius(const Feature& circle) const {
     const RoundSurfaces<RootSum> of(scene);
-    return (of.rho(surface.contact) - of.rho(circle)).sign() == 0;
+    return (of.rho(surface.contact) - of.rho(circle)).sign();
 }
 
 std::array<double, 2> RoundOrders::range(const Feature& f, double lo, double hi) const {

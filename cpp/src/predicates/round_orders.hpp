@@ -14,8 +14,8 @@ public:
 
     // True if two curves are certainly in this order everywhere between two angles.
     bool is_below(const Feature& p, const Feature& q, double lo, double hi) const;
-    // True if the surface is a circle as large as another one.
-    bool has_radius_of(const Feature& circle) const;
+    // Sign of the radius of the surface, a circle, minus that of another one.
+    int compare_radius(const Feature& circle) const;
     // Bounds of a curve's place between two angles, or of all.
     std::array<double, 2> range(const Feature& curve, double lo, double hi) const;
     // Sign of p - q at a sample, in balls if that is certain.
