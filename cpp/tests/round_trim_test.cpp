@@ -2,8 +2,10 @@
 #include "forbidden/round_trim.hpp"
 
 #include <cstdlib>
+#include <map>
 
 #include "forbidden/coincident_surfaces.hpp"
+#include "forbidden/round_names.hpp"
 #include "rounded.hpp"
 
 // Distance of two convex pieces, 0 if they overlap.
@@ -36,7 +38,8 @@ static Real distance_of(const std::vector<Point>& p, const std::vector<Point>& q
 }
 
 struct Counts {
-    int places = 0, live = 0, trapezoids = 0, wrong = 0;
+    int places = 0, live = 0, trapezoids = 0, wrong = 0, sides = 0, alone = 0;
+    std::vector<std::pair<Feature, Trapezoid>> found;  // of one scene
 };
 
 static void check_patch(const Scene& s, const Feature& x, int chart, const Event& from, const Event& to, Counts& counts) {
@@ -47,6 +50,10 @@ static void check_patch(const Scene& s, const Feature& x, int chart, const Event
     std::vector<Trapezoid> live, thin;
     trimmer.finish(0, live, thin);
     counts.trapezoids += static_cast<int>(live.size());
+    for (const Trapezoid& z : live) {
+        counts.found.push_back({x, z});
+        counts.found.back().second.chart = chart;
+    }
     const Real half_turn = std::acos(Real(-1));
     const auto piece = [](const Shape& shape, Index k, auto place) {
         std::vector<Point> result;
@@ -110,7 +117,23 @@ static void check_patch(const Scene& s, const Feature& x, int chart, const Event
     }
 }
 
-static void check_scene(const Scene& s, Counts& counts) {
+// At an orientation each curve is the lower side of one segment and the upper side of another, by name.
+static void check_names(const Scene& s, Counts& counts) {
+    for (int n = 0; n < 16; ++n) {
+        const double tau = std::uniform_real_distribution<double>(-1, 1)(random_numbers);
+        const int chart = n % 2;
+        std::map<CurveName, std::array<int, 2>> sides;
+        for (const auto& [x, z] : counts.found) {
+            if (z.chart != chart || !(z.from.hi < tau && tau < z.to.lo)) continue;
+            ++sides[curve_name(s, x, z.lower)][0], ++sides[curve_name(s, x, z.upper)][1];
+        }
+        for (const auto& [name, times] : sides) counts.sides += times[0] + times[1], counts.alone += times[0] != 1 || times[1] != 1;
+    }
+    counts.found.clear();
+}
+
+// Surfaces of a scene that coincide have no owner here, and their curves no pairs.
+static void check_scene(const Scene& s, Counts& counts, bool have_pairs = true) {
     const Shape &A = s.robot, &O = s.obstacles;
     Counters decisions;
     const Event begin{{}, {}, -1, -1}, end{{}, {}, 1, 1};
@@ -127,6 +150,8 @@ static void check_scene(const Scene& s, Counts& counts) {
             for (int chart = 0; chart < 2; ++chart)
                 for (int quadrant = 0; quadrant < 4; ++quadrant) check_patch(s, {Kind::vertex_vertex, i, j, quadrant}, chart, begin, end, counts);
         }
+    if (have_pairs) check_names(s, counts);
+    counts.found.clear();
 }
 
 // Scenes with ties, in units of 1/60: equal discs on a lattice, gaps and corridors just as wide as the robot, coaxial stadiums,
@@ -144,6 +169,7 @@ static void check_ties(Counts& counts) {
         long r;
         std::vector<Ring> obstacles;
         std::vector<long> radii;  // one for all, or one each
+        bool coincide = false;    // surfaces do
     };
     const Ring L{{-18, -18}, {42, -18}, {42, 12}, {12, 12}, {12, 42}, {-18, 42}};
     const Ring U{{0, 0}, {180, 0}, {180, 120}, {120, 120}, {120, 60}, {60, 60}, {60, 120}, {0, 120}};
@@ -158,9 +184,9 @@ static void check_ties(Counts& counts) {
         {"slot of the robot's width", box(30, 30), 6, {box(30, 30), box(30, 30, 132, 0)}, {0}},
         {"corridor as wide as the disc", {{0, 0}}, 15, {box(30, 30, 30, 30), box(30, 30, 120, 30)}, {0}},
         {"one offset line of two radii", box(30, 30), 6, {box(60, 30, -90, -30), box(60, 36, 90, -24)}, {12, 0}},
-        {"a length that just fits", box(30, 12), 6, frame(36, 60), {0}},
-        {"an exact fit", box(30, 30), 6, frame(36, 60), {0}},
-        {"a mouth just closed", {{-90, -90}, {90, -90}, {90, 30}, {30, 30}, {30, -30}, {-30, -30}, {-30, 30}, {-90, 30}}, 6, {{{0, 0}}}, {24}},
+        {"a length that just fits", box(30, 12), 6, frame(36, 60), {0}, true},
+        {"an exact fit", box(30, 30), 6, frame(36, 60), {0}, true},
+        {"a mouth just closed", {{-90, -90}, {90, -90}, {90, 30}, {30, 30}, {30, -30}, {-30, -30}, {-30, 30}, {-90, 30}}, 6, {{{0, 0}}}, {24}, true},
         {"equal circles at one angle", {{-90, -60}, {90, -60}, {90, 60}, {30, 60}, {30, 0}, {-30, 0}, {-30, 60}, {-90, 60}}, 6, {{{0, 0}}, {{120, 0}}}, {0}},
         {"walls that meet at one angle", {{-90, -60}, {90, -60}, {90, 60}, {30, 60}, {30, 0}, {-30, 0}, {-30, 60}, {-90, 60}}, 6, {{{0, 0}, {48, 0}}}, {0}},
         {"one large disc behind a thin wall", {{0, 0}, {36, 0}}, 3, {{{0, 0}}, box(120, 3, 0, 54)}, {60, 0}},
@@ -175,13 +201,14 @@ static void check_ties(Counts& counts) {
             radii.push_back({tie.radii.size() > 1 ? tie.radii[k] : tie.radii[0], 1});
         }
         const SceneFeatures made = scene_of(polygon(tie.robot), {tie.r, 1}, std::move(obstacles), std::move(radii));
-        const int before = counts.wrong;
+        const int before = counts.wrong, alone = counts.alone;
         try {
-            check_scene(*made.scene, counts);
+            check_scene(*made.scene, counts, !tie.coincide);
         } catch (const std::exception& fault) {
             std::printf("%s: %s\n", tie.name, fault.what()), ++failures;
         }
         if (counts.wrong > before) std::printf("%s: %d wrong\n", tie.name, counts.wrong - before);
+        if (counts.alone > alone) std::printf("%s: %d names without a pair\n", tie.name, counts.alone - alone);
     }
 }
 
@@ -192,15 +219,17 @@ int main(int argc, char** argv) {
     for (int k = first; k < first + count; ++k) {
         random_numbers.seed(static_cast<unsigned>(k));
         const SceneFeatures made = random_scene(k % 2 == 0);
-        const int before = counts.wrong;
+        const int before = counts.wrong, alone = counts.alone;
         try {
             check_scene(*made.scene, counts);
         } catch (const std::exception& fault) {
             std::printf("scene %d: %s\n", k, fault.what()), ++failures;
         }
         if (counts.wrong > before) std::printf("scene %d: %d wrong\n", k, counts.wrong - before);
+        if (counts.alone > alone) std::printf("scene %d: %d names without a pair\n", k, counts.alone - alone);
     }
-    std::printf("%d places, %d live, %d trapezoids\n", counts.places, counts.live, counts.trapezoids);
-    CHECK(counts.wrong == 0 && counts.live > 0);
+    std::printf("%d places, %d live, %d trapezoids; %d sides, %d names without a pair\n", counts.places, counts.live, counts.trapezoids,
+                counts.sides, counts.alone);
+    CHECK(counts.wrong == 0 && counts.alone == 0 && counts.live > 0 && counts.sides > 0);
     return failures > 0;
 }
