@@ -13,8 +13,8 @@ struct CurveName {
     auto operator<=>(const CurveName&) const = default;
 };
 
-// Where one surface enters another one, that leaves it. A joint, and two lines, have no branch; an end of a quadrant is named by its
-// circle.
+// Where one surface enters another one, that leaves it. A joint, and two lines, have no branch; an end of a quadrant is named by
+// its circle.
 inline CurveName curve_name(const Scene& scene, const Feature& on, const Feature& curve) {
     const auto surface = [&](Feature f) {
         f.branch = 0;

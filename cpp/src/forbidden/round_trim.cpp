@@ -6,7 +6,8 @@
 
 namespace cfree {
 
-RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to) : Trimmer(s, on), orders(s, on) {
+RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to)
+    : Trimmer(s, on), orders(s, on) {
     events = {from, to};
     if (is_circle(on.contact)) {
         begin_quadrant();
@@ -22,13 +23,19 @@ static Feature with_branch(Feature f, int branch) {
     return f;
 }
 
+// The ends of the circle's quadrant.
+std::array<Feature, 2> RoundTrimmer::quadrant() const {
+    const Feature& x = surface.contact;
+    return {Feature{Kind::seam, x.robot, x.obstacle, x.branch}, Feature{Kind::seam, x.robot, x.obstacle, (x.branch + 1) & 3}};
+}
+
 // The directions of a quadrant in the cones of both vertices, between joints with the edges beside them and ends of the quadrant,
 // change only where two of these are parallel.
 void RoundTrimmer::begin_quadrant() {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Feature& x = surface.contact;
     const Index i = x.robot, j = x.obstacle;
-    const Feature seams[2] = {{Kind::seam, i, j, x.branch}, {Kind::seam, i, j, (x.branch + 1) & 3}};
+    const auto seams = quadrant();
     std::vector<std::array<Feature, 2>> cones;  // first and last direction
     if (O.has_extent(j)) cones.push_back({Feature{Kind::vertex_edge, i, O.previous[j]}, Feature{Kind::vertex_edge, i, j}});
     if (A.has_extent(i)) cones.push_back({Feature{Kind::edge_vertex, A.previous[i], j}, Feature{Kind::edge_vertex, i, j}});
@@ -114,7 +121,9 @@ bool RoundTrimmer::shape(Index p, Index k, const Sample& at, Pillar& out) {
     const auto add_arcs = [&](Index from, Index to, Index y) {  // the robot's vertices from one to another at one of the obstacle
         for (Index x = from; x <= to; ++x) {
             out.arcs.push_back({a[x % n], b[y]});
-            if (x < to) out.edges.push_back({{Kind::edge_vertex, ga[x % n], b[y]}, {m > 1 ? fb[(y + m - 1) % m] : -1, m > 1 ? fb[y] : -1}});
+            if (x == to) continue;
+            out.edges.push_back({{Kind::edge_vertex, ga[x % n], b[y]}, {-1, -1}});
+            if (m > 1) out.edges.back().around[0] = fb[(y + m - 1) % m], out.edges.back().around[1] = fb[y];
         }
     };
     if (m == 1) {
@@ -123,7 +132,10 @@ bool RoundTrimmer::shape(Index p, Index k, const Sample& at, Pillar& out) {
         out.arcs.pop_back();
         return true;
     }
-    const auto sign = [&](Index x, Index y) { return decide.parallel_sign(ga[x % n], fb[y], decide.parallel(ga[x % n], fb[y]), at); };
+    const auto sign = [&](Index x, Index y) {
+        const Index g = ga[x % n], f = fb[y];
+        return decide.parallel_sign(g, f, decide.parallel(g, f), at);
+    };
     Index x = 0;
     const auto turn_on = [&](Index y) {
         for (int s; n > 1 && !is_critical && (s = sign(x, y)) <= 0; ++x) is_critical = s == 0;
@@ -155,7 +167,7 @@ bool RoundTrimmer::has_extent(const Feature& circle) const {
 // Sign of a joint: 1 left of the line or outside the circle; of those that are on it at every angle 0.
 int RoundTrimmer::joint_sign(const Pillar& pillar, int k, const Sample& at) {
     const auto [edge, arc] = joint(pillar, k);
-    const Feature line = pillar.edges[static_cast<std::size_t>(edge)].line, circle = pillar.arcs[static_cast<std::size_t>(arc)].circle();
+    const Feature line = pillar.edge(edge).line, circle = pillar.circle(arc);
     const Feature& x = surface.contact;
     if (is_smooth(scene, x, circle))  // two tangents of one circle, or two lines through a point
         return code(scene, x) != code(scene, line) && has_extent(circle) ? 1 : 0;
@@ -164,7 +176,7 @@ int RoundTrimmer::joint_sign(const Pillar& pillar, int k, const Sample& at) {
 
 void RoundTrimmer::watch_joint(const Pillar& pillar, int k, int sign, Cover& out) const {
     const auto [edge, arc] = joint(pillar, k);
-    const Feature line = pillar.edges[static_cast<std::size_t>(edge)].line, circle = pillar.arcs[static_cast<std::size_t>(arc)].circle();
+    const Feature line = pillar.edge(edge).line, circle = pillar.circle(arc);
     if (!is_smooth(scene, surface.contact, circle)) out.watched.push_back({line, circle, sign, true});
 }
 
@@ -180,16 +192,24 @@ void RoundTrimmer::watch_edge(const Edge& edge, Cover& out) const {
 }
 
 void RoundTrimmer::watch_arc(const Pillar& pillar, int k, Cover& out) const {
-    const int n = pillar.count();
-    if (n == 0) return;
-    watch_edge(pillar.edges[static_cast<std::size_t>((k + n - 1) % n)], out), watch_edge(pillar.edges[static_cast<std::size_t>(k)], out);
+    if (pillar.count() == 0) return;
+    watch_edge(pillar.edge(k - 1), out), watch_edge(pillar.edge(k), out);
+}
+
+// Sign of the surface's vector U x V. It is constant if both belong to one shape.
+void RoundTrimmer::watch_direction(const Feature& line, int sign, Cover& out) const {
+    const Feature& x = surface.contact;
+    if (x.kind == line.kind) return;
+    const bool on_edge = x.kind == Kind::vertex_edge;
+    const Feature parallel{Kind::edge_edge, on_edge ? line.robot : x.robot, on_edge ? x.obstacle : line.obstacle};
+    out.watched.push_back({parallel, {}, on_edge ? sign : -sign, false});
 }
 
 // Curve of the feature between a joint and the next one, as its name on the surface.
 Feature RoundTrimmer::feature_after(const Pillar& pillar, int k, int branch) const {
     const auto [edge, arc] = joint(pillar, k);
     const bool is_edge = arc == edge && k % 2 == 0;
-    Feature f = is_edge ? pillar.edges[static_cast<std::size_t>(edge)].line : pillar.arcs[static_cast<std::size_t>(arc)].circle();
+    Feature f = is_edge ? pillar.edge(edge).line : pillar.circle(arc);
     const Feature& x = surface.contact;
     if (is_line(x)) {
         if (is_smooth(scene, x, f)) {
@@ -211,14 +231,15 @@ int RoundTrimmer::cross_with_line(const Feature& line, const Sample& at) {
     if (x.kind == line.kind)
         return x.kind == Kind::vertex_edge ? decide.cross_sign(scene.obstacles, x.obstacle, line.obstacle)
                                            : decide.cross_sign(scene.robot, x.robot, line.robot);
-    const Index g = x.kind == Kind::vertex_edge ? line.robot : x.robot, f = x.kind == Kind::vertex_edge ? x.obstacle : line.obstacle;
+    const bool on_edge = x.kind == Kind::vertex_edge;
+    const Index g = on_edge ? line.robot : x.robot, f = on_edge ? x.obstacle : line.obstacle;
     const int sign = decide.parallel_sign(g, f, decide.parallel(g, f), at);
     is_critical |= sign == 0;
-    return x.kind == Kind::vertex_edge ? sign : -sign;
+    return on_edge ? sign : -sign;
 }
 
-// Counter-clockwise around the pillar, the line enters where joints on its left are followed by one on its right, and leaves where
-// they come back. If no joint is on one side, an arc may still be.
+// Counter-clockwise around the pillar, the line enters where joints on its left are followed by one on its right, and leaves
+// where they come back. If no joint is on one side, an arc may still be.
 RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at) {
     Cover out;
     const Feature& x = surface.contact;
@@ -238,8 +259,7 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
             while (of(k + 1) != -side) ++k;
             ends_of_band[side > 0 ? 0 : 1] = feature_after(pillar, k % n, -side);
             watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
-            watch_edge(pillar.edges[static_cast<std::size_t>(joint(pillar, k).edge)], out);
-            watch_edge(pillar.edges[static_cast<std::size_t>(joint(pillar, k + 1).edge)], out);
+            watch_edge(pillar.edge(joint(pillar, k).edge), out), watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
         }
         out.bands.push_back({ends_of_band[0], ends_of_band[1]});
         return out;
@@ -249,11 +269,11 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
     const int count = pillar.count();
     int far = 0;
     for (int k = 0; k < count; ++k) {
-        const int before = side * cross_with_line(pillar.edges[static_cast<std::size_t>((k + count - 1) % count)].line, at);
-        const int after = side * cross_with_line(pillar.edges[static_cast<std::size_t>(k)].line, at);
+        const int before = side * cross_with_line(pillar.edge(k - 1).line, at);
+        const int after = side * cross_with_line(pillar.edge(k).line, at);
         if (before >= 0 && after <= 0 && before != after) far = k;
     }
-    const Feature circle = pillar.arcs[static_cast<std::size_t>(far)].circle();
+    const Feature circle = pillar.circle(far);
     if (is_smooth(scene, x, circle)) {  // it touches the line at its end
         watch_arc(pillar, far, out);
         return out;
@@ -266,15 +286,18 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
     };
     watch_arc(pillar, far, out);
     if (count > 0)
-        for (const int k : {2 * far - 1 + n, 2 * far}) watch_joint(pillar, k, -side, out);
-    if (!reaches(side) || (count == 0 && !reaches(-side))) return out;
+        for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
+    if (!reaches(side) || (count == 0 && !reaches(-side))) {
+        if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
+        return out;
+    }
     out.bands.push_back({with_branch(circle, -1), with_branch(circle, 1)});
     return out;
 }
 
 // Place of the circle's centre along an edge, from the centre of an arc; see Event.
 std::array<Feature, 2> RoundTrimmer::foot(const Pillar& pillar, int edge, int arc) const {
-    return {pillar.edges[static_cast<std::size_t>(edge)].line, with_branch(pillar.arcs[static_cast<std::size_t>(arc)].circle(), 2)};
+    return {pillar.edge(edge).line, with_branch(pillar.circle(arc), 2)};
 }
 int RoundTrimmer::foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at) {
     const auto [line, circle] = foot(pillar, edge, arc);
@@ -288,11 +311,9 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
     const Feature& x = surface.contact;
     const int count = pillar.count(), n = 2 * count;
     for (int k = 0; k < count; ++k)  // the circle is one of its own: all but that arc is inside
-        if (Feature own = pillar.arcs[static_cast<std::size_t>(k)].circle(); own.branch = x.branch, code(scene, own) == code(scene, x)) {
+        if (code(scene, with_branch(pillar.circle(k), x.branch)) == code(scene, x)) {
             watch_arc(pillar, k, out);
-            Feature enter = pillar.edges[static_cast<std::size_t>(k)].line, leave = pillar.edges[static_cast<std::size_t>((k + count - 1) % count)].line;
-            enter.branch = leave.branch = 0;
-            clip({{enter, true}, {leave, false}}, at, out);
+            clip({{with_branch(pillar.edge(k).line, 0), true}, {with_branch(pillar.edge(k - 1).line, 0), false}}, at, out);
             return out;
         }
     std::vector<int> sign(static_cast<std::size_t>(n));
@@ -301,7 +322,7 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         const int s = sign[static_cast<std::size_t>(k)] = joint_sign(pillar, k, at);
         outside |= s > 0, inside |= s < 0;
     }
-    if (orders.compare_radius(pillar.arcs[0].circle()) != 0) return on_any_circle(pillar, sign, at);
+    if (orders.compare_radius(pillar.circle(0)) != 0) return on_any_circle(pillar, sign, at);
     const auto of = [&](int k) { return sign[static_cast<std::size_t>(k % n)]; };
     if (inside && outside) {
         Feature ends_of_band[2];
@@ -311,16 +332,15 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
             while (of(k + 1) != -side) ++k;
             ends_of_band[side < 0 ? 0 : 1] = feature_after(pillar, k % n, side);
             watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
-            watch_edge(pillar.edges[static_cast<std::size_t>(joint(pillar, k).edge)], out);
-            watch_edge(pillar.edges[static_cast<std::size_t>(joint(pillar, k + 1).edge)], out);
+            watch_edge(pillar.edge(joint(pillar, k).edge), out), watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
         }
         clip({{ends_of_band[0], true}, {ends_of_band[1], false}}, at, out);
         return out;
     }
     // nearest feature to the centre: an edge beyond which it is, between its ends; an arc in whose cone it is; or none, inside
     for (int k = 0; k < count; ++k) {
-        const Edge& edge = pillar.edges[static_cast<std::size_t>(k)];
-        if (foot_sign(pillar, k, k, at) <= 0 || foot_sign(pillar, k, (k + 1) % count, at) >= 0) continue;
+        const Edge& edge = pillar.edge(k);
+        if (foot_sign(pillar, k, k, at) <= 0 || foot_sign(pillar, k, k + 1, at) >= 0) continue;
         const int beyond = sign_of(with_branch(edge.line, -1), {}, at);  // of the ungrown edge, as radii are equal
         if (beyond >= 0) continue;
         const int touches = sign_of(with_branch(edge.line, 1), {}, at);
@@ -333,22 +353,21 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         return out;
     }
     for (int k = 0; k < std::max(count, 1); ++k) {
-        const int before = (k + count - 1) % std::max(count, 1);
-        if (count > 0 && (foot_sign(pillar, before, k, at) < 0 || foot_sign(pillar, k, k, at) > 0)) continue;
-        const Feature circle = pillar.arcs[static_cast<std::size_t>(k)].circle();
+        if (count > 0 && (foot_sign(pillar, k - 1, k, at) < 0 || foot_sign(pillar, k, k, at) > 0)) continue;
+        const Feature circle = pillar.circle(k);
         const int apart = sign_of(with_branch(circle, 1), {}, at);
         watch_arc(pillar, k, out);
         out.watched.push_back({with_branch(circle, 1), {}, apart >= 0 ? 1 : -1, apart >= 0});
         if (apart >= 0) {
-            for (const int edge : {before, k}) {
+            for (const int edge : {k - 1, k}) {
                 if (count == 0) break;
                 const auto [line, foot_of] = foot(pillar, edge, k);
-                out.watched.push_back({line, foot_of, edge == before ? 1 : -1, true});
+                out.watched.push_back({line, foot_of, edge < k ? 1 : -1, true});
             }
             return out;
         }
         if (count > 0)
-            for (const int j : {2 * k - 1 + n, 2 * k}) watch_joint(pillar, j, 1, out);
+            for (const int j : {2 * k - 1, 2 * k}) watch_joint(pillar, j, 1, out);
         clip({{with_branch(circle, -1), true}, {with_branch(circle, 1), false}}, at, out);
         return out;
     }
@@ -357,13 +376,12 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         watch_edge(edge, out);
         out.watched.push_back({with_branch(edge.line, -1), {}, 1, true});
     }
-    const Index i = x.robot, j = x.obstacle;
-    out.bands.push_back({Feature{Kind::seam, i, j, x.branch}, Feature{Kind::seam, i, j, (x.branch + 1) & 3}});
+    out.bands.push_back(quadrant());
     return out;
 }
 
-// A circle of another radius than the pillar's rounding may cross each of its features twice. All are watched. A joint that is on the
-// circle at every angle counts as outside: the rim crosses there in either of its features.
+// A circle of another radius than the pillar's rounding may cross each of its features twice. All are watched. A joint that is
+// on the circle at every angle counts as outside: the rim crosses there in either of its features.
 RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at) {
     Cover out;
     std::vector<Crossing> crossings;
@@ -377,24 +395,26 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
         const auto [line, circle] = foot(pillar, edge, arc);
         return watch(line, circle, wanted);
     };
-    const auto cross_once = [&](const Feature& f, bool is_into) { crossings.push_back({with_branch(f, is_into ? 1 : -1), !is_into}); };
+    const auto cross_once = [&](const Feature& f, bool is_into) {
+        crossings.push_back({with_branch(f, is_into ? 1 : -1), !is_into});
+    };
     const auto cross_twice = [&](const Feature& f) { cross_once(f, true), cross_once(f, false); };
-    for (int k = 0; k < n; ++k) watch_joint(pillar, k, sign[static_cast<std::size_t>(k)], out);
+    const auto of = [&](int k) { return sign[static_cast<std::size_t>(k % n)]; };
+    for (int k = 0; k < n; ++k) watch_joint(pillar, k, of(k), out);
     for (int k = 0; k < count; ++k) {
-        const Edge& edge = pillar.edges[static_cast<std::size_t>(k)];
+        const Edge& edge = pillar.edge(k);
         watch_edge(edge, out);
-        const int first = sign[static_cast<std::size_t>(2 * k)], last = sign[static_cast<std::size_t>(2 * k + 1)];
+        const int first = of(2 * k), last = of(2 * k + 1);
         const Feature name = is_smooth(scene, edge.line, surface.contact) ? with_branch(edge.line, 0) : edge.line;
         if ((first < 0) != (last < 0)) cross_once(name, last < 0);
         else if (first >= 0 && watch(with_branch(edge.line, 1), {}, 1) && watch(with_branch(edge.line, -1), {}, -1) &&
-                 watch_foot(k, k, 1) && watch_foot(k, (k + 1) % count, -1))
+                 watch_foot(k, k, 1) && watch_foot(k, k + 1, -1))
             cross_twice(name);
     }
     bool is_apart = false;
     for (int k = 0; k < std::max(count, 1); ++k) {
-        const Feature circle = pillar.arcs[static_cast<std::size_t>(k)].circle();
-        const int before = count > 0 ? (k + count - 1) % count : 0;
-        const int first = count > 0 ? sign[static_cast<std::size_t>((2 * k - 1 + n) % n)] : 0, last = count > 0 ? sign[static_cast<std::size_t>(2 * k)] : 0;
+        const Feature circle = pillar.circle(k);
+        const int first = count > 0 ? of(2 * k - 1 + n) : 0, last = count > 0 ? of(2 * k) : 0;
         if ((first < 0) != (last < 0)) {
             cross_once(circle, last < 0);
             continue;
@@ -402,7 +422,7 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
         const bool is_inside = first < 0;
         if (!watch(with_branch(circle, 1), {}, -1) || !watch(with_branch(circle, -1), {}, 1)) continue;
         const int side = is_inside ? -1 : 1;
-        if (count > 0 && (!watch_foot(before, k, side) || !watch_foot(k, k, -side))) continue;
+        if (count > 0 && (!watch_foot(k - 1, k, side) || !watch_foot(k, k, -side))) continue;
         if (!is_inside) cross_twice(circle);
         else cross_once(circle, false), cross_once(circle, true);
     }
@@ -412,24 +432,23 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     }
     // all of the circle is inside, or outside: beyond an edge or an arc, or around the pillar
     for (int k = 0; k < count; ++k)
-        is_apart |= foot_sign(pillar, k, k, at) > 0 && foot_sign(pillar, k, (k + 1) % count, at) < 0 &&
-                    sign_of(with_branch(pillar.edges[static_cast<std::size_t>(k)].line, 1), {}, at) <= 0;
+        is_apart |= foot_sign(pillar, k, k, at) > 0 && foot_sign(pillar, k, k + 1, at) < 0 &&
+                    sign_of(with_branch(pillar.edge(k).line, 1), {}, at) <= 0;
     for (int k = 0; k < std::max(count, 1); ++k) {
-        const bool is_in_cone = count == 0 || (foot_sign(pillar, (k + count - 1) % count, k, at) >= 0 && foot_sign(pillar, k, k, at) <= 0);
-        is_apart |= is_in_cone && sign_of(with_branch(pillar.arcs[static_cast<std::size_t>(k)].circle(), 1), {}, at) >= 0;
+        const bool is_in_cone = count == 0 || (foot_sign(pillar, k - 1, k, at) >= 0 && foot_sign(pillar, k, k, at) <= 0);
+        is_apart |= is_in_cone && sign_of(with_branch(pillar.circle(k), 1), {}, at) >= 0;
     }
     const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
-                           (count == 0 && orders.compare_radius(pillar.arcs[0].circle()) > 0);
-    const Feature& x = surface.contact;
+                           (count == 0 && orders.compare_radius(pillar.circle(0)) > 0);
     if (!is_apart && !is_around)
-        out.bands.push_back({Feature{Kind::seam, x.robot, x.obstacle, x.branch}, Feature{Kind::seam, x.robot, x.obstacle, (x.branch + 1) & 3}});
+        out.bands.push_back(quadrant());
     return out;
 }
 
 // The covered parts of the quadrant, from crossings in any order: between one where the circle enters and the next one.
 void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out) {
     const Feature& x = surface.contact;
-    const Feature seams[2] = {{Kind::seam, x.robot, x.obstacle, x.branch}, {Kind::seam, x.robot, x.obstacle, (x.branch + 1) & 3}};
+    const auto seams = quadrant();
     const Dyadic tau = at.exact();
     struct Placed {
         Crossing crossing;

@@ -31,6 +31,9 @@ private:
         std::vector<Arc> arcs;
         std::vector<Edge> edges;
         int count() const { return static_cast<int>(edges.size()); }
+        // By any number, once around and again.
+        const Edge& edge(int k) const { return edges[static_cast<std::size_t>(k + count()) % edges.size()]; }
+        Feature circle(int k) const { return arcs[static_cast<std::size_t>(k) % arcs.size()].circle(); }
     };
     struct Joint {
         int edge, arc;
@@ -57,6 +60,7 @@ private:
     void watch_joint(const Pillar& pillar, int k, int sign, Cover& out) const;
     void watch_edge(const Edge& edge, Cover& out) const;
     void watch_arc(const Pillar& pillar, int k, Cover& out) const;
+    void watch_direction(const Feature& line, int sign, Cover& out) const;
     Feature feature_after(const Pillar& pillar, int joint, int branch) const;
     Cover on_line(const Pillar& pillar, const Sample& at);
     Cover on_circle(const Pillar& pillar, const Sample& at);
@@ -66,6 +70,7 @@ private:
     void clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out);
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);
+    std::array<Feature, 2> quadrant() const;
     void begin_quadrant();
     bool crosses_at(const Band& band, Index event) override;
     int order_at(Index event, Index p, Index q) override;
