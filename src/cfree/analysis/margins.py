@@ -1,16 +1,18 @@
 """Margins of the robot between two poses: the smallest inset that joins them, the largest scale and clearance.
 
 All are found by bisection over exact decisions: start and goal are in one cell of a scene with another robot, or not.
-So both ends of an interval are proved, each for the polygons that were decided.
+So both ends of an interval are proved, each for the polygons that were decided. Among round shapes a path is searched
+on these, and polygons inside of them prove that there is none; see `among_rounds`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
+from cfree.analysis.among_rounds import margin_bounds, miss_bounds, scale_bounds
 from cfree.analysis.bottleneck import Bottleneck, bottlenecks
 from cfree.arguments import checked
 from cfree.exact.number import ExactPoint
@@ -29,12 +31,24 @@ BITS_OF_INSET = 48
 FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Interval:
-    """Two numbers with a proof for each: the number sought is between them."""
+    """Two numbers with a proof for each: the number sought is between them.
+
+    Attributes
+    ----------
+    lo, hi : float
+    undecided : str
+        The reason why they are farther apart than the tolerance, among round shapes; empty if they are not.
+    """
 
     lo: float
     hi: float
+    undecided: str = field(default="", compare=False)
+
+    def __repr__(self) -> str:
+        why = f", undecided={self.undecided!r}" if self.undecided else ""
+        return f"Interval(lo={self.lo!r}, hi={self.hi!r}{why})"
 
 
 @dataclass(frozen=True)
@@ -54,9 +68,10 @@ class NearestMiss:
     lo: float
     hi: float
     bottlenecks: tuple[Bottleneck, ...]
+    undecided: str = field(default="", compare=False)
 
     def __str__(self) -> str:
-        size = f"an inset of {self.lo:.4g} to {self.hi:.4g} would do"
+        size = f"an inset of {self.lo:.4g} to {self.hi:.4g} would do{f' ({self.undecided})' if self.undecided else ''}"
         if not self.bottlenecks:
             return size
         places = "; ".join(f"between {place}" for place in self.bottlenecks)
@@ -109,6 +124,9 @@ def nearest_miss(
     """
     start, goal = required(scene, start, goal)
     _check(tolerance)
+    if scene.curved:
+        miss = miss_bounds(scene, start, goal, tolerance, progress)
+        return None if miss is None else NearestMiss(*miss)
     if _space(scene).common_cell(start, goal) is not None:
         raise ValueError("start and goal are joined: nothing is missing")
     spaces: dict[Fraction, FreeSpace | None] = {}
@@ -174,6 +192,8 @@ def max_scale(
     """
     start, goal = required(scene, start, goal)
     _check(tolerance)
+    if scene.curved:
+        return Interval(*scale_bounds(scene, start, goal, tolerance, progress))
 
     def is_joined(scale: Fraction) -> bool:
         robot = [_mapped(part, lambda p: (scale * p[0], scale * p[1])) for part in scene.robot]
@@ -226,6 +246,8 @@ def max_margin(
     """
     start, goal = required(scene, start, goal)
     _check(tolerance)
+    if scene.curved:
+        return Interval(*margin_bounds(scene, start, goal, tolerance, progress))
     if _space(scene).common_cell(start, goal) is None:
         raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
 

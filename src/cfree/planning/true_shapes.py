@@ -61,13 +61,13 @@ class TruePlanner(ArcPlanner):
         way = way or way_out_of_contacts(self, start, goal, options)
         return self.finished(way, options) if way else None
 
-    def mended(self, path: Path, options: Options) -> Path | Stuck | None:
+    def mended(self, path: Path, options: Options, *, thorough: bool = True) -> Path | Stuck | None:
         """Return a path near one among the polygons, if all motions of it, or of one farther from them, are free."""
         poses: Sequence[Pose] = path.poses
         slides = any(motion.contacts for motion in path.motions)
         if not slides and self.checker.joins(poses):
             return self.finished(poses, options)
-        for motions in PUSHES:  # a few help where there is room; more are dear near exact fits, which are tried first
+        for motions in PUSHES if thorough else PUSHES[:1]:  # a few help where there is room; more are dear near exact fits, which are tried first
             if not slides:
                 pushed = self.improver(poses, options).pushed(poses, motions)
                 if self.checker.joins(pushed):
