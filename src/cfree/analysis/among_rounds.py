@@ -7,15 +7,14 @@ Between these two some numbers stay undecided; then the polygons get finer, as l
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 
 from cfree.analysis.bottleneck import Bottleneck, bottlenecks
+from cfree.analysis.inset_shapes import inset_shapes
 from cfree.collision.approximations import TOLERANCE, Approximations
 from cfree.collision.motion_checker import MotionChecker
-from cfree.curves.curved import Curved
-from cfree.curves.rings import Circle
 from cfree.curves.similar import similar
 from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.pose import Pose
@@ -30,20 +29,19 @@ from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.polygons.offset import inset
-from cfree.polygons.polygon import Polygon
 from cfree.scene.naming import placed
-from cfree.scene.scene import AnyShape, Scene, grown_scene, polygons_for, size_of, with_robot, with_shapes
+from cfree.scene.scene import Scene, grown_scene, size_of, with_robot, with_shapes
 
 Progress = Callable[[float], object]
 BITS = 24  # bits of the numbers that are tried
 FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
-WORK = 15_000  # most contact patches trimmed for one number
+WORK = 30_000  # most contact patches trimmed for one number
 SMALLEST = 20  # halvings of the robot's size: the least inset that is tried
 WIDER = 4  # times that polygons for a bottleneck are made smaller, each time twice as much
-PATCHES = 30_000  # most contact patches of polygons that are searched for bottlenecks
+PATCHES = 8_000  # most contact patches of polygons that are searched for bottlenecks
 TOTAL = 80_000  # contact patches trimmed for all numbers after which polygons get no finer
 COARSE = 2.0**-8  # first error of the polygons, in robot sizes
-NARROW = 8  # part of an interval: what is not undecided counts as narrow
+NARROW = 4  # part of an interval: what is not undecided counts as narrow
 ROUGH = 1024  # parts of a robot's size: error of polygons that tell how deep it is
 DEEP = 1 + Fraction(1, 2**10)  # ratio of insets that are tried before a robot vanishes
 FINER = 4  # divisor of that error
@@ -148,7 +146,9 @@ def margin_bounds(
     Raises
     ------
     ValueError
-        If no path joins start and goal, or none is found.
+        If no path joins start and goal.
+    UndecidedError
+        If that is undecided.
     """
 
     def scenes(radius: Fraction, error: float) -> tuple[Scene, Scene]:
@@ -158,7 +158,11 @@ def margin_bounds(
     size, decisions = max(map(size_of, scene.robot)), Decisions(start, goal, scenes)
     joined = decisions.joined(Fraction(0))
     if not joined:
-        why = "are not joined without touching" if joined is False else f"are not joined as far as is known, as {decisions.reason}"
+        why = (
+            "are not joined without touching"
+            if joined is False
+            else f"are not joined as far as is known, as {decisions.reason}"
+        )
         raise ValueError(f"start and goal {why}; see cfree.nearest_miss")
     return _largest(decisions, Fraction(2) ** (math.frexp(size)[1] - 3), tolerance, progress)
 
@@ -207,7 +211,7 @@ def miss_bounds(
     if lo:
         lo, hi = between(apart, decisions, lo, hi, tolerance, progress)
     wide = hi > lo * (1 + Fraction(tolerance))
-    places = _bottlenecks(decisions, lo, float(hi - lo)) if lo else ()
+    places = _bottlenecks(decisions, lo, hi) if lo else ()
     return float(lo), float(hi), places, decisions.reason if wide and decisions.undecided else ""
 
 
@@ -238,7 +242,7 @@ def between(
         unknown = [number for number in decisions.undecided if lo < number < hi]
         below, above = min(unknown, default=hi), max(unknown, default=lo)
         ends = (lo, below) if below / lo >= hi / above else (above, hi)
-        if unknown and ends[1] / ends[0] - 1 <= max(Fraction(tolerance) / 4, (hi / lo - 1) / NARROW):
+        if unknown and ends[1] / ends[0] - 1 <= max(Fraction(tolerance) / 2, (hi / lo - 1) / NARROW):
             if not decisions.refine():
                 break
             continue
@@ -277,15 +281,15 @@ def _deepest(leaves: Callable[[Fraction], bool], size: Fraction) -> Fraction:
     return lo
 
 
-def _bottlenecks(decisions: Decisions, lo: Fraction, width: float) -> tuple[Bottleneck, ...]:
-    """Return the places where space opens if the polygons of a proof shrink by a little more than a width."""
-    if lo not in decisions.proofs:
+def _bottlenecks(decisions: Decisions, lo: Fraction, hi: Fraction) -> tuple[Bottleneck, ...]:
+    """Return the places where space opens between two insets, for the finest polygons of a proof that are not many."""
+    few = [by for by, (proof, _) in decisions.proofs.items() if by <= lo and _patches(proof) <= PATCHES]
+    if not few:
         return ()
-    proof, near = decisions.proofs[lo]
-    scene = proof.scene
-    if scene is None or MotionChecker(scene).features.patches > PATCHES:
-        return ()
-    by, space = Fraction(width + 2 * max(near.errors)), free_space(boundary(scene))
+    proof, near = decisions.proofs[max(few)]
+    assert proof.scene is not None, "it was not read from a file"
+    scene, space = proof.scene, free_space(boundary(proof.scene))
+    by = hi - max(few) + 2 * Fraction(max(near.errors))
     for _ in range(WIDER):
         robot = [part for shape in scene.robot for part in inset(shape, by)]
         other = free_space(boundary(with_robot(scene, robot, scene.bounds))) if robot else None
@@ -294,6 +298,10 @@ def _bottlenecks(decisions: Decisions, lo: Fraction, width: float) -> tuple[Bott
             return tuple(_among(near, place) for place in places)
         by *= 2
     return ()
+
+
+def _patches(proof: Separated) -> int:
+    return MotionChecker(proof.scene).features.patches if proof.scene else 0
 
 
 def _among(near: Approximations, place: Bottleneck) -> Bottleneck:
@@ -306,33 +314,3 @@ def _rounded(value: float) -> Fraction:
     """Round to a number of few bits."""
     grid = Fraction(2) ** (math.frexp(value)[1] - BITS)
     return round(Fraction(value) / grid) * grid
-
-
-def inset_shapes(shapes: Sequence[AnyShape], by: Fraction, error: float, *, outward: bool) -> list[AnyShape]:
-    """Return shapes with edges and arcs moved inwards; nothing is left of those that are too thin.
-
-    Discs and grown polygons stay what they are, with a smaller radius. Other round shapes are replaced by polygons
-    around them, or inside, first.
-
-    Examples
-    --------
-    >>> [disc] = inset_shapes([Curved.circle((0, 0), 2)], Fraction(1, 2), 0.1, outward=True)
-    >>> float(disc.path.radius), inset_shapes([disc], Fraction(2), 0.1, outward=True)
-    (1.5, [])
-    """
-    return [part for shape in shapes for part in _inset(shape, by, error, outward)]
-
-
-def _inset(shape: AnyShape, by: Fraction, error: float, outward: bool) -> Sequence[AnyShape]:
-    if isinstance(shape, Polygon):
-        return inset(shape, by)
-    if isinstance(shape.path, Circle) and not shape.holes:
-        center, radius = shape.path.center, shape.path.radius
-        return [Curved.circle(center, radius - by)] if by < radius else []
-    if shape.grown and shape.is_polygon:
-        if by < shape.grown:
-            return [Curved(shape.path, shape.holes, grown=shape.grown - by)]
-        outer, *holes = (shape.path, *shape.holes)
-        core = Polygon(outer, holes)
-        return [core] if by == shape.grown else inset(core, by - shape.grown)
-    return [part for polygon in polygons_for(shape, error, outward) for part in inset(polygon, by)]

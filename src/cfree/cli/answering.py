@@ -326,7 +326,9 @@ class Answering:
         if nearest_miss and self.path is None:
             rows["nearest miss"] = self._nearest_miss() if self.goal else "not of several goals; give one, with theta"
         if what_if and self.path is None:
-            rows |= self._what_if(for_machines) if self.goal else {"what if": "not of several goals; give one, with theta"}
+            rows |= (
+                self._what_if(for_machines) if self.goal else {"what if": "not of several goals; give one, with theta"}
+            )
         return rows
 
     def _as_read(self) -> str:

@@ -183,9 +183,7 @@ def search_nearest(room: Room, pose: Pose) -> Pose | None:
     length, (low, high) = _length(room), _extent(room.scene)
     x, y = np.clip((float(pose.x), float(pose.y)), low, high).tolist()
     inside = pose_at(Fraction(x), Fraction(y), pose.tau)
-    near = (
-        inside if room.is_free(inside) else _on_circles(room, inside, _reach(room.scene, inside) / length)
-    )
+    near = inside if room.is_free(inside) else _on_circles(room, inside, _reach(room.scene, inside) / length)
     if near is None:
         return None
     here = np.array([float(pose.x), float(pose.y), pose.theta])

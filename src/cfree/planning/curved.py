@@ -263,7 +263,7 @@ class CurvedQuery:
         return cheapest(paths, planner.scene, options.preferences)
 
     def _poses_for(self, ends: Sequence[Goal], inner: Scene) -> Iterator[Pose]:
-        """Yield the poses, and some at each place that are free among segments and arcs; polygons inside suggest them."""
+        """Yield the poses, and some at each place that are free among segments and arcs; `inner` suggests them."""
         start = ends[0]
         assert isinstance(start, Pose) and self._true
         for end in ends:

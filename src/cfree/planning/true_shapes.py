@@ -67,7 +67,9 @@ class TruePlanner(ArcPlanner):
         slides = any(motion.contacts for motion in path.motions)
         if not slides and self.checker.joins(poses):
             return self.finished(poses, options)
-        for motions in PUSHES if thorough else PUSHES[:1]:  # a few help where there is room; more are dear near exact fits, which are tried first
+        for motions in (
+            PUSHES if thorough else PUSHES[:1]
+        ):  # a few help where there is room; more are dear near exact fits, which are tried first
             if not slides:
                 pushed = self.improver(poses, options).pushed(poses, motions)
                 if self.checker.joins(pushed):
