@@ -15,12 +15,15 @@ from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.pose_checker import PoseChecker, are_free, is_free, is_free_at
+from cfree.curves.curved import Curved
+from cfree.curves.rings import Span
 from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import normalize_angles, sum_of_angles
+from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, PoseLike, pose_at, to_pose
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.naming import placed
-from cfree.scene.scene import Scene, box_of, robot_radius, size_of
+from cfree.scene.scene import AnyShape, Scene, box_of, robot_radius, size_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,6 +34,7 @@ DIRECTIONS, GROWTH = 32, 1.5  # directions in which places are tried on circles,
 NEAREST, FARTHEST = 1e-6, 10.0  # least and greatest radius, in lengths of the robot
 ROUNDS, TRIES, CLOSER, HALVINGS = 60, 64, 0.85, 45  # of the search for a nearer pose
 SAMPLES, MISSES, ENOUGH = 40_000, 3, 0.99  # random poses in each round before that; rounds without a gain that end it
+MOST_PEGS = 400  # poses at which two arcs have one center
 DIGITS, ROUGHLY = 18, 0.01  # most digits of its numbers; how much farther it may be to have fewer
 ROUND = 1e-3  # error of the polygons around ellipses, Bézier curves and splines, in robot sizes
 NOTHING = 1e-9  # smaller parts of an offset count as 0
@@ -184,6 +188,9 @@ def search_nearest(room: Room, pose: Pose) -> Pose | None:
     x, y = np.clip((float(pose.x), float(pose.y)), low, high).tolist()
     inside = pose_at(Fraction(x), Fraction(y), pose.tau)
     near = inside if room.is_free(inside) else _on_circles(room, inside, _reach(room.scene, inside) / length)
+    held = _in_arcs(room, pose, length)
+    if near is None or (held is not None and _way(_offset(pose, held, length)) < _way(_offset(pose, near, length))):
+        near = held
     if near is None:
         return None
     here = np.array([float(pose.x), float(pose.y), pose.theta])
@@ -270,10 +277,13 @@ def _extent(scene: Scene) -> tuple[Floats, Floats]:
     return np.array(box[:2]), np.array(box[2:])
 
 
+def _others(scene: Scene) -> list[AnyShape]:
+    return [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
+
+
 def _reach(scene: Scene, pose: Pose) -> float:
     """Return a bound of the distance from a pose beyond which a scene has nothing."""
-    shapes = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
-    boxes = np.array([box_of(shape) for shape in shapes]).reshape(-1, 2)
+    boxes = np.array([box_of(shape) for shape in _others(scene)]).reshape(-1, 2)
     room = np.array(scene.bounds, dtype=np.float64).reshape(-1, 2) if scene.bounds else boxes
     corners = np.concatenate([boxes, room, [(float(pose.x), float(pose.y))]])
     return FARTHEST * robot_radius(scene) + 2 * float(np.ptp(corners, axis=0).max())
@@ -296,6 +306,28 @@ def _on_circles(room: Room, pose: Pose, farthest: float) -> Pose | None:
         if room.is_free(near):
             return near
     return None
+
+
+def _in_arcs(room: Room, pose: Pose, length: float) -> Pose | None:
+    """Return the nearest free pose at which an arc of the robot has the center of another arc, as a peg in its hole."""
+    if not room.scene.curved:
+        return None
+    robot, others = (_centers(shapes) for shapes in (room.scene.robot, _others(room.scene)))
+    taus = [sum_of_angles(Pose(0, 0, f"{turn:g}deg").tau, pose.tau) for turn in TURNS]
+    places = [
+        pose_at(x - u, y - v, tau)
+        for tau in taus
+        for u, v in pose_at(Fraction(0), Fraction(0), tau).apply_exact(robot)
+        for x, y in others
+    ]
+    nearest = sorted(places, key=lambda place: _way(_offset(pose, place, length)))[:MOST_PEGS]
+    return next(filter(room.is_free, nearest), None)
+
+
+def _centers(shapes: Sequence[AnyShape]) -> list[ExactPoint]:
+    """Return the centers of circular arcs."""
+    pieces = (piece for shape in shapes if isinstance(shape, Curved) for ring in shape.curves for piece in ring)
+    return [*dict.fromkeys(piece.center for piece in pieces if isinstance(piece, Span) and piece.is_circular)]
 
 
 def _circles(farthest: float) -> int:
