@@ -41,10 +41,10 @@ WIDER = 4  # times that polygons for a bottleneck are made smaller, each time tw
 PATCHES = 8_000  # most contact patches of polygons that are searched for bottlenecks
 TOTAL = 80_000  # contact patches trimmed for all numbers after which polygons get no finer
 COARSE = 2.0**-8  # first error of the polygons, in robot sizes
+FINER = 4  # divisor of that error
 NARROW = 4  # part of an interval: what is not undecided counts as narrow
 ROUGH = 1024  # parts of a robot's size: error of polygons that tell how deep it is
 DEEP = 1 + Fraction(1, 2**10)  # ratio of insets that are tried before a robot vanishes
-FINER = 4  # divisor of that error
 
 
 @dataclass
@@ -56,8 +56,8 @@ class Decisions:
     start, goal : Pose
     scenes : callable
         Returns, for a number and the error of polygons in robot sizes, two scenes: a path in the first counts, and so
-        does a proof for the second. They differ only if polygons replace shapes of the robot. None stands for a robot
-        without shapes.
+        does a proof for the second. They differ only if polygons replace shapes of the robot; the second may be None.
+        None for both stands for a robot without shapes.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Decisions:
 
     start: Pose
     goal: Pose
-    scenes: Callable[[Fraction, float], tuple[Scene, Scene] | None]
+    scenes: Callable[[Fraction, float], tuple[Scene, Scene | None] | None]
     undecided: set[Fraction] = field(default_factory=set)
     proofs: dict[Fraction, tuple[Separated, Approximations]] = field(default_factory=dict)
     reason: str = ""
@@ -87,10 +87,8 @@ class Decisions:
             return False
         possible, impossible = pair
         verdict = self._answered(number, possible)
-        if verdict is False and impossible is not possible:
-            verdict = None
-        if verdict is None and impossible is not possible and self._answered(number, impossible) is False:
-            verdict = False
+        if impossible is not possible and not verdict:  # a proof for the first scene is none
+            verdict = False if impossible and self._answered(number, impossible) is False else None
         if verdict is None:
             self.undecided.add(number)
         return verdict
@@ -157,13 +155,10 @@ def margin_bounds(
 
     size, decisions = max(map(size_of, scene.robot)), Decisions(start, goal, scenes)
     joined = decisions.joined(Fraction(0))
+    if joined is None:
+        raise UndecidedError(f"start and goal: it is undecided if they are joined: {decisions.reason}")
     if not joined:
-        why = (
-            "are not joined without touching"
-            if joined is False
-            else f"are not joined as far as is known, as {decisions.reason}"
-        )
-        raise ValueError(f"start and goal {why}; see cfree.nearest_miss")
+        raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
     return _largest(decisions, Fraction(2) ** (math.frexp(size)[1] - 3), tolerance, progress)
 
 
@@ -181,14 +176,14 @@ def miss_bounds(
     """
     size = max(map(size_of, scene.robot))
 
-    def scenes(by: Fraction, error: float) -> tuple[Scene, Scene] | None:
+    def scenes(by: Fraction, error: float) -> tuple[Scene, Scene | None] | None:
         if not by:
             return scene, scene
         one, other = (inset_shapes(scene.robot, by, error * size, outward=outward) for outward in (True, False))
         if not one:
             return None
         larger = with_shapes(scene, one)
-        return larger, larger if one == other else with_shapes(scene, other or one)
+        return larger, larger if one == other else with_shapes(scene, other) if other else None
 
     decisions = Decisions(start, goal, scenes)
 
@@ -198,7 +193,9 @@ def miss_bounds(
 
     if not apart(Fraction(0)) and not decisions.undecided:
         raise ValueError("start and goal are joined: nothing is missing")
-    hi = _deepest(lambda by: bool(inset_shapes(scene.robot, by, size / ROUGH, outward=False)), Fraction(size))
+    hi = _deepest(
+        lambda by: bool(inset_shapes(scene.robot, by, size / ROUGH, outward=False)), Fraction(2) ** math.frexp(size)[1]
+    )
     nothing = apart(hi)
     if nothing is None:
         raise UndecidedError(f"start and goal: it is undecided if the smallest robot gets there: {decisions.reason}")

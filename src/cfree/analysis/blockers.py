@@ -80,10 +80,10 @@ def blockers(
 
     Returns
     -------
-    Blockers
-        A tuple of `Blocker`, in the order of the scene. Empty if the removal of no single obstacle opens a path. Bounds
-        and workspace do not count as obstacles. Among round shapes a path is free among these, and polygons inside of
-        them prove that there is none. Where they do not, the obstacle is in `undecided`.
+    tuple of Blocker
+        In the order of the scene. Empty if the removal of no single obstacle opens a path. Bounds and workspace do not
+        count as obstacles. Among round shapes a path is free among these, and polygons inside of them prove that there
+        is none. Where they do not, the tuple's dict `undecided` has the reason, by the number of the obstacle.
 
     Raises
     ------

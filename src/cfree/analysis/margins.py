@@ -60,6 +60,8 @@ class NearestMiss:
     lo, hi : float
         With an inset of `lo` there is still no path that keeps a distance, with one of `hi` there is. `lo` is 0 if no
         inset that was tried is too small.
+    undecided : str
+        The reason why `lo` and `hi` are farther apart than the tolerance, among round shapes; empty if they are not.
     bottlenecks : tuple of Bottleneck
         Places where space opens between the two, in order from start to goal. May be empty: an inset is decided
         exactly, but its places are searched by samples.
@@ -105,12 +107,19 @@ def nearest_miss(
     Raises
     ------
     ValueError
-        If a path that keeps a distance joins them without an inset, or the tolerance is not positive.
+        If a path that keeps a distance joins them without an inset, or the tolerance is not positive; among round
+        shapes also if a path that touches joins them.
+    UndecidedError
+        If polygons near round shapes do not decide whether the smallest robot gets there.
 
     Notes
     -----
     All edges move inwards by the inset, corners are mitred; parts that are too thin vanish.
     It takes about a dozen times as long as the scene's free space.
+
+    Arcs keep their centers. Among segments and arcs the path at `hi` is free for the shapes themselves, and polygons
+    inside of them prove that there is none at `lo`. Round shapes of the robot with curves other than arcs, or with
+    irrational corners, are replaced by polygons first: by ones around them for the path, and inside for the proof.
 
     Examples
     --------
@@ -182,6 +191,10 @@ def max_scale(
     If the robot is star-shaped about its reference point, a smaller one is inside it, and a path exists at all scales
     below `lo`. Else it may not exist at some of them.
 
+    Among segments and arcs the path at `lo` is one on the shapes themselves, which may touch; a proof at `hi` uses
+    polygons inside of them. Among other curves both use polygons. `Interval.undecided` tells why an interval is wider
+    than the tolerance.
+
     Examples
     --------
     >>> walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
@@ -225,12 +238,15 @@ def max_margin(
     Interval
         Some path has a clearance of `lo` all along, start and goal included; none has `hi`. The decision replaces a
         disc by a polygon of 16 sides around it, 2 % too wide at the corners; the interval includes this. `hi` is
-        infinite if nothing is in the way.
+        infinite if nothing is in the way. Among round shapes the disc stays one, and the interval is as that of
+        `max_scale`.
 
     Raises
     ------
     ValueError
         If start and goal are not joined at all.
+    UndecidedError
+        If polygons near round shapes do not decide whether they are.
 
     Notes
     -----
