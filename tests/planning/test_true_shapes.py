@@ -239,6 +239,7 @@ def test_a_clearance_that_the_gap_just_leaves_is_kept_with_the_disc_itself(monke
 FLOOR = [(-9, 0), (9, 0), (9, 9), (-9, 9)]
 
 
+@pytest.mark.slow
 def test_a_place_on_the_floor_is_reached_lying_there() -> None:
     """Any orientation will do; the one free range is a single pose, or all of a disc's, in contact."""
     for robot, place in ((Curved.circle((0, 0), 1), (5, 1)), (stadium(1, 1), (5, 1)), (stadium(1, 1), (8, 2))):
@@ -250,6 +251,20 @@ def test_a_place_on_the_floor_is_reached_lying_there() -> None:
         cfree.plan(scene, goal=(8, 1))
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("turn", TURNS[1:])
+def test_a_place_where_one_slanted_orientation_fits_is_reached(turn: Fraction) -> None:
+    """Two discs on a bar, in a corridor of their own width; polygons inside of them also fit turned a little."""
+    frame, robot = Frame(turn), [*(Curved.circle((x, 0), 1) for x in (-1, 1)), box(-1, -HALF, 1, HALF)]
+    scene, start, _ = dumbbell(frame, robot, Fraction(1))
+    place = frame.at((0, 0))
+    path = cfree.plan(scene, Pose(start.x, start.y, 2), place, improve=0)
+    assert isinstance(path, cfree.Path) and (path.goal.x, path.goal.y) == place
+    asked = cfree.Scene(scene.robot, workspace=scene.workspace, start=path.start, goals=[place])
+    assert cfree.verify.answer(asked, path).verified
+
+
+@pytest.mark.slow
 def test_a_place_in_a_closed_ring_is_proved_out_of_reach() -> None:
     ring = Curved(Circle((4, 4), 4), [Circle((4, 4), "2.5")])
     scene = Scene(stadium(1, 1), [ring], bounds=(-9, -9, 9, 9), start=(-5, 1, 0))

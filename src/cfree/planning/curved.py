@@ -262,17 +262,19 @@ class CurvedQuery:
         self.last = planner, options
         return cheapest(paths, planner.scene, options.preferences)
 
-    def _poses_for(self, ends: Sequence[Goal], inner: Scene) -> Iterator[Pose]:
-        """Yield the poses, and some at each place that are free among segments and arcs; `inner` suggests them."""
+    def _poses_for(self, ends: Sequence[Goal], planner: TruePlanner) -> Iterator[Pose]:
+        """Yield the poses, and some at each place that are free among segments and arcs."""
         start = ends[0]
-        assert isinstance(start, Pose) and self._true
+        assert isinstance(start, Pose)
         for end in ends:
             if isinstance(end, Pose):
                 yield end
                 continue
-            near = (pose_in(interval, start, end) for interval in free_orientations(inner, end))
-            some = dict.fromkeys([*near, *(pose_at(*end, tau) for tau in (start.tau, *STRAIGHT))])
-            yield from islice((pose for pose in some if pose and self._true.arcs.is_free(pose)), MOST_AT_PLACE)
+            intervals = free_orientations(planner.scene, end)
+            near = [pose for interval in intervals if (pose := pose_in(interval, start, end))]
+            taus = [start.tau, *STRAIGHT, *(tau for pose in near for tau in planner.taus_near(pose))]
+            some = dict.fromkeys([*near, *(pose_at(*end, tau) for tau in taus)])
+            yield from islice(filter(planner.arcs.is_free, some), MOST_AT_PLACE)
 
     def _within_time(self) -> Options:
         seconds = self.options.max_seconds
@@ -286,12 +288,14 @@ class CurvedQuery:
             apart, inner, refused = None, None, None
             true = self._true.planner() if self._true else None
             if true:
-                if searches > 0 and (path := self._first_path(true, [*self._poses_for(goals, true.scene)])):
+                poses = [*self._poses_for(goals, true)]
+                if searches > 0 and (path := self._first_path(true, poses)):
                     return path
                 searches -= 1
                 inner = self._asked(ask, outward=False)
                 if isinstance(inner, Path):
-                    if (self._thorough or searches >= 0) and (path := self._mended(true, inner)):
+                    guides = self._guides(true, inner, poses) if self._thorough or searches >= 0 else ()
+                    if path := next(filter(None, (self._mended(true, guide) for guide in guides)), None):
                         return path
                 elif inner is not None:
                     return self._for_curves(inner)
@@ -317,6 +321,18 @@ class CurvedQuery:
                 raise self._undecided("the clearance is too near to the largest; give another, or a tolerance")
             if not self.near.refine(_poses(within, ends), () if apart is None else apart.obstacles):
                 raise self._undecided(self._reason or TOUCHING)
+
+    def _guides(self, true: TruePlanner, inner: Path, poses: Sequence[Pose]) -> Iterator[Path]:
+        """Yield a path among inner polygons; those to exact poses instead if it ends at a place in an inexact one."""
+        if true.arcs.is_free(inner.goal):
+            yield inner
+            return
+        options = replace(self._within_time(), improve=0.0, vehicle=None, work=self._work)
+        for goal in poses[1 : 1 + MOST_AT_PLACE]:
+            with suppress(IncompleteError):
+                guide = PosePlanner(true.scene).path_or_proof(inner.start, goal, options)
+                if isinstance(guide, Path):
+                    yield guide
 
     def _mended(self, true: TruePlanner, path: Path) -> Path | None:
         """Return a path among the shapes near one among the polygons inside of them."""
