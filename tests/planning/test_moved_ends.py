@@ -134,6 +134,7 @@ def test_among_round_shapes_ends_are_moved_too() -> None:
     assert result.verified and "[moved from (1.3, 0, 0 deg)]" in result.proved
 
 
+@pytest.mark.slow
 def test_among_arcs_ends_that_keep_exactly_the_clearance_stay_where_they_are() -> None:
     scene = Scene(Curved.circle((0, 0), "1/2"), [Curved.circle((0, 0), 1)], workspace=ROOM)
     path = plan(scene, ("1.7", 0, 0), (-3, 0, 0), nearest_free=True, clearance="0.2")
