@@ -108,7 +108,7 @@ def test_the_nearest_miss_between_discs(robot: Curved) -> None:
     miss = nearest_miss(hall(robot), tolerance=0.1)
     assert miss is not None and miss.lo <= 0.05 <= miss.hi <= 1.1 * miss.lo and not miss.undecided
     (place,) = miss.bottlenecks
-    assert sorted(place.obstacles) in ([0, 1], [1, 2]) and "2 x 2 at" in str(miss)
+    assert 1 in place.obstacles and "obstacle 1, 2 x 2 at (3, 0)" in str(miss)  # found by samples, on one side of it
 
 
 @pytest.mark.slow
