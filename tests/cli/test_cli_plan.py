@@ -172,6 +172,23 @@ def test_the_picture_shows_what_is_in_the_way(run: Run, tmp_path: Path) -> None:
     assert "no single obstacle" in result.stdout and "separated by" in picture.read_text()
 
 
+@pytest.mark.slow
+def test_what_if_and_the_nearest_miss_among_round_shapes(run: Run, tmp_path: Path) -> None:
+    """A disc as wide as 1.1 at gaps of 1; the proof is verified, the picture has a panel for each blocker."""
+    posts = [cfree.Curved.circle((x, 0), 1) for x in (0, 3, 6)]
+    room, names = [(0, -3), (6, -3), (6, 3), (0, 3)], ["left", "middle", "right"]
+    ends: dict[str, Any] = {"start": (3, 2, 0), "goal": (3, -2, 0), "workspace": room, "obstacle_names": names}
+    scene, answer, picture = (str(tmp_path / name) for name in ("scene.json", "answer.json", "way.svg"))
+    cfree.save(cfree.Scene(cfree.Curved.circle((0, 0), "0.55"), posts, **ends), scene)
+    result = run("plan", scene, "--what-if", "--nearest-miss", "--picture", picture, "-o", answer)
+    said = " ".join(result.stdout.split())
+    assert result.exit_code == 1 and "no path at all, proved" in said and "about 0.1 too wide between obstacle" in said
+    assert "there is a path without one of these: obstacle 0 (left), 2 x 2 at (0, 0); obstacle 1 (middle)" in said
+    assert "<!-- without obstacle 1 (middle), 2 x 2 at (3, 0) -->" in Path(picture).read_text()
+    assert run("verify", scene, answer).exit_code == 0
+    assert json.loads(run("plan", scene, "--what-if", "--json").stdout)["what if"] == [0, 1, 2]
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

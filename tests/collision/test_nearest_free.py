@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import oracles
 from cfree import (
+    Curved,
     InvalidPoseError,
     Polygon,
     Pose,
@@ -25,6 +27,7 @@ from cfree import (
     require_free,
 )
 from cfree.collision import free_nearby
+from cfree.curves import Circle
 from compared import plain_of, scene_of
 from shapes import KINDS, box, random_scene
 
@@ -145,3 +148,40 @@ def test_no_pose_of_a_fine_grid_is_much_nearer(kind: str) -> None:
                 near = grid[np.hypot(*grid.T) < left]
                 turned = np.full(len(near), theta + share * way / length)
                 assert not checker.is_free(Poses(near + np.array([x, y]), turned)).any(), (kind, seed, x, y, theta)
+
+
+def test_among_arcs_the_nearest_pose_is_free_on_the_true_shapes() -> None:
+    """Discs in contact: exactly, where that is rational; radii from 2**-20 on; in a hole with a little room."""
+    two = Scene(Curved.circle((0, 0), 1), [Curved.circle((3, 0), 2)])
+    assert nearest_free(two, Pose("1/2", 0)) == Pose(0, 0)
+    slanted = nearest_free(two, Pose(1, "0.7"))
+    assert slanted is not None and is_free(two, slanted) is True
+    away = math.hypot(float(slanted.x) - 1, float(slanted.y) - 0.7)
+    assert 0 < away - (3 - math.hypot(2, 0.7)) < 0.02
+    tiny = Scene(Curved.circle((0, 0), Fraction(1, 2**20)), [Curved.circle((3, 0), 2)])
+    found = nearest_free(tiny, Pose("1.001", 0))
+    assert found is not None and is_free(tiny, found) is True and abs(float(found.x) - 1) < 2.0**-19
+    room = Curved([(-3, -3), (3, -3), (3, 3), (-3, 3)], [Circle((0, 0), "1.01")])
+    inside = nearest_free(Scene(Curved.circle((0, 0), 1), [room], bounds=(-1, -1, 1, 1)), Pose("0.3", "0.1"))
+    assert inside is not None and math.hypot(float(inside.x), float(inside.y)) <= 0.01
+    fit = Curved([(-3, -3), (3, -3), (3, 3), (-3, 3)], [Circle((0, 0), 1)])
+    inside = nearest_free(Scene(Curved.circle((0, 0), 1), [fit], bounds=(-1, -1, 1, 1)), Pose("0.3", "0.1"))
+    assert inside == Pose(0, 0)  # it fits exactly
+    assert nearest_free(two, Pose(0, 0)) == Pose(0, 0)
+
+
+def test_among_ellipses_the_nearest_pose_is_free_among_polygons() -> None:
+    scene = Scene(Curved.ellipse((0, 0), (2, 1)), [Curved.circle((3, 0), 2)])
+    found = nearest_free(scene, Pose("1/2", 0))
+    assert found is not None and is_free(scene, found) is True
+    assert nearest_free(scene, Pose("-1.001", 0)) == Pose("-1.001", 0)  # free itself, nearer than the polygons
+
+
+def test_messages_among_arcs_name_a_free_pose() -> None:
+    scene = Scene(Curved.circle((0, 0), 1), [Curved.circle((3, 0), 2)])
+    require_free(scene, Pose(0, 0))
+    assert "robot part 0 overlaps obstacle 0, 4 x 4 at (3, 0); (-0.08, 0, 0 deg) is free and near by" in fault(
+        scene, Pose("1/2", 0)
+    )
+    near = free_nearby(scene, Pose("1/2", 0))
+    assert near is not None and is_free(scene, near) is True

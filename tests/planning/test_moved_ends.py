@@ -129,9 +129,19 @@ def test_files_say_it_as_described(tmp_path: FilePath) -> None:
 def test_among_round_shapes_ends_are_moved_too() -> None:
     scene = Scene(Curved.circle((0, 0), "1/2"), [Curved.circle((0, 0), 1)], workspace=ROOM)
     path = plan(scene, ("1.3", 0, 0), (-3, 0, 0), nearest_free=True)
-    assert isinstance(path, Path) and path.moved == Moved(Pose("1.3", 0)) and 1.5 <= path.start.x <= 1.51
+    assert isinstance(path, Path) and path.moved == Moved(Pose("1.3", 0)) and path.start == Pose("1.5", 0)
     result = cfree.verify.answer(scene, path)
     assert result.verified and "[moved from (1.3, 0, 0 deg)]" in result.proved
+
+
+@pytest.mark.slow
+def test_among_arcs_ends_that_keep_exactly_the_clearance_stay_where_they_are() -> None:
+    scene = Scene(Curved.circle((0, 0), "1/2"), [Curved.circle((0, 0), 1)], workspace=ROOM)
+    path = plan(scene, ("1.7", 0, 0), (-3, 0, 0), nearest_free=True, clearance="0.2")
+    assert isinstance(path, Path) and path.moved is None and cfree.verify.answer(scene, path).verified
+    path = plan(scene, ("1.6", 0, 0), ("-1.6", 0), nearest_free=True, clearance="0.2")
+    assert isinstance(path, Path) and path.start == Pose("1.7", 0) and -1.71 < path.goal.x < -1.7
+    assert cfree.verify.answer(scene, path).verified
 
 
 def test_where_nothing_is_free_it_is_refused() -> None:

@@ -232,3 +232,58 @@ def test_a_clearance_that_the_gap_just_leaves_is_kept_with_the_disc_itself(monke
     with pytest.raises(cfree.UndecidedError):
         cfree.plan(scene, clearance="1.0001", tolerance=0.01)
     assert not searched
+
+
+# --- places, vehicles, objectives ---
+
+FLOOR = [(-9, 0), (9, 0), (9, 9), (-9, 9)]
+
+
+@pytest.mark.slow
+def test_a_place_on_the_floor_is_reached_lying_there() -> None:
+    """Any orientation will do; the one free range is a single pose, or all of a disc's, in contact."""
+    for robot, place in ((Curved.circle((0, 0), 1), (5, 1)), (stadium(1, 1), (5, 1)), (stadium(1, 1), (8, 2))):
+        for goals in ([place], [place, (6, 6, 0)], [(6, 6, 0), (5, 5)]):
+            scene = Scene(robot, [Curved.circle((0, 1), 1)], workspace=FLOOR, start=(-4, 1, 0), goals=goals)
+            path = cfree.plan(scene, improve=0)
+            assert isinstance(path, cfree.Path) and path.scene is None and cfree.verify.answer(scene, path).verified
+    with pytest.raises(cfree.InvalidPoseError, match="no orientation is free"):
+        cfree.plan(scene, goal=(8, 1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("turn", TURNS[1:])
+def test_a_place_where_one_slanted_orientation_fits_is_reached(turn: Fraction) -> None:
+    """Two discs on a bar, in a corridor of their own width; polygons inside of them also fit turned a little."""
+    frame, robot = Frame(turn), [*(Curved.circle((x, 0), 1) for x in (-1, 1)), box(-1, -HALF, 1, HALF)]
+    scene, start, _ = dumbbell(frame, robot, Fraction(1))
+    place = frame.at((0, 0))
+    path = cfree.plan(scene, Pose(start.x, start.y, 2), place, improve=0)
+    assert isinstance(path, cfree.Path) and (path.goal.x, path.goal.y) == place
+    asked = cfree.Scene(scene.robot, workspace=scene.workspace, start=path.start, goals=[place])
+    assert cfree.verify.answer(asked, path).verified
+
+
+@pytest.mark.slow
+def test_a_place_in_a_closed_ring_is_proved_out_of_reach() -> None:
+    ring = Curved(Circle((4, 4), 4), [Circle((4, 4), "2.5")])
+    scene = Scene(stadium(1, 1), [ring], bounds=(-9, -9, 9, 9), start=(-5, 1, 0))
+    proof = cfree.plan(scene, goal=(4, 4))
+    assert isinstance(proof, cfree.AllSeparated) and proof.of == "closed" and cfree.verify.answer(scene, proof).verified
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("objective", ["balanced", "short", "clear"])
+@pytest.mark.parametrize("vehicle", [None, cfree.Car(1), cfree.Car(1, gears="forward"), cfree.DifferentialDrive()])
+def test_vehicles_reach_poses_places_and_lists_among_arcs(vehicle: Any, objective: Any) -> None:
+    scene = Scene(stadium(1, 1), [Curved.circle((0, 1), 1)], workspace=FLOOR, start=(-4, 2, 0), vehicle=vehicle)
+    preferences = cfree.Preferences(backward=3, turning=2, cusp=2) if vehicle else cfree.Preferences(sideways=5)
+    for goal in ((5, 3, "90deg"), (5, 3), [(5, 3), (6, 6, 0)]):
+        path = cfree.plan(scene, goal=goal, objective=objective, preferences=preferences)
+        assert isinstance(path, cfree.Path) and path.vehicle == vehicle and cfree.verify.answer(scene, path).verified
+
+
+def test_an_undecided_query_among_many_is_named() -> None:
+    scene = Scene(stadium(1, 1), [Curved.circle((0, 1), 1)], workspace=FLOOR)
+    with pytest.raises(cfree.UndecidedError, match="query 1: "):
+        cfree.plan_many(scene, [((-4, 2, 0), (5, 3, 1)), ((-4, 1, 0), (5, 1, 0))], vehicle=cfree.Car(1), improve=0)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from cfree.arguments import checked
+from cfree.errors import UndecidedError
 from cfree.exact.number import Number
 from cfree.exact.pose import PoseLike
 from cfree.paths.path import Path
+from cfree.planning.curved import CurvedPlanner
 from cfree.planning.planner import Planner
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene, required, with_obstacles
@@ -31,6 +33,30 @@ class Blocker:
     path: Path
 
 
+class Blockers(tuple[Blocker, ...]):
+    """The single obstacles whose removal opens a path: a tuple of `Blocker`.
+
+    Attributes
+    ----------
+    undecided : dict
+        The reason for each obstacle without which it stayed undecided if there is a path, among round shapes.
+    """
+
+    undecided: dict[int, str]
+
+    def __new__(cls, decided: Iterable[Blocker] = (), undecided: dict[int, str] | None = None) -> Blockers:
+        result = super().__new__(cls, decided)
+        result.undecided = undecided or {}
+        return result
+
+    def __getnewargs__(self) -> tuple[tuple[Blocker, ...], dict[int, str]]:
+        return tuple(self), self.undecided
+
+    def __repr__(self) -> str:
+        more = "".join(f"; obstacle {k} is undecided" for k in self.undecided)
+        return f"{tuple(self)!r}{more}"
+
+
 @checked
 def blockers(
     scene: Scene,
@@ -39,7 +65,7 @@ def blockers(
     *,
     clearance: Number | None = None,
     progress: Callable[[float], object] | None = None,
-) -> tuple[Blocker, ...]:
+) -> Blockers:
     """Find each single obstacle whose removal opens a path from start to goal.
 
     Parameters
@@ -56,14 +82,16 @@ def blockers(
     -------
     tuple of Blocker
         In the order of the scene. Empty if the removal of no single obstacle opens a path. Bounds and workspace do not
-        count as obstacles.
+        count as obstacles. Among round shapes a path is free among these, and polygons inside of them prove that there
+        is none. Where they do not, the tuple's dict `undecided` has the reason, by the number of the obstacle.
 
     Raises
     ------
     ValueError
         If there is a path with all obstacles.
     UndecidedError
-        If the clearance is too near to the largest, with all obstacles or without one.
+        If the clearance is too near to the largest, with all obstacles or without one; or if polygons near round shapes
+        do not decide with all obstacles.
 
     Notes
     -----
@@ -80,26 +108,44 @@ def blockers(
     (0, ('obstacle 1', 'obstacle 2'))
     """
     start, goal = required(scene, start, goal)
-    answer = Planner(scene).plan(start, goal, clearance=clearance, improve=0)
+    planner = _planner(scene)
+    answer = planner.plan(start, goal, clearance=clearance, improve=0)
     if not isinstance(answer, Separated):
         raise ValueError("start and goal are joined: nothing is in the way")
-    possible, result = _possible(answer, range(len(scene.obstacles))), list[Blocker]()
+    possible, result = _possible(planner, answer, range(len(scene.obstacles))), list[Blocker]()
+    undecided = dict[int, str]()
     for done, k in enumerate(todo := sorted(possible)):
         if progress is not None:
             progress(done / len(todo))
-        if k in possible:
-            answer = Planner(_without(scene, k)).plan(start, goal, clearance=clearance)
-            if isinstance(answer, Path):
-                result.append(Blocker(k, answer))
-            elif isinstance(answer, Separated):  # its surfaces name obstacles by their numbers in a scene with one less
-                numbers = [i for i in range(len(scene.obstacles)) if i != k]
-                possible &= _possible(answer, numbers) | {blocker.obstacle for blocker in result}
-    return tuple(result)
+        if k not in possible:
+            continue
+        planner = _planner(_without(scene, k))
+        try:
+            answer = planner.plan(start, goal, clearance=clearance)
+        except UndecidedError as error:
+            if not scene.curved:
+                raise
+            undecided[k] = str(error)
+            continue
+        if isinstance(answer, Path):
+            result.append(Blocker(k, answer))
+        elif isinstance(answer, Separated):  # its surfaces name obstacles by their numbers in a scene with one less
+            numbers = [i for i in range(len(scene.obstacles)) if i != k]
+            possible &= _possible(planner, answer, numbers) | {blocker.obstacle for blocker in result}
+    return Blockers(result, {k: why for k, why in undecided.items() if k in possible})
 
 
-def _possible(proof: Separated, numbers: range | list[int]) -> set[int]:
+def _planner(scene: Scene) -> Planner | CurvedPlanner:
+    planner = Planner(scene)
+    return CurvedPlanner(planner) if scene.curved else planner
+
+
+def _possible(planner: Planner | CurvedPlanner, proof: Separated, numbers: range | list[int]) -> set[int]:
     """Return the obstacles without which the proof may fail, by their numbers in the whole scene."""
-    return {numbers[i] for i in proof.obstacles if i >= 0} if proof.of == "closed" else set(numbers)
+    if proof.of != "closed":
+        return set(numbers)
+    own = map(planner.obstacle_of, proof.obstacles) if isinstance(planner, CurvedPlanner) else proof.obstacles
+    return {numbers[i] for i in own if i >= 0}
 
 
 def _without(scene: Scene, k: int) -> Scene:

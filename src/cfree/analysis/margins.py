@@ -1,16 +1,18 @@
 """Margins of the robot between two poses: the smallest inset that joins them, the largest scale and clearance.
 
 All are found by bisection over exact decisions: start and goal are in one cell of a scene with another robot, or not.
-So both ends of an interval are proved, each for the polygons that were decided.
+So both ends of an interval are proved, each for the polygons that were decided. Among round shapes a path is searched
+on these, and polygons inside of them prove that there is none; see `among_rounds`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
+from cfree.analysis.among_rounds import margin_bounds, miss_bounds, scale_bounds
 from cfree.analysis.bottleneck import Bottleneck, bottlenecks
 from cfree.arguments import checked
 from cfree.exact.number import ExactPoint
@@ -29,12 +31,24 @@ BITS_OF_INSET = 48
 FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Interval:
-    """Two numbers with a proof for each: the number sought is between them."""
+    """Two numbers with a proof for each: the number sought is between them.
+
+    Attributes
+    ----------
+    lo, hi : float
+    undecided : str
+        The reason why they are farther apart than the tolerance, among round shapes; empty if they are not.
+    """
 
     lo: float
     hi: float
+    undecided: str = field(default="", compare=False)
+
+    def __repr__(self) -> str:
+        why = f", undecided={self.undecided!r}" if self.undecided else ""
+        return f"Interval(lo={self.lo!r}, hi={self.hi!r}{why})"
 
 
 @dataclass(frozen=True)
@@ -46,6 +60,8 @@ class NearestMiss:
     lo, hi : float
         With an inset of `lo` there is still no path that keeps a distance, with one of `hi` there is. `lo` is 0 if no
         inset that was tried is too small.
+    undecided : str
+        The reason why `lo` and `hi` are farther apart than the tolerance, among round shapes; empty if they are not.
     bottlenecks : tuple of Bottleneck
         Places where space opens between the two, in order from start to goal. May be empty: an inset is decided
         exactly, but its places are searched by samples.
@@ -54,9 +70,10 @@ class NearestMiss:
     lo: float
     hi: float
     bottlenecks: tuple[Bottleneck, ...]
+    undecided: str = field(default="", compare=False)
 
     def __str__(self) -> str:
-        size = f"an inset of {self.lo:.4g} to {self.hi:.4g} would do"
+        size = f"an inset of {self.lo:.4g} to {self.hi:.4g} would do{f' ({self.undecided})' if self.undecided else ''}"
         if not self.bottlenecks:
             return size
         places = "; ".join(f"between {place}" for place in self.bottlenecks)
@@ -90,12 +107,19 @@ def nearest_miss(
     Raises
     ------
     ValueError
-        If a path that keeps a distance joins them without an inset, or the tolerance is not positive.
+        If a path that keeps a distance joins them without an inset, or the tolerance is not positive; among round
+        shapes also if a path that touches joins them.
+    UndecidedError
+        If polygons near round shapes do not decide whether the smallest robot gets there.
 
     Notes
     -----
     All edges move inwards by the inset, corners are mitred; parts that are too thin vanish.
     It takes about a dozen times as long as the scene's free space.
+
+    Arcs keep their centers. Among segments and arcs the path at `hi` is free for the shapes themselves, and polygons
+    inside of them prove that there is none at `lo`. Round shapes of the robot with curves other than arcs, or with
+    irrational corners, are replaced by polygons first: by ones around them for the path, and inside for the proof.
 
     Examples
     --------
@@ -109,6 +133,9 @@ def nearest_miss(
     """
     start, goal = required(scene, start, goal)
     _check(tolerance)
+    if scene.curved:
+        miss = miss_bounds(scene, start, goal, tolerance, progress)
+        return None if miss is None else NearestMiss(*miss)
     if _space(scene).common_cell(start, goal) is not None:
         raise ValueError("start and goal are joined: nothing is missing")
     spaces: dict[Fraction, FreeSpace | None] = {}
@@ -164,6 +191,10 @@ def max_scale(
     If the robot is star-shaped about its reference point, a smaller one is inside it, and a path exists at all scales
     below `lo`. Else it may not exist at some of them.
 
+    Among segments and arcs the path at `lo` is one on the shapes themselves, which may touch; a proof at `hi` uses
+    polygons inside of them. Among other curves both use polygons. `Interval.undecided` tells why an interval is wider
+    than the tolerance.
+
     Examples
     --------
     >>> walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
@@ -174,6 +205,8 @@ def max_scale(
     """
     start, goal = required(scene, start, goal)
     _check(tolerance)
+    if scene.curved:
+        return Interval(*scale_bounds(scene, start, goal, tolerance, progress))
 
     def is_joined(scale: Fraction) -> bool:
         robot = [_mapped(part, lambda p: (scale * p[0], scale * p[1])) for part in scene.robot]
@@ -205,12 +238,15 @@ def max_margin(
     Interval
         Some path has a clearance of `lo` all along, start and goal included; none has `hi`. The decision replaces a
         disc by a polygon of 16 sides around it, 2 % too wide at the corners; the interval includes this. `hi` is
-        infinite if nothing is in the way.
+        infinite if nothing is in the way. Among round shapes the disc stays one, and the interval is as that of
+        `max_scale`.
 
     Raises
     ------
     ValueError
         If start and goal are not joined at all.
+    UndecidedError
+        If polygons near round shapes do not decide whether they are.
 
     Notes
     -----
@@ -226,6 +262,8 @@ def max_margin(
     """
     start, goal = required(scene, start, goal)
     _check(tolerance)
+    if scene.curved:
+        return Interval(*margin_bounds(scene, start, goal, tolerance, progress))
     if _space(scene).common_cell(start, goal) is None:
         raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
 

@@ -18,7 +18,7 @@ from cfree.cli.terminal import printable
 from cfree.scene.naming import all_placed
 
 if TYPE_CHECKING:
-    from cfree.analysis.blockers import Blocker
+    from cfree.analysis.blockers import Blockers
     from cfree.errors import IncompleteError
     from cfree.exact.pose import Pose
     from cfree.formats.answers.answer_file import Form
@@ -223,14 +223,20 @@ class Answering:
             with replacing(name) as unfinished:
                 unfinished.write_text(text, encoding="utf-8", newline="\n")
 
+    @property
+    def scene(self) -> Scene:
+        """The scene that was asked about, with its round shapes."""
+        scene: Scene = getattr(self.planner, "exact", self.planner.scene)
+        return scene
+
     @cached_property
-    def blockers(self) -> tuple[Blocker, ...]:
+    def blockers(self) -> Blockers:
         """Single obstacles whose removal opens a path from start to goal."""
         from cfree.analysis.blockers import blockers
 
         clearance = getattr(self.answer, "clearance", None) or None
         with bar("what if") as progress:
-            return blockers(self.planner.scene, self.start, self.goal, clearance=clearance, progress=progress)
+            return blockers(self.scene, self.start, self.goal, clearance=clearance, progress=progress)
 
     def draw(self, picture: Path, *, what_if: bool) -> None:
         """Draw the answer with the configuration space (the first of several proofs), or the blockers for `what_if`."""
@@ -244,7 +250,7 @@ class Answering:
             from cfree.plot.blockers import plot_blockers
 
             with bar("picture"):
-                save_figure(plot_blockers(self.blockers, self.planner.scene, preferences=preferences), picture)
+                save_figure(plot_blockers(self.blockers, self.scene, preferences=preferences), picture)
             return
         if isinstance(self.answer, Stuck | Unreachable):
             with bar("picture"):
@@ -320,7 +326,9 @@ class Answering:
         if nearest_miss and self.path is None:
             rows["nearest miss"] = self._nearest_miss() if self.goal else "not of several goals; give one, with theta"
         if what_if and self.path is None:
-            rows["what if"] = self._what_if(for_machines) if self.goal else "not of several goals; give one, with theta"
+            rows |= (
+                self._what_if(for_machines) if self.goal else {"what if": "not of several goals; give one, with theta"}
+            )
         return rows
 
     def _as_read(self) -> str:
@@ -331,14 +339,18 @@ class Answering:
         scene = self.planner.scene
         return qualified(answer_text(self.answer, scene), scene.reading, "no path" if self.path is None else "path")
 
-    def _what_if(self, for_machines: bool) -> str | list[int]:
-        obstacles = [blocker.obstacle for blocker in self.blockers]
+    def _what_if(self, for_machines: bool) -> dict[str, Any]:
+        obstacles, undecided = [blocker.obstacle for blocker in self.blockers], [*self.blockers.undecided]
         if for_machines:
-            return obstacles
-        if not obstacles:
-            return "no single obstacle, taken away, opens a path"
+            return {"what if": obstacles, **({"what if, undecided": undecided} if undecided else {})}
         either = "one of these: " * (len(obstacles) > 1)
-        return f"there is a path without {either}{all_placed(self.planner.scene, obstacles)}"
+        text = f"there is a path without {either}{all_placed(self.scene, obstacles)}"
+        if not obstacles:
+            text = "no single obstacle, taken away, opens a path" + (", but for those undecided" if undecided else "")
+        rows = {"what if": text}
+        if undecided:
+            rows["undecided without"] = all_placed(self.scene, undecided)
+        return rows
 
     def _unwanted(self, parts: Sequence[Unwanted]) -> str:
         units = self.planner.scene.units
@@ -348,7 +360,7 @@ class Answering:
         from cfree.analysis.margins import nearest_miss
 
         with bar("nearest miss") as progress:
-            miss = nearest_miss(self.planner.scene, self.start, self.goal, progress=progress)
+            miss = nearest_miss(self.scene, self.start, self.goal, progress=progress)
         return str(miss) if miss is not None else "no smaller robot gets there either"
 
     def _leave_out(self, name: str, file: Path, why: str) -> None:

@@ -74,7 +74,7 @@ class Approximations:
         if pairs:
             target = min(max(wanted.values()), self.reached / FINER)
             for k in others:
-                owner = self._owner(k)
+                owner = self.shape_of(k, outward=True)
                 wanted[owner] = min(target, wanted.get(owner, target))
         before = list(self.errors)
         for k, target in wanted.items():
@@ -82,12 +82,16 @@ class Approximations:
                 self.errors[k] = min(before[k], max(target, self.tolerance, shape.least_error))
         return self.errors != before
 
-    def _owner(self, number: int) -> int:
+    def obstacle_of(self, number: int) -> int:
+        """Return the obstacle that a polygon of the inner scene replaces; bounds and workspace keep their numbers."""
+        return number if number < 0 else self.shape_of(number, outward=False) - len(self.exact.robot)
+
+    def shape_of(self, number: int, *, outward: bool) -> int:
         """Return the shape that an obstacle's polygon replaces."""
         if number == WORKSPACE:
             return len(self.shapes) - 1
         counts = [
-            len(_polygons_for(shape, error, True))
+            len(_polygons_for(shape, error, outward))
             for shape, error in zip(self.exact.obstacles, self.errors[len(self.exact.robot) :], strict=False)
         ]
         return len(self.exact.robot) + int(np.searchsorted(np.cumsum(counts), number, side="right"))

@@ -3,32 +3,40 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cfree.arguments import checked
-from cfree.collision.arcs import ArcScene
+from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.collision.pose_checker import PoseChecker, are_free, is_free_at
+from cfree.collision.pose_checker import PoseChecker, are_free, is_free, is_free_at
+from cfree.curves.curved import Curved
+from cfree.curves.rings import Span
 from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import normalize_angles, sum_of_angles
+from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, PoseLike, pose_at, to_pose
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.naming import placed
-from cfree.scene.scene import Scene, box_of, robot_radius
+from cfree.scene.scene import AnyShape, Scene, box_of, robot_radius, size_of
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from cfree.exact.pose import Floats
 
 DIRECTIONS, GROWTH = 32, 1.5  # directions in which places are tried on circles, and ratio of successive radii
 NEAREST, FARTHEST = 1e-6, 10.0  # least and greatest radius, in lengths of the robot
 ROUNDS, TRIES, CLOSER, HALVINGS = 60, 64, 0.85, 45  # of the search for a nearer pose
 SAMPLES, MISSES, ENOUGH = 40_000, 3, 0.99  # random poses in each round before that; rounds without a gain that end it
+MOST_PEGS = 400  # poses at which two arcs have one center
 DIGITS, ROUGHLY = 18, 0.01  # most digits of its numbers; how much farther it may be to have fewer
+ROUND = 1e-3  # error of the polygons around ellipses, Bézier curves and splines, in robot sizes
 NOTHING = 1e-9  # smaller parts of an offset count as 0
 STILL = Translation((0, 0))
 TURNS = (0.0, 1.0, -1.0, 5.0, -5.0, 15.0, -15.0, 45.0, -45.0, 90.0, -90.0, 180.0)  # degrees
@@ -40,6 +48,25 @@ class ForbiddenPoseError(InvalidPoseError):
     def __init__(self, message: str, *, free: Pose | None = None) -> None:
         super().__init__(message)
         self.free = free
+
+
+@dataclass(frozen=True)
+class Room:
+    """The free poses of a scene: an exact test of one, and of many."""
+
+    scene: Scene
+    is_free: Callable[[Pose], bool]
+    are_free: Callable[[Floats], NDArray[np.bool_]]
+
+
+def room_of(scene: Scene | PoseChecker) -> Room:
+    """Return the free poses of a scene; polygons around other curves than segments and arcs forbid a little more."""
+    if isinstance(scene, Scene) and scene.curved:
+        if arcs := arcs_of(scene):
+            return Room(scene, arcs.is_free, arcs.are_free)
+        scene = scene.outer(ROUND * max(map(size_of, scene.robot)))
+    checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
+    return Room(checker.scene, lambda pose: is_free_at(checker, pose), lambda table: are_free(checker, table))
 
 
 @checked
@@ -69,24 +96,28 @@ def require_free(scene: Scene | PoseChecker, pose: PoseLike, name: str = "pose")
     cfree.collision.nearest_free.ForbiddenPoseError: start (1.25, 2, 0 deg) is forbidden: \
 robot part 0 overlaps obstacle 0, 1 x 9 at (2.5, 4.5); (0.96, 2, 0 deg) is free and near by
     """
-    refuse_forbidden(_checker_of(scene), to_pose(pose, "pose"), name)
+    pose = to_pose(pose, "pose")
+    if isinstance(scene, Scene) and scene.curved and (arcs := arcs_of(scene)):
+        refuse_overlap(scene, arcs, pose, name)
+    else:
+        refuse_forbidden(scene if isinstance(scene, PoseChecker) else PoseChecker(scene), pose, name)
 
 
 def refuse_forbidden(checker: PoseChecker, pose: Pose, name: str) -> None:
     """Raise the error of `require_free` if a pose is forbidden; the arguments are not checked."""
     if is_free_at(checker, pose):
         return
-    free = _on_circles(checker, pose, FARTHEST)
+    free = _on_circles(room_of(checker), pose, FARTHEST)
     advice = "no free pose was found near by; give another" if free is None else f"{_shown(free)} is free and near by"
     fault = _overlap(checker.scene, pose)
     raise ForbiddenPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
 
 
-def refuse_overlap(scene: Scene, arcs: ArcScene, near: Scene | None, pose: Pose, name: str) -> None:
-    """Raise `ForbiddenPoseError` if a pose is forbidden among lines and arcs; near by, `near` forbids a little more."""
+def refuse_overlap(scene: Scene, arcs: ArcScene, pose: Pose, name: str) -> None:
+    """Raise the error of `require_free` if a pose is forbidden among segments and arcs."""
     if arcs.is_free(pose):
         return
-    free = None if near is None else _on_circles(PoseChecker(near), pose, FARTHEST)
+    free = _on_circles(room_of(scene), pose, FARTHEST)
     advice = "no free pose was found near by; give another" if free is None else f"{_shown(free)} is free and near by"
     contact = arcs.first_contact(pose, STILL)
     fault = _fault(scene, contact[2], contact[3]) if contact else "the reference point is outside the bounds"
@@ -110,7 +141,7 @@ def free_nearby(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
     >>> float(found.x), float(found.y), found.tau
     (0.96, 2.0, Fraction(0, 1))
     """
-    return _on_circles(_checker_of(scene), to_pose(pose, "pose"), FARTHEST)
+    return _on_circles(room_of(scene), to_pose(pose, "pose"), FARTHEST)
 
 
 @checked
@@ -128,6 +159,9 @@ def nearest_free(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
         Free, exactly, and always the same; None if none is found. The distance minimised is that of the reference
         point plus the angle turned times the robot's length. It is not proved that no other pose is nearer.
 
+        Among segments and circular arcs the pose is free among these. Ellipses, Bézier curves and splines are replaced
+        by polygons around them, within a thousandth of the robot's size, so that it may be farther away by as much.
+
     Notes
     -----
     The search begins with `free_nearby`, goes on with random poses closer and closer to the best one, and ends with a
@@ -140,44 +174,44 @@ def nearest_free(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
     >>> nearest_free(scene, Pose("1.25", 2)) == Pose(1, 2)
     True
     """
-    return search_nearest(_checker_of(scene), to_pose(pose, "pose"))
-
-
-def search_nearest(checker: PoseChecker, pose: Pose) -> Pose | None:
-    """Return the pose of `nearest_free`; the arguments are not checked."""
-    if is_free_at(checker, pose):
+    pose = to_pose(pose, "pose")
+    if isinstance(scene, Scene) and scene.curved and is_free(scene, pose) is True:
         return pose
-    length, (low, high) = _length(checker), _extent(checker.scene)
+    return search_nearest(room_of(scene), pose)
+
+
+def search_nearest(room: Room, pose: Pose) -> Pose | None:
+    """Return the pose of `nearest_free`; the arguments are not checked."""
+    if room.is_free(pose):
+        return pose
+    length, (low, high) = _length(room), _extent(room.scene)
     x, y = np.clip((float(pose.x), float(pose.y)), low, high).tolist()
     inside = pose_at(Fraction(x), Fraction(y), pose.tau)
-    near = (
-        inside if is_free_at(checker, inside) else _on_circles(checker, inside, _reach(checker.scene, inside) / length)
-    )
+    near = inside if room.is_free(inside) else _on_circles(room, inside, _reach(room.scene, inside) / length)
+    held = _in_arcs(room, pose, length)
+    if near is None or (held is not None and _way(_offset(pose, held, length)) < _way(_offset(pose, near, length))):
+        near = held
     if near is None:
         return None
     here = np.array([float(pose.x), float(pose.y), pose.theta])
-    offset = _closer(checker, here, _offset(pose, near, length), length)
+    offset = _closer(room, here, _offset(pose, near, length), length)
     most = _way(offset) + ROUGHLY * min(_way(offset), length)
     for digits in range(DIGITS):
         places = [place for turn in (0.0, offset[2]) for place in _rounded(pose, (*offset[:2], turn), length, digits)]
         ways = [(_way(_offset(pose, place, length)), k) for k, place in enumerate(places)]
         for way, k in sorted(ways):
-            if way <= most and is_free_at(checker, places[k]):
+            if way <= most and room.is_free(places[k]):
                 return places[k]
     return near
 
 
-def _checker_of(scene: Scene | PoseChecker) -> PoseChecker:
-    return scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
-
-
-def _closer(checker: PoseChecker, here: Floats, first: Floats, length: float) -> Floats:
+def _closer(room: Room, here: Floats, first: Floats, length: float) -> Floats:
     """Return a shorter offset x, y, length times turn to a free pose, in doubles."""
     rng, best = np.random.default_rng(0), first
 
     def free(offsets: Floats) -> Floats:
         theta = normalize_angles(here[2] + offsets[:, 2] / length)
-        return offsets[are_free(checker, np.column_stack([here[:2] + offsets[:, :2], theta]))]
+        return offsets[room.are_free(np.column_stack([here[:2] + offsets[:, :2], theta]))]
 
     misses = 0
     while misses < MISSES:
@@ -227,9 +261,9 @@ def _way(offset: Floats) -> float:
     return math.hypot(offset[0], offset[1]) + abs(float(offset[2]))
 
 
-def _length(checker: PoseChecker) -> float:
+def _length(room: Room) -> float:
     """Return the longer side of the box around the robot's largest part."""
-    return max(float(np.ptp(part.vertices, axis=0).max()) for part in checker.scene.robot)
+    return max(map(size_of, room.scene.robot))
 
 
 def _extent(scene: Scene) -> tuple[Floats, Floats]:
@@ -243,32 +277,57 @@ def _extent(scene: Scene) -> tuple[Floats, Floats]:
     return np.array(box[:2]), np.array(box[2:])
 
 
+def _others(scene: Scene) -> list[AnyShape]:
+    return [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
+
+
 def _reach(scene: Scene, pose: Pose) -> float:
     """Return a bound of the distance from a pose beyond which a scene has nothing."""
-    shapes = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
-    boxes = np.array([box_of(shape) for shape in shapes]).reshape(-1, 2)
+    boxes = np.array([box_of(shape) for shape in _others(scene)]).reshape(-1, 2)
     room = np.array(scene.bounds, dtype=np.float64).reshape(-1, 2) if scene.bounds else boxes
     corners = np.concatenate([boxes, room, [(float(pose.x), float(pose.y))]])
     return FARTHEST * robot_radius(scene) + 2 * float(np.ptp(corners, axis=0).max())
 
 
-def _on_circles(checker: PoseChecker, pose: Pose, farthest: float) -> Pose | None:
+def _on_circles(room: Room, pose: Pose, farthest: float) -> Pose | None:
     """Return the nearest free one of many poses on circles, whose radii are at most `farthest` robot lengths."""
-    length = _length(checker)
+    length = _length(room)
     offsets = [_circle(NEAREST * length * GROWTH**k, length) for k in range(_circles(farthest))]
     turns = np.array([(0.0, 0.0, turn, 0.0) for turn in TURNS[1:]])
     table = np.concatenate([turns, *offsets])
     table = table[np.argsort(np.hypot(*table[:, :2].T) + length * np.radians(np.abs(table[:, 2])), kind="stable")]
     places = np.array([float(pose.x), float(pose.y)]) + table[:, :2]
     theta = normalize_angles(pose.theta + np.radians(table[:, 2]))
-    free = are_free(checker, np.column_stack([places, theta]))
+    free = room.are_free(np.column_stack([places, theta]))
     for k in np.flatnonzero(free).tolist():
         turn, digits = table[k, 2:].tolist()
         x, y = (Fraction(round(c, int(digits))) for c in places[k].tolist()) if digits else (pose.x, pose.y)
         near = pose_at(x, y, sum_of_angles(Pose(0, 0, f"{turn:g}deg").tau, pose.tau))
-        if is_free_at(checker, near):
+        if room.is_free(near):
             return near
     return None
+
+
+def _in_arcs(room: Room, pose: Pose, length: float) -> Pose | None:
+    """Return the nearest free pose at which an arc of the robot has the center of another arc, as a peg in its hole."""
+    if not room.scene.curved:
+        return None
+    robot, others = (_centers(shapes) for shapes in (room.scene.robot, _others(room.scene)))
+    taus = [sum_of_angles(Pose(0, 0, f"{turn:g}deg").tau, pose.tau) for turn in TURNS]
+    places = [
+        pose_at(x - u, y - v, tau)
+        for tau in taus
+        for u, v in pose_at(Fraction(0), Fraction(0), tau).apply_exact(robot)
+        for x, y in others
+    ]
+    nearest = sorted(places, key=lambda place: _way(_offset(pose, place, length)))[:MOST_PEGS]
+    return next(filter(room.is_free, nearest), None)
+
+
+def _centers(shapes: Sequence[AnyShape]) -> list[ExactPoint]:
+    """Return the centers of circular arcs."""
+    pieces = (piece for shape in shapes if isinstance(shape, Curved) for ring in shape.curves for piece in ring)
+    return [*dict.fromkeys(piece.center for piece in pieces if isinstance(piece, Span) and piece.is_circular)]
 
 
 def _circles(farthest: float) -> int:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -26,12 +26,13 @@ from cfree.collision.arcs import arcs_of
 from cfree.collision.nearest_free import ForbiddenPoseError, refuse_overlap
 from cfree.errors import IncompleteError, InvalidPoseError, UndecidedError
 from cfree.exact.number import Number
-from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.exact.pose import Pose, PoseLike, pose_at, to_pose
 from cfree.free.space import FreeSpace
+from cfree.free.turn_in_place import free_orientations
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.caller import OutOfWork, Work
-from cfree.planning.goals import AllSeparated, cheapest, name_of, refuse_far, several
+from cfree.planning.goals import AllSeparated, cheapest, name_of, pose_in, refuse_far, several
 from cfree.planning.options import Options
 from cfree.planning.planner import Planner, answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
@@ -42,7 +43,7 @@ from cfree.planning.true_shapes import TruePlanner, TrueShapes
 from cfree.planning.unreachable import Unreachable
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
-from cfree.scene.scene import robot_radius
+from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Car, Vehicle
 
 Answer = Path | Proof | AllSeparated
@@ -52,11 +53,13 @@ POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
 SEARCHES = 2  # errors of polygons at which a path among the shapes themselves is searched
+STRAIGHT = Fraction(0), Fraction(1), None, Fraction(-1)  # half-angle tangents of quarter turns
+MOST_AT_PLACE = 6  # orientations at a place to which a path among the shapes themselves is searched
 COARSE = 2  # finenesses of boxes
 NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
 AMONG = ", among polygons around the round shapes"
 TOUCHING = "these touch, or all but do; give a smaller tolerance, or other shapes"
-OUT_OF_WORK = f"{PATCHES:,} contact patches were not enough; give max_seconds or a tolerance for more, or other shapes"
+MORE = "give max_seconds or a tolerance for more, or other shapes"
 
 
 @checked
@@ -89,6 +92,15 @@ class CurvedPlanner:
     def vehicle(self) -> Vehicle | None:
         """The vehicle that drives; None for a robot that moves in any direction."""
         return self._settings.vehicle
+
+    @property
+    def exact(self) -> Scene:
+        """The scene with round shapes."""
+        return self._near.exact
+
+    def obstacle_of(self, number: int) -> int:
+        """Return the round or other obstacle that a polygon of the last proof replaces; bounds and workspace stay."""
+        return self._near.obstacle_of(number)
 
     @property
     def angle_scale(self) -> float:
@@ -164,6 +176,9 @@ class CurvedQuery:
     near : Approximations
         The scene's polygons, which the query refines.
     options : Options
+    thorough : bool
+        False leaves out the long searches among segments and arcs: those among polygons around the shapes, those near
+        fine polygons, and long pushes away from obstacles. The answer may be undecided more often.
 
     Attributes
     ----------
@@ -171,12 +186,12 @@ class CurvedQuery:
         The planner for polygons that gave the last answer, and its options.
     """
 
-    def __init__(self, near: Approximations, options: Options) -> None:
-        self.near, self.options = near, options
+    def __init__(self, near: Approximations, options: Options, *, thorough: bool = True) -> None:
+        self.near, self.options, self._thorough = near, options, thorough
         self.last: Decided | None = None
         self._begin, self._interval, self._reason = time.monotonic(), (0.0, math.inf), ""
         self._is_limited = options.tolerance is None and options.max_seconds is None
-        self._work = Work(PATCHES) if self._is_limited else None
+        self._work = Work(PATCHES) if self._is_limited else options.work
         self._decided: dict[bool, Decided] = {}
         has_arcs = arcs_of(near.exact) is not None
         self._true = TrueShapes(near.exact, near, options.clearance) if has_arcs else None
@@ -189,10 +204,9 @@ class CurvedQuery:
         UndecidedError
             If polygons within the tolerance decide neither way.
         """
-        poses = [end for end in ends if isinstance(end, Pose)]
         self._refuse(ends)
         try:
-            return self._refined(ask, poses, is_among_poses=len(poses) == len(ends))
+            return self._refined(ask, ends)
         except UndecidedError as error:
             if not self.options.clearance or error.path is not None:
                 raise
@@ -224,10 +238,7 @@ class CurvedQuery:
             if not isinstance(end, Pose):
                 continue
             if not arcs.is_free(end):
-                outer = None
-                with suppress(UndecidedError):
-                    outer = self.near.scene(outward=True)
-                refuse_overlap(self.near.exact, arcs, outer, end, name)
+                refuse_overlap(self.near.exact, arcs, end, name)
             if not self._true.arcs.is_free(end):
                 clearance, (least, most) = float(self.options.clearance), arcs.distance(end)
                 away = f"{least:.6g}" if f"{least:.6g}" == f"{most:.6g}" else f"between {least:.6g} and {most:.6g}"
@@ -251,29 +262,45 @@ class CurvedQuery:
         self.last = planner, options
         return cheapest(paths, planner.scene, options.preferences)
 
+    def _poses_for(self, ends: Sequence[Goal], planner: TruePlanner) -> Iterator[Pose]:
+        """Yield the poses, and some at each place that are free among segments and arcs."""
+        start = ends[0]
+        assert isinstance(start, Pose)
+        for end in ends:
+            if isinstance(end, Pose):
+                yield end
+                continue
+            intervals = free_orientations(planner.scene, end)
+            near = [pose for interval in intervals if (pose := pose_in(interval, start, end))]
+            taus = [start.tau, *STRAIGHT, *(tau for pose in near for tau in planner.taus_near(pose))]
+            some = dict.fromkeys([*near, *(pose_at(*end, tau) for tau in taus)])
+            yield from islice(filter(planner.arcs.is_free, some), MOST_AT_PLACE)
+
     def _within_time(self) -> Options:
         seconds = self.options.max_seconds
         if seconds is None:
             return self.options
         return replace(self.options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
 
-    def _refined(self, ask: Ask, ends: Sequence[Pose], *, is_among_poses: bool) -> Answer:
-        searches = SEARCHES
+    def _refined(self, ask: Ask, goals: Sequence[Goal]) -> Answer:
+        searches, ends = SEARCHES, [end for end in goals if isinstance(end, Pose)]
         while True:
             apart, inner, refused = None, None, None
-            true = self._true.planner() if self._true and is_among_poses else None
+            true = self._true.planner() if self._true else None
             if true:
-                if searches > 0 and (path := self._first_path(true, ends)):
+                poses = [*self._poses_for(goals, true)]
+                if searches > 0 and (path := self._first_path(true, poses)):
                     return path
                 searches -= 1
                 inner = self._asked(ask, outward=False)
                 if isinstance(inner, Path):
-                    if path := self._mended(true, inner):
+                    guides = self._guides(true, inner, poses) if self._thorough or searches >= 0 else ()
+                    if path := next(filter(None, (self._mended(true, guide) for guide in guides)), None):
                         return path
                 elif inner is not None:
                     return self._for_curves(inner)
             try:
-                answer = self._asked(ask, outward=True)
+                answer = self._asked(ask, outward=True) if self._thorough or not true else None
                 if isinstance(answer, Path):
                     return self._for_curves(answer)
                 apart = answer
@@ -286,7 +313,7 @@ class CurvedQuery:
             except ForbiddenPoseError as error:
                 raise _for_both(error, refused) from None
             within = inner if isinstance(inner, Path) and (true or refused is None) else None
-            is_one = is_among_poses and len(ends) == 2
+            is_one = len(ends) == len(goals) == 2
             if within is not None and is_one and (proof := self._excluded(within)) is not None:
                 return self._for_curves(proof)
             lo, hi = self._interval
@@ -295,11 +322,23 @@ class CurvedQuery:
             if not self.near.refine(_poses(within, ends), () if apart is None else apart.obstacles):
                 raise self._undecided(self._reason or TOUCHING)
 
+    def _guides(self, true: TruePlanner, inner: Path, poses: Sequence[Pose]) -> Iterator[Path]:
+        """Yield a path among inner polygons; those to exact poses instead if it ends at a place in an inexact one."""
+        if true.arcs.is_free(inner.goal):
+            yield inner
+            return
+        options = replace(self._within_time(), improve=0.0, vehicle=None, work=self._work)
+        for goal in poses[1 : 1 + MOST_AT_PLACE]:
+            with suppress(IncompleteError):
+                guide = PosePlanner(true.scene).path_or_proof(inner.start, goal, options)
+                if isinstance(guide, Path):
+                    yield guide
+
     def _mended(self, true: TruePlanner, path: Path) -> Path | None:
         """Return a path among the shapes near one among the polygons inside of them."""
         options = self._within_time()
         with suppress(UndecidedError):
-            mended = true.mended(path, options)
+            mended = true.mended(path, options, thorough=self._thorough)
             if isinstance(mended, Path):
                 self.last = true, options
                 return mended
@@ -319,8 +358,8 @@ class CurvedQuery:
             options = replace(options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
         try:
             answer = ask(planner, options)
-        except OutOfWork:
-            raise self._undecided(OUT_OF_WORK) from None
+        except OutOfWork as error:
+            raise self._undecided(f"{error}; {MORE}") from None
         except UndecidedError as error:
             if isinstance(error.path, Path):  # finer polygons need no fewer manoeuvres
                 proof = self._for_curves(error.path)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import Literal
 
 from cfree.arguments import checked
-from cfree.errors import InvalidPoseError
+from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.pose import PoseLike
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
@@ -59,6 +59,8 @@ def plan_many(
     ------
     InvalidPoseError
         If a start or a goal is forbidden; the message has the number of the query.
+    UndecidedError
+        If a query stays undecided, as `plan` has it; the message has its number.
     ValueError
         If `threads` is less than 1.
 
@@ -88,7 +90,7 @@ def plan_many(
         asked = CurvedPlanner(planner) if world.curved else planner  # each refines polygons of its own
         try:
             return asked.plan(*todo[number], improve=improve, objective=objective)
-        except InvalidPoseError as error:
+        except (InvalidPoseError, UndecidedError) as error:
             error.args = (f"query {number}: {error}",)
             raise
 

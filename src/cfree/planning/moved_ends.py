@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from cfree.collision.nearer import require_distance
-from cfree.collision.nearest_free import refuse_forbidden, search_nearest
+from cfree.collision.nearest_free import ROUND, refuse_forbidden, room_of, search_nearest
 from cfree.collision.pose_checker import PoseChecker, is_free, is_free_at
 from cfree.errors import InvalidPoseError
 from cfree.exact.pose import Pose, pose_at
@@ -18,9 +18,8 @@ from cfree.planning.proof import Proof
 from cfree.polygons.disc import around_disc
 from cfree.scene.dilation import grown_by
 from cfree.scene.goals import Goal, Moved, text_of
-from cfree.scene.scene import Scene, size_of, with_robot
+from cfree.scene.scene import Scene, grown_scene, size_of, with_robot
 
-ROUND = 1e-3  # error of the polygons around round shapes, in robot sizes
 SIDES = 100  # sides of the polygon around a disc whose radius is a clearance
 
 
@@ -75,13 +74,14 @@ def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Fract
     """
     straight = scene.outer(max(map(size_of, scene.robot)) * ROUND) if scene.curved else scene
     ring = None if clearance is None else around_disc(clearance, SIDES)
-    room = PoseChecker(straight if ring is None else with_robot(straight, grown_by(straight, ring), straight.bounds))
+    checker = PoseChecker(straight if ring is None else with_robot(straight, grown_by(straight, ring), straight.bounds))
+    grown = grown_scene(scene, clearance) if scene.curved and clearance else scene
 
     def is_fit(end: Goal) -> bool:
         if not isinstance(end, Pose):
-            return bool(free_orientations(room.scene, end))
+            return bool(free_orientations(checker.scene, end))
         if clearance is None or scene.curved:
-            return is_free_at(room, end) or (clearance is None and is_free(scene, end) is True)
+            return is_free_at(checker, end) or is_free(grown, end) is True
         try:
             refuse_forbidden(PoseChecker(scene), end, "pose")
             require_distance(scene, end, clearance)
@@ -92,7 +92,10 @@ def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Fract
     def moved(end: Goal, name: str) -> Goal:
         if is_fit(end):
             return end
-        near = search_nearest(room, end if isinstance(end, Pose) else pose_at(*end, start.tau))
+        if isinstance(end, Pose):
+            near = search_nearest(room_of(grown if scene.curved else checker), end)
+        else:  # a little farther among round shapes, so that an interval of orientations is free
+            near = search_nearest(room_of(checker), pose_at(*end, start.tau))
         if near is None:
             far = "" if clearance is None else f" and {float(clearance):g} away from everything"
             raise InvalidPoseError(f"{name} {text_of(end)}: no pose near by is free{far}; give another")

@@ -19,7 +19,7 @@ from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.planning.arc_planner import ArcPlanner
-from cfree.planning.narrow_fits import way_out_of_contacts, way_through_fits
+from cfree.planning.narrow_fits import NEAR, way_out_of_contacts, way_through_fits
 from cfree.planning.options import Options
 from cfree.planning.stuck import Stuck
 from cfree.scene.frame import frame_of
@@ -61,13 +61,19 @@ class TruePlanner(ArcPlanner):
         way = way or way_out_of_contacts(self, start, goal, options)
         return self.finished(way, options) if way else None
 
-    def mended(self, path: Path, options: Options) -> Path | Stuck | None:
+    def taus_near(self, pose: Pose) -> list[Fraction | None]:
+        """Return half-angle tangents near a pose's at which something is parallel, and simple ones."""
+        return self.fits.angles(float(pose.x), float(pose.y), pose.theta, NEAR * self._error)
+
+    def mended(self, path: Path, options: Options, *, thorough: bool = True) -> Path | Stuck | None:
         """Return a path near one among the polygons, if all motions of it, or of one farther from them, are free."""
         poses: Sequence[Pose] = path.poses
         slides = any(motion.contacts for motion in path.motions)
         if not slides and self.checker.joins(poses):
             return self.finished(poses, options)
-        for motions in PUSHES:  # a few help where there is room; more are dear near exact fits, which are tried first
+        for motions in (
+            PUSHES if thorough else PUSHES[:1]
+        ):  # a few help where there is room; more are dear near exact fits, which are tried first
             if not slides:
                 pushed = self.improver(poses, options).pushed(poses, motions)
                 if self.checker.joins(pushed):

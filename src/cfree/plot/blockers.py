@@ -11,12 +11,15 @@ from matplotlib.figure import Figure
 from cfree.analysis.blockers import Blocker
 from cfree.arguments import checked
 from cfree.palette import BARRIER
+from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.plot.boundary import new_figure, plain
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.workspace import path_of, rings_of
+from cfree.polygons.polygon import Polygon
 from cfree.scene.naming import numbered, placed
-from cfree.scene.scene import Scene, box_of
+from cfree.scene.scene import AnyShape, Scene, box_of, largest_of, polygons_for
+from cfree.scene.smooth import EDGES, smooth
 
 ACROSS = 3  # panels beside each other
 
@@ -56,7 +59,7 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
     if not found:
         raise ValueError("no obstacle opens a way: there is nothing to draw")
     across, down = min(ACROSS, len(found)), math.ceil(len(found) / ACROSS)
-    tracks = [Track.of(blocker.path, blocker.path.scene or scene) for blocker in found]
+    tracks = [Track.of(blocker.path, _looks(blocker.path, scene)) for blocker in found]
     x0, y0, x1, y1 = tracks[0].window
     width, height = 7 * across, down * float(np.clip(1.6 + 6 * (y1 - y0) / (x1 - x0), 3.3, 9.3))
     figure = new_figure((width, height))
@@ -67,7 +70,7 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
     for k, (blocker, track) in enumerate(zip(found, tracks, strict=True)):
         ax = figure.add_subplot(down, across, k + 1)
         labels = draw_track(ax, track, preferences or NONE)
-        gone = path_of(rings_of([scene.obstacles[blocker.obstacle]]))
+        gone = path_of(rings_of(_polygons(scene, scene.obstacles[blocker.obstacle])))
         ax.add_patch(
             PathPatch(gone, fill=False, edgecolor=BARRIER, hatch="///", linewidth=1.4, zorder=2.6, label="gone")
         )
@@ -75,3 +78,12 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
         labels.point_at(box_of(scene.obstacles[blocker.obstacle]), name, BARRIER)
         ax.set_title(f"without {plain(placed(scene, blocker.obstacle))}\n{statement(track)}", fontsize=10)
     return figure
+
+
+def _looks(path: Path, scene: Scene) -> Scene:
+    """Return the scene of a path; polygons that look round replace its round shapes."""
+    return smooth(path.curved or path.scene or scene)
+
+
+def _polygons(scene: Scene, shape: AnyShape) -> tuple[Polygon, ...]:
+    return polygons_for(shape, largest_of(scene) / EDGES, True)

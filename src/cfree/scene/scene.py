@@ -89,8 +89,9 @@ class Scene(Shown, Keeping):
 
     Notes
     -----
-    `plan`, `is_free`, `verify.answer` and pictures accept round shapes; `is_free_motion` and `first_contact` those of
-    segments and circular arcs. Everything else accepts polygons only: use the scenes of `outer` or `inner`.
+    `plan`, `max_scale`, `max_margin`, `nearest_miss`, `blockers`, `nearest_free`, `is_free`, `verify.answer` and
+    pictures accept round shapes; `is_free_motion` and `first_contact` those of segments and circular arcs. Everything
+    else accepts polygons only: use the scenes of `outer` or `inner`.
 
     Examples
     --------
@@ -290,19 +291,22 @@ class Scene(Shown, Keeping):
         >>> Scene([(0, 0), (1, 0), (0, 1)]).grown("1/2").robot
         (<Curved in (-0.5, -0.5, 1.5, 1.5), 0 holes>,)
         """
-        return _with_round_robot(self, [_grown(shape, to_fraction(by)) for shape in self.robot])
+        return with_shapes(self, [_grown(shape, to_fraction(by)) for shape in self.robot])
 
 
 def grown_scene(scene: Scene, by: Fraction) -> Scene:
     """Return the scene with its robot grown by a disc, whatever its curves; for planners."""
     robot = [part._grown_by(by) if isinstance(part, Curved) else _grown(part, by) for part in scene.robot]
-    return _with_round_robot(scene, robot)
+    return with_shapes(scene, robot)
 
 
-def _with_round_robot(scene: Scene, robot: Sequence[Curved]) -> Scene:
+def with_shapes(scene: Scene, robot: Sequence[AnyShape]) -> Scene:
+    """Return the scene with another robot, some of whose shapes may be round."""
     other = copy(scene)
     object.__setattr__(other, "robot", tuple(robot))
-    object.__setattr__(other, "curved", True)
+    object.__setattr__(other, "curved", any(isinstance(shape, Curved) for shape in shapes_of(other)))
+    if not other.curved:
+        _refuse_far(other)
     return other
 
 

@@ -200,10 +200,6 @@ def plan(
             options.refuse("not for a folder", "vehicle", remedy="give the scene itself")
         planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), driver)
         poses.require_fit(getattr(planner, "vehicle", planner.scene.vehicle))
-        if (miss or what_if) and planner.scene.curved:
-            raise ValueError(
-                "--nearest-miss, --what-if: only for polygons; convert round shapes by cfree convert --inner"
-            )
         if nearest_free and scene.is_dir():
             raise ValueError("--nearest-free: not in a folder; give the scene itself")
         answering = Answering.of(planner, ends, written, how, nearest_free=nearest_free)

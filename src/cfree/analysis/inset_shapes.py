@@ -1,0 +1,129 @@
+"""Robots whose edges and arcs are moved inwards: round shapes stay round where their numbers stay rational."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+from cfree.collision.arcs import Curve, curves_of
+from cfree.curves.curved import Curved
+from cfree.curves.rings import Arc, Circle
+from cfree.errors import InvalidPolygonError
+from cfree.exact.number import ExactPoint, rational_root
+from cfree.polygons.offset import inset
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import AnyShape, polygons_for
+
+
+def inset_shapes(shapes: Sequence[AnyShape], by: Fraction, error: float, *, outward: bool) -> list[AnyShape]:
+    """Return shapes with edges and arcs moved inwards; nothing is left of those that are too thin.
+
+    Discs, grown polygons, and rings whose arcs are joined smoothly or have rational corners stay round. Other round
+    shapes are replaced by polygons around them, or inside, first.
+
+    Examples
+    --------
+    >>> [disc] = inset_shapes([Curved.circle((0, 0), 2)], Fraction(1, 2), 0.1, outward=True)
+    >>> float(disc.path.radius), inset_shapes([disc], Fraction(2), 0.1, outward=True)
+    (1.5, [])
+    >>> stadium = Curved([(0, 0), (4, 0), Arc((4, 2), center=(4, 1)), (0, 2), Arc((0, 0), center=(0, 1))])
+    >>> [smaller] = inset_shapes([stadium], Fraction(1, 4), 0.1, outward=True)
+    >>> [float(b) for b in smaller.box]
+    [-0.75, 0.25, 4.75, 1.75]
+    """
+    return [part for shape in shapes for part in _inset(shape, by, error, outward)]
+
+
+def _inset(shape: AnyShape, by: Fraction, error: float, outward: bool) -> Sequence[AnyShape]:
+    if isinstance(shape, Polygon):
+        return inset(shape, by)
+    if isinstance(shape.path, Circle) and not shape.holes:
+        center, radius = shape.path.center, shape.path.radius
+        return [Curved.circle(center, radius - by)] if by < radius else []
+    if shape.grown and by < shape.grown:
+        return [Curved(shape.path, shape.holes, grown=shape.grown - by)]
+    if shape.grown:
+        core, left = shape._base(), by - shape.grown
+        return inset(core, left) if left else [core]
+    curves = curves_of(shape)
+    rings = [_moved(ring, by, is_hole=k > 0) for k, ring in enumerate(curves[1])] if curves else [None]
+    if all(rings):
+        try:
+            return [Curved(rings[0] or (), [ring or () for ring in rings[1:]])]
+        except InvalidPolygonError:  # parts of it would overlap
+            pass
+    return [part for polygon in polygons_for(shape, error, outward) for part in inset(polygon, by)]
+
+
+def _moved(ring: Sequence[Curve], by: Fraction, *, is_hole: bool) -> list[ExactPoint | Arc] | None:
+    """Return a ring moved to the shape's inside; None if it has other numbers than rationals, or pieces vanish."""
+    if (_area(ring) > 0) == is_hole:
+        ring = [(end, start, center, -turn) for start, end, center, turn in reversed(ring)]
+    joints = [_joint(one, other, by) for one, other in zip([ring[-1], *ring[:-1]], ring, strict=True)]
+    path = list[ExactPoint | Arc]()
+    for (start, end, center, turn), (p, q) in zip(ring, pairwise([*joints, joints[0]]), strict=True):
+        if p is None or q is None:
+            return None
+        inner, outer = (_minus(p, center), _minus(start, center)) if turn else (_minus(q, p), _minus(end, start))
+        if _dot(inner, outer) <= 0:
+            return None
+        path += [] if path else [p]
+        path.append(Arc(q, center=center, clockwise=turn < 0) if turn else q)
+    return path
+
+
+def _joint(one: Curve, other: Curve, by: Fraction) -> ExactPoint | None:
+    """Return the place to which the joint of two pieces moves, if it is rational."""
+    p = other[0]
+    n, m = _normal(one, one[1]), _normal(other, p)
+    if n is None or m is None:
+        known = n or m
+        if known is None or _cross(_along(one, one[1]), _along(other, p)) != 0:
+            return None
+        n = m = known
+    if n == m:
+        return p[0] + by * n[0], p[1] + by * n[1]
+    if one[3] or other[3] or not _cross(n, m):
+        return None
+    share = by / (1 + _dot(n, m))
+    return p[0] + share * (n[0] + m[0]), p[1] + share * (n[1] + m[1])
+
+
+def _normal(piece: Curve, at: ExactPoint) -> ExactPoint | None:
+    """Return the unit vector to the left of a piece, if it is rational."""
+    x, y = _along(piece, at)
+    length = rational_root(x * x + y * y)
+    return None if length is None else (-y / length, x / length)
+
+
+def _along(piece: Curve, at: ExactPoint) -> ExactPoint:
+    """Return a tangent of a piece, in its direction."""
+    start, end, center, turn = piece
+    x, y = _minus(at, center)
+    return (-turn * y, turn * x) if turn else _minus(end, start)
+
+
+def _area(ring: Sequence[Curve]) -> float:
+    """Return about twice the signed area inside a ring."""
+    area = 0.0
+    for start, end, center, turn in ring:
+        area += float(_cross(start, end))
+        if turn:
+            u, v = _minus(start, center), _minus(end, center)
+            sweep = math.atan2(turn * float(_cross(u, v)), float(_dot(u, v))) % math.tau
+            area += turn * float(_dot(u, u)) * (sweep - math.sin(sweep))
+    return area
+
+
+def _minus(p: ExactPoint, q: ExactPoint) -> ExactPoint:
+    return p[0] - q[0], p[1] - q[1]
+
+
+def _cross(p: ExactPoint, q: ExactPoint) -> Fraction:
+    return p[0] * q[1] - p[1] * q[0]
+
+
+def _dot(p: ExactPoint, q: ExactPoint) -> Fraction:
+    return p[0] * q[0] + p[1] * q[1]
