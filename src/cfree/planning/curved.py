@@ -51,7 +51,7 @@ Decided = tuple[PosePlanner, Options]  # a planner for polygons that gave an ans
 POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
-SEARCHES = 2  # errors of polygons at which a path among the shapes themselves is searched
+FEW, MANY = 48_000, 160_000  # guesses of searches among the shapes themselves, before the first polygons and after
 COARSE = 2  # finenesses of boxes
 NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
 AMONG = ", among polygons around the round shapes"
@@ -153,7 +153,9 @@ class CurvedPlanner:
             return query.answer(ask, ends)
         finally:
             if query.last is not None:
-                self._decided, self.scene = query.last, query.last[0].scene
+                planner, options = query.last
+                planner = planner.guide if isinstance(planner, TruePlanner) else planner
+                self._decided, self.scene = (planner, options), planner.scene
 
 
 class CurvedQuery:
@@ -167,13 +169,13 @@ class CurvedQuery:
 
     Attributes
     ----------
-    last : (PosePlanner, Options) or None
-        The planner for polygons that gave the last answer, and its options.
+    last : (PosePlanner or TruePlanner, Options) or None
+        The planner that gave the last answer, and its options.
     """
 
     def __init__(self, near: Approximations, options: Options) -> None:
         self.near, self.options = near, options
-        self.last: Decided | None = None
+        self.last: tuple[PosePlanner | TruePlanner, Options] | None = None
         self._begin, self._interval, self._reason = time.monotonic(), (0.0, math.inf), ""
         self._is_limited = options.tolerance is None and options.max_seconds is None
         self._work = Work(PATCHES) if self._is_limited else None
@@ -235,13 +237,13 @@ class CurvedQuery:
                 text = f"{name}: {away} away from obstacles and workspace, and the clearance is {clearance:g}; {remedy}"
                 raise InvalidPoseError(text)
 
-    def _first_path(self, planner: TruePlanner, ends: Sequence[Pose]) -> Path | None:
+    def _first_path(self, planner: TruePlanner, ends: Sequence[Pose], guesses: int) -> Path | None:
         """Return the cheapest path among the shapes themselves, if a search finds one."""
         options = self._within_time()
         paths = list[Path]()
         for goal in ends[1:]:
             try:
-                path = planner.first_path(ends[0], goal, options.shared(len(ends) - 1))
+                path = planner.first_path(ends[0], goal, options.shared(len(ends) - 1), guesses)
             except UndecidedError as error:  # of a vehicle
                 self._reason = str(error)
             else:
@@ -249,7 +251,7 @@ class CurvedQuery:
         if not paths:
             return None
         self.last = planner, options
-        return cheapest(paths, planner.scene, options.preferences)
+        return cheapest(paths, self.near.exact, options.preferences)
 
     def _within_time(self) -> Options:
         seconds = self.options.max_seconds
@@ -258,14 +260,13 @@ class CurvedQuery:
         return replace(self.options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
 
     def _refined(self, ask: Ask, ends: Sequence[Pose], *, is_among_poses: bool) -> Answer:
-        searches = SEARCHES
+        searches = [FEW, MANY]
         while True:
             apart, inner, refused = None, None, None
             true = self._true.planner() if self._true and is_among_poses else None
             if true:
-                if searches > 0 and (path := self._first_path(true, ends)):
+                if searches and (path := self._first_path(true, ends, searches.pop(0))):
                     return path
-                searches -= 1
                 inner = self._asked(ask, outward=False)
                 if isinstance(inner, Path):
                     if path := self._mended(true, inner):
