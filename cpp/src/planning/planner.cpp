@@ -15,6 +15,7 @@ namespace {
 
 constexpr int search_guesses = 40000;  // most guesses of motions: each scans all of the trees
 constexpr int quick_guesses = 2000;    // guesses before any exact work
+constexpr int round_guesses = 16000;   // among round shapes
 constexpr int guesses_each = 45;       // guesses that take no longer than a patch of a surface
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
@@ -99,7 +100,7 @@ std::optional<Poses> Planner::searched(const End& start, const End& goal, int mo
 }
 
 int Planner::most_guesses() const {
-    if (scene->round) return search_guesses;
+    if (scene->round) return round_guesses;
     return static_cast<int>(std::min<std::int64_t>(search_guesses, quick_guesses + 8 * scene->patches()));
 }
 

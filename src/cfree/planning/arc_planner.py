@@ -20,7 +20,7 @@ from cfree.planning.pose_planner import PosePlanner
 from cfree.scene.scene import AnyShape, Scene, robot_radius
 
 ROUNDED = 1 + 2.0**-40  # more than the rounding of a sum
-BITS = 8  # of the numbers of a box
+BITS = 20  # of the numbers of a box
 
 
 class TrueMotions(MotionChecker):

@@ -14,6 +14,7 @@ from functools import cached_property
 
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import ArcScene, arcs_of
+from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.planning.arc_planner import ArcPlanner, with_boxes, with_inner_polygons
@@ -45,7 +46,7 @@ class TruePlanner:
 
     def __init__(self, exact: Scene, clearance: Fraction, arcs: ArcScene, near: Approximations) -> None:
         self._search, self._near = with_boxes(arcs, near.exact), near
-        self._exact, self._clearance, self._error = exact, clearance, max(near.errors)
+        self._exact, self._clearance = exact, clearance
 
     @cached_property
     def guide(self) -> ArcPlanner:
@@ -78,15 +79,21 @@ class TruePlanner:
                 if search.checker.joins(pushed):
                     return self.finished(pushed, options)
             if motions == PUSHES[0]:
-                through = way_through_fits(search, path, options, self._error)
+                through = way_through_fits(search, path, options, max(self._near.errors))
                 if through is not None and search.checker.joins(through):
                     return self.finished(through, options)
         return None
 
     def finished(self, way: Sequence[Pose], options: Options) -> Path | Stuck | None:
         """Improve a path, given by its poses, and return it as one among the shapes."""
-        is_first = options.improve == 0 and options.vehicle is None and options.objective != "clear"
-        planner = self._search if is_first else self.guide if options.improve == 0 else self._finer
+        planner = self._search
+        if options.improve != 0 or options.vehicle or options.objective == "clear":
+            try:
+                planner = self.guide if options.improve == 0 else self._finer
+            except UndecidedError:  # the robot has no polygon inside
+                if options.vehicle:
+                    raise
+                options = replace(options, improve=0.0, objective="short")
         answer = planner.answered(way, options)
         if not isinstance(answer, Path):
             return None
