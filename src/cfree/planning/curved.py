@@ -3,7 +3,7 @@
 The outer scene forbids every pose that the round shapes forbid; the inner scene forbids no other pose. So a path in the
 outer scene is also free among the round shapes, and a proof in the inner scene also holds for them. If neither answers,
 the error of the shapes that the inner scene's path overlaps in the outer scene is divided by 4, down to a tolerance.
-docs/theory/curved-shapes.md has the proofs.
+docs/theory/curved-shapes.md has the proofs. Among segments and circular arcs, the shapes are searched themselves first.
 """
 
 from __future__ import annotations

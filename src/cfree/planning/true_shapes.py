@@ -1,7 +1,8 @@
-"""Paths among segments and circular arcs: polygons inside the shapes guide a search, the shapes themselves decide.
+"""Paths among segments and circular arcs: searches look at the shapes themselves, and these decide.
 
-These polygons forbid less than the shapes, and their distances are too large by at most a known slack. Every motion of
-a path is proved free among the shapes: docs/theory/exact-arcs.md. So a fit along a line or about a point is found.
+Where searches fail, polygons inside the shapes are a guide. They forbid less than the shapes, and their distances are
+too large by at most a known slack. Every motion of a path is proved free among the shapes: docs/theory/exact-arcs.md.
+So a fit along a line or about a point is found.
 """
 
 from __future__ import annotations
