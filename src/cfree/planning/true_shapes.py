@@ -64,8 +64,9 @@ class TruePlanner:
     def first_path(self, start: Pose, goal: Pose, options: Options, guesses: int | None = None) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or searches give one."""
         search = self._search
-        way = [start] if start == goal else search.quick(start, goal, options, guesses)
+        way = [start] if start == goal else search.quick(start, goal, options, 0)
         way = way or way_out_of_contacts(search, start, goal, options, guesses and guesses // EACH)
+        way = way or search.quick(start, goal, options, guesses)
         return self.finished(way, options) if way else None
 
     def mended(self, path: Path, options: Options) -> Path | Stuck | None:
