@@ -1,11 +1,11 @@
 """Shapes of segments and circular arcs, decided on themselves: poses beside 32-gons, and questions of exact touch.
 
 Poses: a car with rounded corners among 100 discs, beside the same with 32-gons; the processor's time, in turns.
-Questions: touches, exact fits, and gaps that are just wide enough; each has an answer.
+Questions: touches, exact fits, and gaps that are just wide enough; each has an answer. Then the shipped scenes: their
+first paths, or proofs.
 
-    python benchmarks/bench_round.py            # one row for each question and each shipped scene: seconds, answer
-
-The rows of another commit come from the same script with that commit on the path.
+    python benchmarks/run.py round
+    python benchmarks/bench_round.py            # the questions and scenes alone, also for a commit without this file
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from __future__ import annotations
 import gc
 import math
 import statistics
-import sys
 import time
 from collections.abc import Iterator
 from fractions import Fraction
@@ -87,7 +86,7 @@ def slanted(width: Fraction) -> list[tuple[Fraction, Fraction]]:
 
 
 def questions() -> Iterator[tuple[str, Any]]:
-    """Yield names, and a scene with its start and goal, or with a clearance."""
+    """Yield names, and a scene with its start and goal, and options."""
     disc = Curved.circle((0, 0), 1)
     floor, above = box(-9, -9, 9, -1), Curved.circle((0, 3), 2)
     yield "disc on a floor, under a disc", ends(disc, [floor, above], (0, 0, 0), (5, 5, 0))
@@ -115,6 +114,9 @@ def questions() -> Iterator[tuple[str, Any]]:
         "half disc turns in a hole of its radius",
         ends(half, [Curved(box(-5, -5, 5, 5), [Circle((0, 0), 2)])], (0, 0, 0), (0, 0, "180deg")),
     )
+    for path in sorted(SCENES.glob("round_*.json")):
+        scene = cfree.load_scene(path)
+        yield path.stem, (scene, scene.start, scene.goal, {})
 
 
 def ends(robot: Any, obstacles: list[Any], start: Any, goal: Any, workspace: Any = None) -> Any:
@@ -143,8 +145,3 @@ if __name__ == "__main__":
     for name, query in questions():
         seconds, answer = planned(query)
         print(f"{name} | {answer} | {1e3 * seconds:.0f} ms", flush=True)
-    for path in sorted(SCENES.glob("round_*.json")):
-        scene = cfree.load_scene(path)
-        seconds, answer = planned((scene, scene.start, scene.goal, {}))
-        print(f"{path.stem} | {answer} | {1e3 * seconds:.0f} ms", flush=True)
-    sys.exit()

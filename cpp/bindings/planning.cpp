@@ -87,9 +87,9 @@ static std::optional<WayTuple> walk(Planner& planner, const EndNumbers& start, c
 }
 
 static std::optional<std::vector<PoseTuple>> quick(const Planner& planner, const EndNumbers& start, const EndNumbers& goal,
-                                                   const nb::object& who) {
+                                                   const nb::object& who, std::optional<int> guesses) {
     Caller caller(who);
-    const auto way = caller.run([&, first = end_of(start), last = end_of(goal)] { return planner.quick(first, last); });
+    const auto way = caller.run([&, first = end_of(start), last = end_of(goal)] { return planner.quick(first, last, guesses); });
     if (!way) return {};
     return list_of(*way);
 }
@@ -129,8 +129,8 @@ static void bind_known_scene(nb::module_& m) {
             return way_of(watched(find), *slides);
         }, "angle_scale"_a);
     nb::class_<KnownScene>(m, "KnownScene")
-        .def(nb::init<std::shared_ptr<const cfree::SceneFeatures>, std::shared_ptr<const cfree::MotionChecker>, double>(), "features"_a,
-             "checker"_a, "slack"_a = 0.0)
+        .def(nb::init<std::shared_ptr<const cfree::SceneFeatures>, std::shared_ptr<const cfree::MotionChecker>, double,
+                      std::shared_ptr<const cfree::ArcPoseChecker>>(), "features"_a, "checker"_a, "slack"_a = 0.0, "round"_a = nb::none())
         .def("keep", &keep, "boundary"_a, "surfaces"_a, "space"_a)
         .def("build", &build, "caller"_a)
         .def("connecting", [](KnownScene& scene, const PoseNumbers& start, const PoseNumbers& goal) {
@@ -166,7 +166,7 @@ static void bind_separations(nb::module_& m) {
         .def(nb::init<std::shared_ptr<KnownScene>, double>(), "scene"_a, "angle_scale"_a)
         .def("plan", &plan, "start"_a, "goal"_a, "caller"_a, "few"_a)
         .def("walk", &walk, "start"_a, "goal"_a, "caller"_a)
-        .def("quick", &quick, "start"_a, "goal"_a, "caller"_a);
+        .def("quick", &quick, "start"_a, "goal"_a, "caller"_a, "guesses"_a = nb::none());
 }
 
 void bind_planning(nb::module_& m) {

@@ -52,6 +52,7 @@ void a_disc_on_a_floor_is_free_and_deeper_is_not() {
         CHECK(!checker.is_free(pose({2, 1}, Ratio{5, 1} - tiny, 3, p)));
     }
     CHECK(!checker.is_free(pose({2, 1}, {-4, 1})) && checker.is_free(pose({2, 1}, {-14, 1})));
+    CHECK(checker.look(2, 6, 1) == Verdict::free && checker.look(2, 5, 1) == Verdict::uncertain && checker.look(2, 4, 1) == Verdict::forbidden);
     const DistanceBounds far = checker.distance(pose({2, 1}, {7, 1}), 1e300), at = checker.distance(pose({2, 1}, {5, 1}), 1e300);
     CHECK(far.low <= 2 && 2 <= far.high && far.high - far.low < 1e-6 && at.low == 0 && at.high < 1e-6);
 }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "cfree/collision/pose_checker.hpp"
 #include "check.hpp"
 #include "shapes.hpp"
 
@@ -12,7 +13,8 @@ using std::numbers::pi;
 static MotionGuess guess_past(const std::vector<Ring>& obstacles) {
     constexpr double inf = std::numeric_limits<double>::infinity();
     const auto scene = scene_of({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, obstacles);
-    return {std::make_shared<const PoseChecker>(scene, std::array{-inf, -inf, inf, inf}), 2.5, 1};
+    const auto looks = std::make_shared<PoseChecker::Looks>(std::make_shared<const PoseChecker>(scene, std::array{-inf, -inf, inf, inf}));
+    return {[looks](double x, double y, double theta) { return looks->is_forbidden(x, y, theta); }, 2.5, 1};
 }
 
 int main() {

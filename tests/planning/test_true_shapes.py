@@ -147,6 +147,27 @@ def test_a_clearance_without_a_polygon_is_checked_with_the_disc_itself(tmp_path:
     assert not cfree.verify.answer(scene, tmp_path / "path.json").verified
 
 
+# --- first paths ---
+
+
+@pytest.mark.parametrize("name", ["round_car", "round_disc", "round_pallet_truck", "round_stadium"])
+def test_a_first_path_with_some_room_needs_no_polygons(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = cfree.load_scene(FilePath(__file__).parents[2] / "examples" / "scenes" / f"{name}.json")
+    with monkeypatch.context() as without:
+        without.setattr("cfree.collision.approximations.Approximations.scene", None)
+        path = cfree.plan(scene, improve=0)
+    assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+
+
+def test_a_robot_too_thin_for_a_polygon_inside_finds_a_path() -> None:
+    moon = Curved([(1, 0), Arc((-1, 0), through=(0, 1)), Arc((1, 0), through=(0, "1.000000000001"))])
+    assert not moon.inner(0.01)
+    scene, ends = Scene(moon, [box(-1, 2, 1, 3)]), ((0, 0, 0), (0, 5, "90deg"))
+    for options in ({"improve": 0}, {}, {"objective": "clear"}):
+        path = cfree.plan(scene, *ends, **options)  # type: ignore[call-overload]
+        assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+
+
 # --- what is done with such paths ---
 
 

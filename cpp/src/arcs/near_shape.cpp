@@ -234,10 +234,10 @@ Verdict by_disc(const InnerDisc& disc, const NearShape& other, double slack) {
         const double enough = disc.radius + other.disc.radius - slack - 2 * margin;
         if (enough > 0 && dot(d, d) < enough * enough) return Verdict::forbidden;
     }
-    if (disc.is_all && !other.is_outside) {
+    if (!other.is_outside) {
         const Box& box = other.around;
         const double x = std::max({box.x0 - p.x, p.x - box.x1, 0.0}), y = std::max({box.y0 - p.y, p.y - box.y1, 0.0});
-        if (x * x + y * y > most * most) return Verdict::free;
+        if (x * x + y * y > most * most) return disc.is_all ? Verdict::free : Verdict::uncertain;
     }
     const double apart = other.distance(p);
     if (apart < total - slack - 2 * margin) return Verdict::forbidden;

@@ -185,6 +185,35 @@ bool ArcPoseChecker::decide(const Placed& placed, const ExactPlacement& at) cons
     return true;
 }
 
+Verdict ArcPoseChecker::decided(Placed& placed, double x, double y, double theta, double slack, std::optional<Numbers> among) const {
+    const auto [c, s] = cosine_sine(theta);
+    return verdict(placed, x, y, c, s, slack, among);
+}
+
+Verdict ArcPoseChecker::boxed(Placed& placed, Grid* cells, double px, double py, double theta) const {
+    using State = Grid::State;
+    if (!is_within(px, py)) return Verdict::forbidden;
+    const double x = px * near->unit, y = py * near->unit;
+    const std::size_t slot = cells ? cells->slot(x, y, theta) : outside;
+    if (slot == outside) return decided(placed, x, y, theta, 0, {});
+    const std::size_t cell = slot / sectors;
+    if (cells->is_blocked[cell]) return Verdict::forbidden;
+    const Numbers among = cells->near(cell);
+    if (among.empty()) return Verdict::free;
+    std::atomic<State>& known = cells->known[slot];
+    State state = known.load(std::memory_order_relaxed);
+    if (state == State::unseen) known.store(State::once, std::memory_order_relaxed);
+    if (state == State::once) {
+        const Vec<double> place = cells->middle(cell);
+        const double middle = (static_cast<double>(slot % sectors) + 0.5) * (two_pi / sectors);
+        const double slack = cells->around() + near->reach * (two_pi / sectors / 2) * (1 + 0x1p-20);
+        const Verdict all = decided(placed, place.x, place.y, middle, slack, among);
+        state = all == Verdict::free ? State::free : all == Verdict::forbidden ? State::forbidden : State::mixed;
+        known.store(state, std::memory_order_relaxed);
+    }
+    return state == State::free ? Verdict::free : state == State::forbidden ? Verdict::forbidden : decided(placed, x, y, theta, 0, among);
+}
+
 void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
     Grid* cells = grid(count);
     std::atomic<bool> stop = false;
@@ -192,40 +221,17 @@ void ArcPoseChecker::check(const double* poses, std::size_t count, int threads, 
     const auto chunks = static_cast<int>(std::min<std::size_t>((count + chunk - 1) / chunk, 1 << 20));
     in_parallel(std::min(threads, chunks), stop, [&] {
         Placed placed;
-        const auto decided = [&](double x, double y, double theta, double slack, std::optional<Numbers> among) {
-            const auto [c, s] = cosine_sine(theta);
-            return verdict(placed, x, y, c, s, slack, among);
-        };
-        const auto boxed = [&](double x, double y, double theta) {
-            using State = Grid::State;
-            const std::size_t slot = cells ? cells->slot(x, y, theta) : outside;
-            if (slot == outside) return decided(x, y, theta, 0, {});
-            const std::size_t cell = slot / sectors;
-            if (cells->is_blocked[cell]) return Verdict::forbidden;
-            const Numbers among = cells->near(cell);
-            if (among.empty()) return Verdict::free;
-            std::atomic<State>& known = cells->known[slot];
-            State state = known.load(std::memory_order_relaxed);
-            if (state == State::unseen) known.store(State::once, std::memory_order_relaxed);
-            if (state == State::once) {
-                const Vec<double> place = cells->middle(cell);
-                const double middle = (static_cast<double>(slot % sectors) + 0.5) * (two_pi / sectors);
-                const double slack = cells->around() + near->reach * (two_pi / sectors / 2) * (1 + 0x1p-20);
-                const Verdict all = decided(place.x, place.y, middle, slack, among);
-                state = all == Verdict::free ? State::free : all == Verdict::forbidden ? State::forbidden : State::mixed;
-                known.store(state, std::memory_order_relaxed);
-            }
-            return state == State::free ? Verdict::free : state == State::forbidden ? Verdict::forbidden : decided(x, y, theta, 0, among);
-        };
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
             heed_stop();
             for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k) {
                 const double* q = poses + 3 * k;
-                out[k] = is_within(q[0], q[1]) ? boxed(q[0] * near->unit, q[1] * near->unit, q[2]) : Verdict::forbidden;
+                out[k] = boxed(placed, cells, q[0], q[1], q[2]);
             }
         }
     });
 }
+
+Verdict ArcPoseChecker::look(double x, double y, double theta) const { return boxed(own(), grid(1), x, y, theta); }
 
 ArcPoseChecker::Placed& ArcPoseChecker::own() const {
     thread_local Placed placed;

@@ -407,7 +407,7 @@ MotionChecker::~MotionChecker() = default;
 
 // A point of each piece is enough, as no piece overlaps the frame. Mostly doubles tell that all of the robot is within.
 bool MotionChecker::begins_outside(const Motion& m) const {
-    if (!rims[0] && !rims[1]) return false;
+    if (round || (!rims[0] && !rims[1])) return false;
     const Shape& a = scene->robot;
     const double x = std::ldexp(nearest(m.x, m.unit), -scene->shift), y = std::ldexp(nearest(m.y, m.unit), -scene->shift);
     for (Index layer = 0; layer < 2; ++layer) {

@@ -90,7 +90,7 @@ Driver Driving::driver_of(const GivenVehicle& vehicle, const DrivingWishes& wish
         add(path.route[k], path.mark[k]);
     }
     const Dues dues{wishes.backward, wishes.cusp * unit, wishes.stop * unit, wishes.in_place * unit};
-    const MotionGuess seems(scene->poses(), weight, unit);
+    const MotionGuess seems(scene->looks(), weight, unit);
     Way asking = wishes.share > 0 ? free.asking(std::move(ridge), std::move(distances)) : free;
     return {vehicle_of(vehicle, scene->scene()), std::move(asking), seems, dues, wishes.size * unit};
 }

@@ -56,8 +56,9 @@ Index Built::common_cell(const RationalPose& start, const RationalPose& goal) co
     return found;
 }
 
-KnownScene::KnownScene(std::shared_ptr<const SceneFeatures> made, std::shared_ptr<const MotionChecker> by, double most_off)
-    : features(std::move(made)), checker(std::move(by)), slack(most_off) {
+KnownScene::KnownScene(std::shared_ptr<const SceneFeatures> made, std::shared_ptr<const MotionChecker> by, double most_off,
+                       std::shared_ptr<const ArcPoseChecker> true_shapes)
+    : features(std::move(made)), checker(std::move(by)), slack(most_off), round(std::move(true_shapes)) {
     if (!shapes().workspace) return;
     const Shape& O = scene().obstacles;
     for (Index k = 0; k < O.ring_vertices; ++k) {
@@ -110,6 +111,11 @@ const Nearness& KnownScene::nearness() const {
     const std::lock_guard guard(lock);
     if (!near) near = std::make_unique<const Nearness>(scene(), slack * nearest(scene().scale, power_of_two(scene().shift).n));
     return *near;
+}
+
+MotionGuess::IsForbidden KnownScene::looks() const {
+    if (round) return [true_shapes = round](double x, double y, double theta) { return true_shapes->look(x, y, theta) == Verdict::forbidden; };
+    return [looks = std::make_shared<PoseChecker::Looks>(poses())](double x, double y, double theta) { return looks->is_forbidden(x, y, theta); };
 }
 
 std::shared_ptr<const PoseChecker> KnownScene::poses() const {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int search_guesses = 40000;  // most guesses of motions: each scans all of the trees
 constexpr int quick_guesses = 2000;    // guesses before any exact work
+constexpr int round_guesses = 16000;   // among round shapes
 constexpr int guesses_each = 45;       // guesses that take no longer than a patch of a surface
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
@@ -81,20 +82,25 @@ std::optional<Poses> Planner::simple_way(const RationalPose& start, const Ration
     return way;
 }
 
-std::optional<Poses> Planner::quick(const End& start, const End& goal) const {
+std::optional<Poses> Planner::quick(const End& start, const End& goal, std::optional<int> guesses) const {
+    const int most = guesses.value_or(most_guesses());
     if (auto way = simple_way(start.pose, goal.pose)) return way;
-    return searched(start, goal, most_guesses());
+    if (!scene->round) return searched(start, goal, most);
+    // looks at round shapes cost little: there is time for two searches
+    if (auto way = searched(start, goal, most / 4)) return way;
+    return searched(start, goal, most - most / 4, by_short_steps);
 }
 
-std::optional<Poses> Planner::searched(const End& start, const End& goal, int most) const {
+std::optional<Poses> Planner::searched(const End& start, const End& goal, int most, const Growth& growth) const {
     const std::array ends{start.place, goal.place};
     const Searcher searcher(scene, ends, {angle_scale});
-    const Route route = searcher.search(start, goal).run(most);
+    const Route route = searcher.search(start, goal, 0, growth).run(most);
     if (route.empty()) return {};
     return searcher.poses(route);
 }
 
 int Planner::most_guesses() const {
+    if (scene->round) return round_guesses;
     return static_cast<int>(std::min<std::int64_t>(search_guesses, quick_guesses + 8 * scene->patches()));
 }
 

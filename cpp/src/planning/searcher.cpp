@@ -63,13 +63,13 @@ Route Searcher::route(std::span<const End> way) const {
     return result;
 }
 
-RrtConnect Searcher::search(const End& start, const End& goal, std::uint64_t seed) const {
+RrtConnect Searcher::search(const End& start, const End& goal, std::uint64_t seed, const Growth& growth) const {
     auto certainly = [checker = scene->checker](const Configuration& a, const Configuration& b) {
         heed_stop();
         return checker->is_free(motion_between(a, b));
     };
-    const MotionGuess seems(scene->poses(), costs.weight, unit);
-    return {{seems, std::move(certainly)}, grid(place_bits, angle_bits), area, costs.weight, configuration(start), configuration(goal), seed};
+    const MotionGuess seems(scene->looks(), costs.weight, unit);
+    return {{seems, std::move(certainly)}, grid(place_bits, angle_bits), area, costs.weight, configuration(start), configuration(goal), seed, growth};
 }
 
 Shortcut Searcher::shortener(std::span<const End> way, std::uint64_t seed) const {

@@ -14,7 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double longest_step = 0.2;  // share of the extent of the configuration space
 constexpr int certainty = 16;         // guesses that take as long as an exact test
 constexpr Index few = 200;             // nodes: all of them are scanned
 constexpr int squares = 24;            // along the longer side of the area
@@ -59,9 +58,9 @@ void RrtConnect::cut(Tree& tree, Index first) const {
 }
 
 RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
-                       std::uint64_t seed)
-    : joins(std::move(j)), grid(g), area(a), weight(w),
-      range(longest_step * (norm(a.x1 - a.x0, a.y1 - a.y0) + w * pi)), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
+                       std::uint64_t seed, const Growth& growth)
+    : joins(std::move(j)), grid(g), area(a), weight(growth.turning * w),
+      range(growth.step * (norm(a.x1 - a.x0, a.y1 - a.y0) + weight * pi)), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
     trees[0].root = std::move(start), trees[1].root = std::move(goal);
     for (Tree& tree : trees) {
         tree.near.resize(squares * squares);

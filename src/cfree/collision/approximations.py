@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import suppress
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -36,10 +37,18 @@ class Approximations:
         if tolerance is not None and not 0 < tolerance < np.inf:
             raise ValueError(f"tolerance {tolerance}: give a length above 0")
         self.exact, self.shapes = scene, shapes_of(scene)
-        size = max(map(size_of, scene.robot))
-        self.tolerance = tolerance or size * TOLERANCE
-        self.errors = [_first(shape, size) if isinstance(shape, Curved) else 0.0 for shape in self.shapes]
-        self.reached = max(self.errors)
+        self._size = max(map(size_of, scene.robot))
+        self.tolerance = tolerance or self._size * TOLERANCE
+
+    @cached_property
+    def errors(self) -> list[float]:
+        """The error of each shape's polygons; 0 for a polygon."""
+        return [_first(shape, self._size) if isinstance(shape, Curved) else 0.0 for shape in self.shapes]
+
+    @cached_property
+    def reached(self) -> float:
+        """The largest error that was to be reduced last; at first the largest."""
+        return max(self.errors)
 
     def least(self, shape: int) -> float:
         """Return the least error that a shape's polygons may have; 0 for a polygon."""

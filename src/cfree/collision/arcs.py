@@ -10,6 +10,7 @@ import math
 import os
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -30,6 +31,7 @@ from cfree.scene.scene import AnyShape, Scene
 from cfree.value import kept
 
 FREE, UNCERTAIN = 1, 2  # the core's verdicts
+KEPT = 1024  # cached shapes
 Curve = tuple[ExactPoint, ExactPoint, ExactPoint, int]  # start, end, center, turn
 NOWHERE = Fraction(0), Fraction(0)
 
@@ -108,22 +110,27 @@ def arcs_of(scene: Scene) -> ArcScene | None:
 
 
 def _prepared(scene: Scene) -> ArcScene | None:
-    shapes = [_arc_shape(shape) for shape in (*scene.robot, *scene.obstacles)]
+    shapes = [_arc_shape(shape, False) for shape in (*scene.robot, *scene.obstacles)]
     if scene.workspace is not None:
-        shapes.append(_arc_shape(scene.workspace, is_outside=True))
+        shapes.append(_arc_shape(scene.workspace, True))
     exact = [shape for shape in shapes if shape is not None]
     return ArcScene(scene, exact) if len(exact) == len(shapes) else None
 
 
-def _arc_shape(shape: AnyShape, *, is_outside: bool = False) -> _core.ArcShape | None:
+@lru_cache(KEPT)
+def _arc_shape(shape: AnyShape, is_outside: bool) -> _core.ArcShape | None:
     """Return a shape, or its complement, in the core's form; None if it has other curves."""
     curves = curves_of(shape)
     if curves is None:
         return None
     radius, rings = curves
     scale = common_denominator([radius, *(x for ring in rings for *points, _ in ring for p in points for x in p)])
-    numbers = [[(*(int(x * scale) for p in points for x in p), turn) for *points, turn in ring] for ring in rings]
-    return _core.ArcShape(numbers, int(radius * scale), scale, is_outside)
+
+    def whole(x: Fraction) -> int:
+        return x.numerator * (scale // x.denominator)
+
+    numbers = [[(*(whole(x) for p in points for x in p), turn) for *points, turn in ring] for ring in rings]
+    return _core.ArcShape(numbers, whole(radius), scale, is_outside)
 
 
 def curves_of(shape: AnyShape) -> tuple[Fraction, list[list[Curve]]] | None:

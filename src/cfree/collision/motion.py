@@ -34,10 +34,10 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.arguments import checked
 from cfree.collision.slide import Slide, Touch
 from cfree.errors import InvalidPoseError
-from cfree.exact.half_angle import Angle, number_and_unit
+from cfree.exact.half_angle import Angle, half_angle_rotation, number_and_unit, sum_of_angles
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.number import angle as angle_of
-from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
+from cfree.exact.pose import Pose, PoseLike, Poses, pose_at, to_pose
 
 Floats = NDArray[np.float64]
 MOST_HALVES = 1000
@@ -88,8 +88,8 @@ class Translation:
     @checked
     def apply(self, pose: PoseLike) -> Pose:
         """Return the pose at the end, exactly."""
-        pose = to_pose(pose, "pose")
-        return self.displacement @ pose
+        pose, (x, y) = to_pose(pose, "pose"), self.vector
+        return pose_at(pose.x + x, pose.y + y, pose.tau, pose.theta_error)
 
     @checked
     def at(self, pose: PoseLike, u: Number) -> Pose:
@@ -231,7 +231,11 @@ class Rotation:
     def apply(self, pose: PoseLike) -> Pose:
         """Return the pose at the end, exactly."""
         pose = to_pose(pose, "pose")
-        return self.displacement @ pose
+        (c, s, w), (x, y) = half_angle_rotation(self.tau), self.pole
+        u, v = pose.x - x, pose.y - y
+        return pose_at(
+            x + (c * u - s * v) / w, y + (s * u + c * v) / w, sum_of_angles(self.tau, pose.tau), pose.theta_error
+        )
 
     @checked
     def at(self, pose: PoseLike, u: Number) -> Pose:

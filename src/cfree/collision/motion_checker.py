@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -90,11 +91,14 @@ class MotionChecker(Value):
         self._scene = scene
         self.features: SceneFeatures = scene_features(scene)
         self._handle = kept(scene, _prepared)
-        self._rim = None if scene.workspace is None else _extent(self.features.obstacles)
 
     @property
     def _content(self) -> tuple[Scene]:
         return (self._scene,)
+
+    @cached_property
+    def _rim(self) -> tuple[Fraction, Fraction, Fraction, Fraction] | None:
+        return None if self._scene.workspace is None else _extent(self.features.obstacles)
 
     @property
     def units(self) -> tuple[int, int]:

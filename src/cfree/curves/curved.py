@@ -132,7 +132,9 @@ class Curved(Shown):
     @property
     def box(self) -> tuple[Fraction, Fraction, Fraction, Fraction]:
         """Least x and y, greatest x and y: exact if rational, else at most a 2**20th of the size off."""
-        x0, y0, x1, y1 = _box_of(self.path)
+        x0, y0, x1, y1 = box = _box_of(self.path)
+        if not self.grown:
+            return box
         return x0 - self.grown, y0 - self.grown, x1 + self.grown, y1 + self.grown
 
     @property
@@ -219,12 +221,9 @@ class Curved(Shown):
         if self.grown:
             bases = self._grown_by(-self.grown)._polygons(error / 2, inside=inside)
             return tuple(part for base in bases for part in _grown(base, self.grown, error / 2, inside))
-        frame = self._frame
-        curves = tuple(tuple(frame.local(curve)) for curve in self.curves)
-        result = _near(curves, error / frame.length, inside)
+        result = _placed(self, error, inside)
         if isinstance(result, Polygon):
-            outer, *holes = ([frame.world(p) for p in ring] for ring in result.exact_rings)
-            return (Polygon(outer, holes),)
+            return (result,)
         if inside:
             return ()
         raise result.with_traceback(None)
@@ -308,6 +307,17 @@ def _near(curves: tuple[tuple[Piece, ...], ...], error: float, inside: bool) -> 
                 _nothing_inside.clear()
             _nothing_inside[curves] = error, fault
         return fault
+
+
+@lru_cache(KEPT)
+def _placed(shape: Curved, error: float, inside: bool) -> Polygon | Exception:
+    """Return the polygon around a shape without growth, or inside; or the reason why there is none."""
+    frame = shape._frame
+    result = _near(tuple(tuple(frame.local(curve)) for curve in shape.curves), error / frame.length, inside)
+    if isinstance(result, Polygon):
+        outer, *holes = ([frame.world(p) for p in ring] for ring in result.exact_rings)
+        return Polygon(outer, holes)
+    return result
 
 
 @lru_cache(KEPT)

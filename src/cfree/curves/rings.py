@@ -165,6 +165,9 @@ class Span:
 
     def at(self, quarters: int, s: Fraction) -> ExactPoint:
         """Return the point after this many right angles plus 2 arctan(s)."""
+        if not s:
+            (x, y), (p, q), sign = self.center, (self.u, self.v)[quarters % 2], 1 if quarters % 4 < 2 else -1
+            return x + sign * p, y + sign * q
         square = 1 + s * s
         c, d = (1 - s * s) / square, 2 * s / square
         for _ in range(quarters % 4):

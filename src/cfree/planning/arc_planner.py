@@ -1,66 +1,70 @@
-"""Planner among segments and circular arcs: searches in polygons inside of the shapes, decisions on the shapes."""
+"""Planner among segments and circular arcs: the shapes themselves decide, polygons in their place are a guide."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from fractions import Fraction
 from functools import cached_property
 
 import cfree._core as _core
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import ArcScene
 from cfree.collision.motion_checker import MotionChecker
+from cfree.curves.curved import Curved
+from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.planning.contact_fits import Fits
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
-from cfree.scene.scene import Scene
+from cfree.scene.scene import AnyShape, Scene, robot_radius
 
 ROUNDED = 1 + 2.0**-40  # more than the rounding of a sum
+BITS = 20  # of the numbers of a box
 
 
 class TrueMotions(MotionChecker):
-    """Exact checks of motions among round shapes, with the interface of a checker of the polygons inside of them."""
+    """Exact checks of motions among round shapes, with the interface of a checker of polygons in their place."""
 
-    def __init__(self, inner: Scene, arcs: ArcScene) -> None:
-        super().__init__(inner)
+    def __init__(self, guide: Scene, arcs: ArcScene) -> None:
+        super().__init__(guide)
         self._handle = _core.MotionChecker(self.features.core, arcs.motions)
 
 
 class ArcPlanner(PosePlanner):
-    """Searches among round shapes, at one error of the polygons inside of them.
+    """Searches among round shapes, which decide.
 
     Parameters
     ----------
     arcs : ArcScene
         The exact shapes.
-    near : Approximations
-        Their polygons.
+    true : Scene
+        Their scene.
+    guide : Scene
+        Polygons in place of the shapes.
+    slack : float
+        The distances of these may be too large by as much; if it is infinite, nothing keeps a distance.
 
     Attributes
     ----------
     true : Scene
-        The scene of the exact shapes.
-
-    Raises
-    ------
-    UndecidedError
-        If a robot or workspace has no polygon inside.
     """
 
     is_among_arcs = True
 
-    def __init__(self, arcs: ArcScene, near: Approximations) -> None:
-        super().__init__(near.scene(outward=False))
-        self.arcs, self.true = arcs, near.exact
-        count = len(near.exact.robot)
-        errors = near.errors[:count], near.errors[count:]
-        few = len(self.scene.obstacles) < len(near.exact.obstacles)  # one has no polygon inside
-        self._slack = math.inf if few else sum(max(part, default=0.0) for part in errors) * ROUNDED
+    def __init__(self, arcs: ArcScene, true: Scene, guide: Scene, slack: float = math.inf) -> None:
+        super().__init__(guide)
+        self.arcs, self.true, self._slack = arcs, true, slack
 
     @cached_property
     def checker(self) -> MotionChecker:
         """Checker of motions among the shapes themselves."""
         return TrueMotions(self.scene, self.arcs)
+
+    @cached_property
+    def angle_scale(self) -> float:
+        """Length per radian: the radius of the robot itself."""
+        return robot_radius(self.true)
 
     @cached_property
     def fits(self) -> Fits:
@@ -69,9 +73,40 @@ class ArcPlanner(PosePlanner):
 
     @cached_property
     def _known(self) -> _core.KnownScene:
-        return _core.KnownScene(self.checker.features.made, self.checker._handle, self._slack)
+        return _core.KnownScene(self.checker.features.made, self.checker._handle, self._slack, self.arcs.poses)
 
     def way(self, start: Pose, goal: Pose, options: Options, *, few: bool = False) -> list[Pose] | None:
         """Return poses of a path, if simple ways or a search give one."""
         found = self.quick(start, goal, options)
         return None if found is None else [*found]
+
+
+def with_inner_polygons(arcs: ArcScene, near: Approximations) -> ArcPlanner:
+    """Return a planner with polygons inside the shapes, near enough to push paths away from them.
+
+    Raises
+    ------
+    UndecidedError
+        If a robot or workspace has no polygon inside.
+    """
+    true, inner, count = near.exact, near.scene(outward=False), len(near.exact.robot)
+    few = len(inner.obstacles) < len(true.obstacles)  # one has no polygon inside
+    errors = near.errors[:count], near.errors[count:]
+    return ArcPlanner(arcs, true, inner, math.inf if few else sum(max(part, default=0.0) for part in errors) * ROUNDED)
+
+
+def with_boxes(arcs: ArcScene, true: Scene) -> ArcPlanner:
+    """Return a planner with boxes around robot, obstacles and workspace, of short numbers: enough for searches."""
+    room = true.workspace
+    obstacles = [_box(true.obstacles)] if true.obstacles else []
+    guide = Scene(_box(true.robot), obstacles, workspace=room and _box([room]), bounds=true.bounds)
+    return ArcPlanner(arcs, true, guide)
+
+
+def _box(shapes: Sequence[AnyShape]) -> list[ExactPoint]:
+    """Return a box around shapes."""
+    boxes = (shape.box if isinstance(shape, Curved) else map(Fraction, shape.bounds) for shape in shapes)
+    x0, y0, x1, y1 = (choose(row) for choose, row in zip((min, min, max, max), zip(*boxes, strict=True), strict=True))
+    unit = Fraction(2) ** (math.frexp(max(x1 - x0, y1 - y0))[1] - BITS)
+    left, low, right, high = ((x // unit + k) * unit for x, k in ((x0, 0), (y0, 0), (x1, 1), (y1, 1)))
+    return [(left, low), (right, low), (right, high), (left, high)]

@@ -164,19 +164,17 @@ def _among_discs(query: _Query, goal: Goal) -> list[Path]:
     """Return paths of the robot grown by the disc itself, to a pose or to poses at a place."""
     scene, start, options = query.scene, query.start, query.options
     true = TrueShapes(scene, Approximations(scene), options.clearance)
-    planner, paths = true.planner(), list[Path]()
-    if planner is None:
-        return []
-    ends = _ends(planner.scene, start, goal)
+    planner, paths, inner = true.planner(), list[Path](), None
+    with suppress(UndecidedError):
+        inner = planner.guide.scene
+    ends = _ends(inner, start, goal) if inner else []
     for end in ends:
         with suppress(UndecidedError):
             if not true.arcs.is_free(end):
                 continue
             answer: Path | Proof | None = planner.first_path(start, end, options)
-            if answer is None:
-                guide = PosePlanner(planner.scene).path_or_proof(
-                    start, end, replace(options, improve=0.0, vehicle=None)
-                )
+            if answer is None and inner:
+                guide = PosePlanner(inner).path_or_proof(start, end, replace(options, improve=0.0, vehicle=None))
                 answer = planner.mended(guide, options) if isinstance(guide, Path) else None
             paths += [answer] if isinstance(answer, Path) else []
     return paths

@@ -3,7 +3,7 @@
 The outer scene forbids every pose that the round shapes forbid; the inner scene forbids no other pose. So a path in the
 outer scene is also free among the round shapes, and a proof in the inner scene also holds for them. If neither answers,
 the error of the shapes that the inner scene's path overlaps in the outer scene is divided by 4, down to a tolerance.
-docs/theory/curved-shapes.md has the proofs.
+docs/theory/curved-shapes.md has the proofs. Among segments and circular arcs, the shapes are searched themselves first.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ Decided = tuple[PosePlanner, Options]  # a planner for polygons that gave an ans
 POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
-SEARCHES = 2  # errors of polygons at which a path among the shapes themselves is searched
+FEW, MANY = 48_000, 80_000  # guesses of searches among the shapes themselves, before the first polygons and after
 STRAIGHT = Fraction(0), Fraction(1), None, Fraction(-1)  # half-angle tangents of quarter turns
 MOST_AT_PLACE = 6  # orientations at a place to which a path among the shapes themselves is searched
 COARSE = 2  # finenesses of boxes
@@ -165,7 +165,9 @@ class CurvedPlanner:
             return query.answer(ask, ends)
         finally:
             if query.last is not None:
-                self._decided, self.scene = query.last, query.last[0].scene
+                planner, options = query.last
+                planner = planner.guide if isinstance(planner, TruePlanner) else planner
+                self._decided, self.scene = (planner, options), planner.scene
 
 
 class CurvedQuery:
@@ -182,13 +184,13 @@ class CurvedQuery:
 
     Attributes
     ----------
-    last : (PosePlanner, Options) or None
-        The planner for polygons that gave the last answer, and its options.
+    last : (PosePlanner or TruePlanner, Options) or None
+        The planner that gave the last answer, and its options.
     """
 
     def __init__(self, near: Approximations, options: Options, *, thorough: bool = True) -> None:
         self.near, self.options, self._thorough = near, options, thorough
-        self.last: Decided | None = None
+        self.last: tuple[PosePlanner | TruePlanner, Options] | None = None
         self._begin, self._interval, self._reason = time.monotonic(), (0.0, math.inf), ""
         self._is_limited = options.tolerance is None and options.max_seconds is None
         self._work = Work(PATCHES) if self._is_limited else options.work
@@ -246,13 +248,13 @@ class CurvedQuery:
                 text = f"{name}: {away} away from obstacles and workspace, and the clearance is {clearance:g}; {remedy}"
                 raise InvalidPoseError(text)
 
-    def _first_path(self, planner: TruePlanner, ends: Sequence[Pose]) -> Path | None:
+    def _first_path(self, planner: TruePlanner, ends: Sequence[Pose], guesses: int) -> Path | None:
         """Return the cheapest path among the shapes themselves, if a search finds one."""
         options = self._within_time()
         paths = list[Path]()
         for goal in ends[1:]:
             try:
-                path = planner.first_path(ends[0], goal, options.shared(len(ends) - 1))
+                path = planner.first_path(ends[0], goal, options.shared(len(ends) - 1), guesses)
             except UndecidedError as error:  # of a vehicle
                 self._reason = str(error)
             else:
@@ -260,7 +262,7 @@ class CurvedQuery:
         if not paths:
             return None
         self.last = planner, options
-        return cheapest(paths, planner.scene, options.preferences)
+        return cheapest(paths, self.near.exact, options.preferences)
 
     def _poses_for(self, ends: Sequence[Goal], planner: TruePlanner) -> Iterator[Pose]:
         """Yield the poses, and some at each place that are free among segments and arcs."""
@@ -270,8 +272,10 @@ class CurvedQuery:
             if isinstance(end, Pose):
                 yield end
                 continue
-            intervals = free_orientations(planner.scene, end)
-            near = [pose for interval in intervals if (pose := pose_in(interval, start, end))]
+            near = list[Pose]()
+            with suppress(UndecidedError):  # the robot has no polygon inside
+                intervals = free_orientations(planner.guide.scene, end)
+                near = [pose for interval in intervals if (pose := pose_in(interval, start, end))]
             taus = [start.tau, *STRAIGHT, *(tau for pose in near for tau in planner.taus_near(pose))]
             some = dict.fromkeys([*near, *(pose_at(*end, tau) for tau in taus)])
             yield from islice(filter(planner.arcs.is_free, some), MOST_AT_PLACE)
@@ -283,18 +287,17 @@ class CurvedQuery:
         return replace(self.options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
 
     def _refined(self, ask: Ask, goals: Sequence[Goal]) -> Answer:
-        searches, ends = SEARCHES, [end for end in goals if isinstance(end, Pose)]
+        searches, ends = [FEW, MANY], [end for end in goals if isinstance(end, Pose)]
         while True:
             apart, inner, refused = None, None, None
             true = self._true.planner() if self._true else None
             if true:
-                poses = [*self._poses_for(goals, true)]
-                if searches > 0 and (path := self._first_path(true, poses)):
+                poses, is_early = [*self._poses_for(goals, true)], bool(searches)
+                if is_early and (path := self._first_path(true, poses, searches.pop(0))):
                     return path
-                searches -= 1
                 inner = self._asked(ask, outward=False)
                 if isinstance(inner, Path):
-                    guides = self._guides(true, inner, poses) if self._thorough or searches >= 0 else ()
+                    guides = self._guides(true, inner, poses) if self._thorough or is_early else ()
                     if path := next(filter(None, (self._mended(true, guide) for guide in guides)), None):
                         return path
                 elif inner is not None:
@@ -330,7 +333,7 @@ class CurvedQuery:
         options = replace(self._within_time(), improve=0.0, vehicle=None, work=self._work)
         for goal in poses[1 : 1 + MOST_AT_PLACE]:
             with suppress(IncompleteError):
-                guide = PosePlanner(true.scene).path_or_proof(inner.start, goal, options)
+                guide = PosePlanner(true.guide.scene).path_or_proof(inner.start, goal, options)
                 if isinstance(guide, Path):
                     yield guide
 

@@ -181,7 +181,7 @@ def name_of(goals: Sequence[Goal], k: int) -> str:
 
 def cheapest(paths: Sequence[Path], scene: Scene, preferences: Preferences) -> Path:
     """Return the path of least cost by preferences."""
-    return min(paths, key=lambda path: preferences.cost(path, scene))
+    return min(paths, key=lambda path: preferences.cost(path, scene)) if len(paths) > 1 else paths[0]
 
 
 def all_separated(proofs: Sequence[Proof], goals: Sequence[Goal], *, is_whole: bool) -> AllSeparated:

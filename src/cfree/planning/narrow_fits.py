@@ -31,6 +31,7 @@ MOST_PAIRS = 12  # searches between motions out of contacts
 LOOKS = 5  # poses of a forbidden part of a path near which fits are looked for
 NEAR = 16  # errors of polygons within which a contact counts as near
 TOUCHING = 1e-9  # largest distance of a contact, relative to the robot
+FAR = 100  # of these: distances are not bounded beyond
 FARTHER = (1.25, 2.0, 1.0, 0.5)  # lengths of a motion through a place, relative
 
 Way = list[Pose]
@@ -230,7 +231,7 @@ def ways_out(planner: ArcPlanner, pose: Pose, other: Pose) -> list[Way]:
         The other end of the path: turns may go to its orientation.
     """
     near = TOUCHING * planner.angle_scale
-    if planner.arcs.distance(pose, near)[0] > near:
+    if planner.arcs.distance(pose, FAR * near)[0] > near:
         return []
     place, ways = (pose.x, pose.y), list[Way]()
     lengths = [planner.angle_scale * 2.0**k for k in range(3, -5, -1)]
@@ -245,14 +246,16 @@ def ways_out(planner: ArcPlanner, pose: Pose, other: Pose) -> list[Way]:
     return sorted(ways, key=lambda way: -math.hypot(*map(float, _apart(*way))))[:MOST_WAYS]
 
 
-def way_out_of_contacts(planner: ArcPlanner, start: Pose, goal: Pose, options: Options) -> Way | None:
+def way_out_of_contacts(
+    planner: ArcPlanner, start: Pose, goal: Pose, options: Options, guesses: int | None = None
+) -> Way | None:
     """Return a way between poses of which one or both are in contact, if a search joins motions out of these."""
     begins, ends = ways_out(planner, start, goal), ways_out(planner, goal, start)
     if not begins and not ends:
         return None
     pairs = product(begins or [[start]], ends or [[goal]])
     for begin, end in islice(pairs, MOST_PAIRS):
-        joined = [begin[-1]] if begin[-1] == end[-1] else planner.quick(begin[-1], end[-1], options)
+        joined = [begin[-1]] if begin[-1] == end[-1] else planner.quick(begin[-1], end[-1], options, guesses)
         if joined:
             return [*begin, *joined[1:], *reversed(end[:-1])]
     return None

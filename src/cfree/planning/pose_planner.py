@@ -112,9 +112,12 @@ class PosePlanner:
         way = self._planner.walk(end_of(start), end_of(goal), options.caller())
         return None if way is None else way_of(way, self.checker.features, self._slides)
 
-    def quick(self, start: Pose, goal: Pose, options: Options) -> Sequence[Pose] | None:
-        """Return poses of a path between free poses; None if neither simple paths nor a search gives one."""
-        way = self._planner.quick(end_of(start), end_of(goal), options.caller())
+    def quick(self, start: Pose, goal: Pose, options: Options, guesses: int | None = None) -> Sequence[Pose] | None:
+        """Return poses of a path between free poses; None if neither simple paths nor a search gives one.
+
+        The search makes so many guesses of motions; by default the more, the more patches there are.
+        """
+        way = self._planner.quick(end_of(start), end_of(goal), options.caller(), guesses)
         return None if way is None else [*map(from_numbers, way)]
 
     def answered(self, way: Sequence[Pose], options: Options) -> Path | Stuck | Unreachable:

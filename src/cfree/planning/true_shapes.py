@@ -1,13 +1,13 @@
-"""Paths among segments and circular arcs: polygons inside the shapes guide a search, the shapes themselves decide.
+"""Paths among segments and circular arcs: searches look at the shapes themselves, and these decide.
 
-These polygons forbid less than the shapes, and their distances are too large by at most a known slack. Every motion of
-a path is proved free among the shapes: docs/theory/exact-arcs.md. So a fit along a line or about a point is found.
+Where searches fail, polygons inside the shapes are a guide. They forbid less than the shapes, and their distances are
+too large by at most a known slack. Every motion of a path is proved free among the shapes: docs/theory/exact-arcs.md.
+So a fit along a line or about a point is found.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from copy import copy
 from dataclasses import replace
 from fractions import Fraction
@@ -18,7 +18,7 @@ from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
-from cfree.planning.arc_planner import ArcPlanner
+from cfree.planning.arc_planner import ArcPlanner, with_boxes, with_inner_polygons
 from cfree.planning.narrow_fits import NEAR, way_out_of_contacts, way_through_fits
 from cfree.planning.options import Options
 from cfree.planning.stuck import Stuck
@@ -26,11 +26,12 @@ from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, grown_scene
 
 FINER = 4  # errors of polygons are divided by this where a path is improved
+EACH = 4  # part of a search's guesses for each way out of contacts
 PUSHES = 100, 400  # motions checked to push a path away from obstacles, before and after fits are tried
 
 
-class TruePlanner(ArcPlanner):
-    """Planner that finishes the paths of one query among round shapes.
+class TruePlanner:
+    """Planner that finds and finishes the paths of one query among round shapes.
 
     Parameters
     ----------
@@ -39,54 +40,71 @@ class TruePlanner(ArcPlanner):
     clearance : Fraction
         A distance that a path keeps: the robot of `arcs` is grown by a disc of that radius.
     arcs : ArcScene
+        The exact shapes.
     near : Approximations
-        As in `ArcPlanner`.
+        Their polygons.
+
+    Attributes
+    ----------
+    arcs : ArcScene
     """
 
     def __init__(self, exact: Scene, clearance: Fraction, arcs: ArcScene, near: Approximations) -> None:
-        super().__init__(arcs, near)
-        self._near = near
-        self._exact, self._clearance, self._error = exact, clearance, max(near.errors)
+        self.arcs, self._search, self._near = arcs, with_boxes(arcs, near.exact), near
+        self._exact, self._clearance = exact, clearance
+
+    @cached_property
+    def guide(self) -> ArcPlanner:
+        """A planner with polygons inside the shapes, away from which it pushes paths."""
+        return with_inner_polygons(self.arcs, self._near)
 
     @cached_property
     def _finer(self) -> ArcPlanner:
         """A planner with finer polygons, whose distances are nearer to the truth: for paths that are improved."""
         near = copy(self._near)
         near.errors = [max(error / FINER, near.least(k)) if error else error for k, error in enumerate(near.errors)]
-        return ArcPlanner(self.arcs, near)
+        return with_inner_polygons(self.arcs, near)
 
-    def first_path(self, start: Pose, goal: Pose, options: Options) -> Path | Stuck | None:
-        """Return a path between free poses, if simple ways or a search give one."""
-        way = [start] if start == goal else self.quick(start, goal, options)
-        way = way or way_out_of_contacts(self, start, goal, options)
+    def first_path(self, start: Pose, goal: Pose, options: Options, guesses: int | None = None) -> Path | Stuck | None:
+        """Return a path between free poses, if simple ways or searches give one."""
+        search = self._search
+        way = [start] if start == goal else search.quick(start, goal, options, 0)
+        way = way or way_out_of_contacts(search, start, goal, options, guesses and guesses // EACH)
+        way = way or search.quick(start, goal, options, guesses)
         return self.finished(way, options) if way else None
 
     def taus_near(self, pose: Pose) -> list[Fraction | None]:
         """Return half-angle tangents near a pose's at which something is parallel, and simple ones."""
-        return self.fits.angles(float(pose.x), float(pose.y), pose.theta, NEAR * self._error)
+        return self._search.fits.angles(float(pose.x), float(pose.y), pose.theta, NEAR * max(self._near.errors))
 
     def mended(self, path: Path, options: Options, *, thorough: bool = True) -> Path | Stuck | None:
         """Return a path near one among the polygons, if all motions of it, or of one farther from them, are free."""
         poses: Sequence[Pose] = path.poses
-        slides = any(motion.contacts for motion in path.motions)
-        if not slides and self.checker.joins(poses):
+        search, slides = self._search, any(motion.contacts for motion in path.motions)
+        if not slides and search.checker.joins(poses):
             return self.finished(poses, options)
-        for motions in (
-            PUSHES if thorough else PUSHES[:1]
-        ):  # a few help where there is room; more are dear near exact fits, which are tried first
+        # a few help where there is room; more are dear near exact fits, which are tried first
+        for motions in PUSHES if thorough else PUSHES[:1]:
             if not slides:
-                pushed = self.improver(poses, options).pushed(poses, motions)
-                if self.checker.joins(pushed):
+                pushed = self.guide.improver(poses, options).pushed(poses, motions)
+                if search.checker.joins(pushed):
                     return self.finished(pushed, options)
             if motions == PUSHES[0]:
-                through = way_through_fits(self, path, options, self._error)
-                if through is not None and self.checker.joins(through):
+                through = way_through_fits(search, path, options, max(self._near.errors))
+                if through is not None and search.checker.joins(through):
                     return self.finished(through, options)
         return None
 
     def finished(self, way: Sequence[Pose], options: Options) -> Path | Stuck | None:
         """Improve a path, given by its poses, and return it as one among the shapes."""
-        planner = self if options.improve == 0 else self._finer
+        planner = self._search
+        if options.improve != 0 or options.vehicle or options.objective == "clear":
+            try:
+                planner = self.guide if options.improve == 0 else self._finer
+            except UndecidedError:  # the robot has no polygon inside
+                if options.vehicle:
+                    raise
+                options = replace(options, improve=0.0, objective="short")
         answer = planner.answered(way, options)
         if not isinstance(answer, Path):
             return None
@@ -116,13 +134,11 @@ class TrueShapes:
         assert arcs is not None, "all shapes are of lines and circular arcs"
         self.arcs = arcs
 
-    def planner(self) -> TruePlanner | None:
-        """Return a planner with the polygons of now; None if the robot or the workspace has none."""
+    def planner(self) -> TruePlanner:
+        """Return a planner with the polygons of now."""
         near = self._near
         if self._clearance:
             near = Approximations(self._grown, near.tolerance)
             pairs = enumerate(zip(near.errors, self._near.errors, strict=True))
             near.errors = [min(own, max(error, near.least(k))) if error else own for k, (own, error) in pairs]
-        with suppress(UndecidedError):
-            return TruePlanner(self._scene, self._clearance, self.arcs, near)
-        return None
+        return TruePlanner(self._scene, self._clearance, self.arcs, near)

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
@@ -404,7 +405,12 @@ def box_of(shape: AnyShape) -> tuple[float, float, float, float]:
 
 def robot_radius(scene: Scene) -> float:
     """Return the distance of the robot's farthest vertex from its reference point; of a round one, a little more."""
-    polygons = [polygon for part in scene.robot for polygon in polygons_for(part, size_of(part) / SIDES_OF_ROUND, True)]
+    return max(map(_radius, scene.robot))
+
+
+@lru_cache
+def _radius(part: AnyShape) -> float:
+    polygons = polygons_for(part, size_of(part) / SIDES_OF_ROUND, True)
     return max(math.hypot(x, y) for polygon in polygons for x, y in polygon.vertices.tolist())
 
 

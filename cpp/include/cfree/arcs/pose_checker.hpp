@@ -28,6 +28,8 @@ public:
 
     // Verdicts of poses x, y and theta in [0, 2 pi], radians.
     void check(const double* poses, std::size_t count, int threads, Verdict* out) const;
+    // Verdict of one pose of many, theta in [0, 2 pi].
+    Verdict look(double x, double y, double theta) const;
     // One pose, exactly.
     bool is_free(const GivenPose& pose) const;
     // Exactly the pose that Python's `Pose` makes of three finite doubles. Nothing for an angle that `read_radians` leaves out.
@@ -44,9 +46,12 @@ private:
     // Of all poses in which no point moves by more than the slack, among all obstacles or some; doubles are those of `near`.
     using Numbers = std::span<const Index>;
     Verdict verdict(Placed& placed, double x, double y, double c, double s, double slack, std::optional<Numbers> among = {}) const;
+    Verdict decided(Placed& placed, double x, double y, double theta, double slack, std::optional<Numbers> among) const;
     // Verdicts of boxes of poses, for many poses.
     struct Grid;
     Grid* grid(std::size_t poses) const;
+    // A pose in the user's units; by its box, if there is a grid.
+    Verdict boxed(Placed& placed, Grid* cells, double x, double y, double theta) const;
     bool decide(const Placed& placed, const ExactPlacement& at) const;
     const std::unique_ptr<const NearScene> near;
     const std::size_t number;

@@ -59,7 +59,7 @@ public:
     MotionChecker& operator=(const MotionChecker&) = delete;
     bool is_free(const Motion& motion) const override;
     bool is_free(const Slide& slide) const;
-    // True if it begins beyond the frames around the bounds and the workspace, where nothing is in the way.
+    // True if it begins beyond the frames around the bounds and the workspace, where nothing of the polygons is in the way.
     bool begins_outside(const Motion& motion) const;
     std::optional<Collision> first_collision(const Motion& motion) const;
     // Parameter of the first collision of a translation.

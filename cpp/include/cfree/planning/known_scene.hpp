@@ -2,11 +2,13 @@
 #pragma once
 #include <mutex>
 
+#include "cfree/arcs/pose_checker.hpp"
 #include "cfree/collision/pose_checker.hpp"
 #include "cfree/free/free_space.hpp"
 #include "cfree/planning/deadline.hpp"
 #include "cfree/planning/surroundings.hpp"
 #include "cfree/scene/features.hpp"
+#include "cfree/search/motion_guess.hpp"
 #include "cfree/search/way.hpp"
 
 namespace cfree {
@@ -32,12 +34,14 @@ Barrier barrier_of(const CellComplex& surface);
 class KnownScene {
 public:
     static std::shared_ptr<KnownScene> of(const SceneShapes& shapes);
-    // The distance of the polygons may be too large by `slack`, if the checker has round shapes around them.
-    KnownScene(std::shared_ptr<const SceneFeatures> features, std::shared_ptr<const MotionChecker> checker, double slack = 0);
+    // If round shapes decide: their poses, and how much too large the distances of the polygons may be.
+    KnownScene(std::shared_ptr<const SceneFeatures> features, std::shared_ptr<const MotionChecker> checker, double slack = 0,
+               std::shared_ptr<const ArcPoseChecker> round = {});
 
     const std::shared_ptr<const SceneFeatures> features;
     const std::shared_ptr<const MotionChecker> checker;
     const double slack;
+    const std::shared_ptr<const ArcPoseChecker> round;
     const Scene& scene() const { return *features->scene; }
     const SceneShapes& shapes() const { return features->shapes; }
 
@@ -47,7 +51,8 @@ public:
     // Number of patches before trimming.
     std::int64_t patches() const;
     const Nearness& nearness() const;
-    std::shared_ptr<const PoseChecker> poses() const;
+    // A look at one pose after another: is it certainly forbidden?
+    MotionGuess::IsForbidden looks() const;
     // Box around the workspace, or else around the obstacles, in the user's units; empty if there are none.
     const Area& box() const;
 
@@ -66,6 +71,7 @@ private:
     mutable std::mutex lock;  // guards the cache
     std::shared_ptr<Surroundings> around;
     std::shared_ptr<const Built> space;
+    std::shared_ptr<const PoseChecker> poses() const;
     mutable std::unique_ptr<const Nearness> near;
     mutable std::shared_ptr<const PoseChecker> pose_checker;
     mutable std::optional<Area> around_all;

@@ -26,8 +26,8 @@ public:
 
     // Path along the boundary of the first cell whose closure contains both poses, if there is one.
     std::optional<Poses> walk(const End& start, const End& goal, const Listener& listener);
-    // Poses of a path between free poses, if simple ways or a search find one.
-    std::optional<Poses> quick(const End& start, const End& goal) const;
+    // Poses of a path between free poses, if simple ways or searches find one; these make about so many guesses of motions.
+    std::optional<Poses> quick(const End& start, const End& goal, std::optional<int> guesses = {}) const;
 
     const std::shared_ptr<KnownScene> scene;
     const double angle_scale;  // length per radian: the robot's radius about its reference point
@@ -46,7 +46,7 @@ private:
     std::optional<Poses> in_a_cell(const End& start, const End& goal, const Listener& listener);
     Found by_all(const End& start, const End& goal, const Listener& listener);
     std::optional<Poses> simple_way(const RationalPose& start, const RationalPose& goal) const;
-    std::optional<Poses> searched(const End& start, const End& goal, int most) const;
+    std::optional<Poses> searched(const End& start, const End& goal, int most, const Growth& growth = {}) const;
     const std::shared_ptr<const BoundaryWalker>& walker(const Listener& listener);
     Passages& passages(const Listener& listener);
     Insets& insets();

@@ -20,7 +20,7 @@ public:
     // Searcher around poses; costs are in the user's units, the weight of a radian is the robot's radius.
     Searcher(std::shared_ptr<const KnownScene> scene, std::span<const Place> poses, const Costs& costs);
 
-    RrtConnect search(const End& start, const End& goal, std::uint64_t seed = 0) const;
+    RrtConnect search(const End& start, const End& goal, std::uint64_t seed = 0, const Growth& growth = {}) const;
     Shortcut shortener(std::span<const End> way, std::uint64_t seed = 0) const;
     // Shortener of a path beside this one that keeps a distance from obstacles if there is room.
     Shortcut balanced(std::span<const End> way, std::uint64_t seed = 0) const;

@@ -1,19 +1,21 @@
 // Guess that a motion is free, for searches: none of some sampled poses is certainly forbidden.
 #pragma once
-#include "cfree/collision/pose_checker.hpp"
+#include <functional>
+
 #include "cfree/search/configuration.hpp"
 
 namespace cfree {
 
 class MotionGuess {
 public:
-    // radius: the robot's, in the doubles of shapes; unit: factor from the user's lengths to these. For one thread.
-    MotionGuess(std::shared_ptr<const PoseChecker> checker, double radius, double unit);
+    // True if a pose is certainly forbidden, in the user's units, theta in [0, 2 pi]. For one thread.
+    using IsForbidden = std::function<bool(double x, double y, double theta)>;
+    // radius: the robot's, in the doubles of shapes; unit: factor from the user's lengths to these.
+    MotionGuess(IsForbidden poses, double radius, double unit);
     bool operator()(const Place& a, const Place& b) const;
 
 private:
-    bool is_forbidden(const Place& q) const;
-    std::shared_ptr<PoseChecker::Looks> looks;
+    IsForbidden is_forbidden;
     double radius, unit;
 };
 

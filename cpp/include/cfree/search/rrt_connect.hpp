@@ -19,11 +19,17 @@ struct Joins {
     std::function<bool(const Configuration&, const Configuration&)> certainly;  // exact: the motion is admissible
 };
 
+// Longest step of a tree, as a share of the extent of the configuration space; factor of a radian's weight.
+struct Growth {
+    double step = 0.2, turning = 1;
+};
+constexpr Growth by_short_steps{0.05, 0.25};
+
 class RrtConnect {
 public:
     // weight: length per radian
     RrtConnect(Joins joins, Grid grid, Area area, double weight, Configuration start, Configuration goal,
-           std::uint64_t seed);
+           std::uint64_t seed, const Growth& growth = {});
     // Run for about this many guesses of motions; a route, or nothing yet.
     Route run(int guesses);
     // Run, and continue as long as both trees reach new parts of the space.
