@@ -14,6 +14,7 @@ from functools import lru_cache
 from typing import Any
 
 from cfree.arguments import checked
+from cfree.curves.crossings import crossing
 from cfree.curves.healing import Change, healed_ring
 from cfree.curves.hulls import FINEST, Outline, polygon_of
 from cfree.curves.pieces import Box, Frame, box_of, drawn_of, hull_points, is_proved
@@ -84,6 +85,8 @@ class Curved(Shown):
             raise InvalidPolygonError(f"grown: {grown}; give a length, 0 or more")
         try:
             error = self.size / ROUGH
+            if not error:
+                raise InvalidPolygonError("it is smaller than doubles can tell; scale the shape")
             if self.grown:
                 self._base()
             else:
@@ -227,6 +230,9 @@ class Curved(Shown):
             return (Polygon(outer, holes),)
         if inside:
             return ()
+        if isinstance(result, InvalidPolygonError) and result.edges:  # of the polygon
+            place = crossing(self.curves, (self.path, *self.holes))
+            result = InvalidPolygonError(f"{place}; divide the shape there, or move them apart", ring=result.ring)
         raise result.with_traceback(None)
 
     @property

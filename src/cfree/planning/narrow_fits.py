@@ -31,6 +31,7 @@ MOST_PAIRS = 12  # searches between motions out of contacts
 LOOKS = 5  # poses of a forbidden part of a path near which fits are looked for
 NEAR = 16  # errors of polygons within which a contact counts as near
 TOUCHING = 1e-9  # largest distance of a contact, relative to the robot
+WIDELY = 1.2  # radians by which a robot is turned about the center of an arc that is held on a line
 FARTHER = (1.25, 2.0, 1.0, 0.5)  # lengths of a motion through a place, relative
 
 Way = list[Pose]
@@ -187,26 +188,38 @@ def _turns(
 def _lines(
     planner: ArcPlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
 ) -> Iterator[tuple[Pose, Pose]]:
-    """Yield translations along a line between contacts, about as long as the run, or longer."""
-    steps = run[-1, :2] - run[0, :2]
+    """Yield translations along a line between contacts, about as long as the run, or longer.
+
+    A line that holds the center of an arc holds it at all orientations: the longest translation is that of one of them.
+    """
+    x, y, theta = float(place[0]), float(place[1]), Pose(0, 0, {"tau": tau}).theta
     for line in planner.fits.lines(place, tau, near):
-        middle, (u, v) = pose_at(*line.place, tau), line.along
-        if not planner.checker.joins([middle]):
-            continue
-        if float(u) * steps[0] + float(v) * steps[1] < 0:
-            u, v = -u, -v
-        along = math.hypot(u, v)
-        lengths = [
-            abs((x - float(middle.x)) * float(u) + (y - float(middle.y)) * float(v)) / along
-            for x, y in (run[0, :2], run[-1, :2])
-        ]
-        least = max(sum(lengths) / 4, 1e-9 * planner.angle_scale)
-        back, ahead = (
-            _beyond(planner, middle, (sign * u, sign * v), [share * max(length, least) for share in FARTHER])
-            for sign, length in zip((-1, 1), lengths, strict=True)
-        )
-        if back != ahead:
-            yield back, ahead
+        ways = [_along(planner, line.pose, line.along, run)]
+        if ways[0] and line.center:
+            others = planner.fits.angles(x, y, theta, near, WIDELY)
+            ways += [_along(planner, line.center.pose(other), line.along, run) for other in others if other != tau]
+        if free := [way for way in ways if way]:
+            yield max(free, key=lambda way: math.hypot(*map(float, _apart(*way))))
+
+
+def _along(planner: ArcPlanner, middle: Pose, along: ExactPoint, run: np.ndarray) -> tuple[Pose, Pose] | None:
+    """Return a translation through a pose, about as long as a run of poses, or longer; None if there is none."""
+    if not planner.arcs.is_free(middle):
+        return None
+    (u, v), steps = along, run[-1, :2] - run[0, :2]
+    if float(u) * steps[0] + float(v) * steps[1] < 0:
+        u, v = -u, -v
+    whole = math.hypot(u, v)
+    lengths = [
+        abs((x - float(middle.x)) * float(u) + (y - float(middle.y)) * float(v)) / whole
+        for x, y in (run[0, :2], run[-1, :2])
+    ]
+    least = max(sum(lengths) / 4, 1e-9 * planner.angle_scale)
+    back, ahead = (
+        _beyond(planner, middle, (sign * u, sign * v), [share * max(length, least) for share in FARTHER])
+        for sign, length in zip((-1, 1), lengths, strict=True)
+    )
+    return (back, ahead) if back != ahead else None
 
 
 def _beyond(planner: ArcPlanner, pose: Pose, along: ExactPoint, lengths: Sequence[float]) -> Pose:
