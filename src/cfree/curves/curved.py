@@ -191,18 +191,18 @@ class Curved(Shown):
 
     @checked
     def healed(self, tolerance: float | None = None) -> Curved:
-        """Return the shape with arcs exactly tangent to lines where they are nearly so, as rounded decimals leave them.
+        """Return the shape with arcs exactly tangent to lines and arcs where they nearly are, as decimals leave them.
 
         Parameters
         ----------
         tolerance : float, optional
-            Ends of pieces and middles of arcs move by this length at most; an arc that needs more stays as it is. The
+            Ends of pieces and middles of arcs move by this length at most; a joint that needs more stays as it is. The
             default is a billionth of the size.
 
         Notes
         -----
         Lines at such arcs get directions that are rational unit vectors; axis-parallel ones stay as they are. Radii
-        become simple numbers. Corners of more than 0.01 radians stay.
+        become simple numbers, but for two in a chain of arcs. Corners of more than 0.01 radians stay.
 
         Examples
         --------
