@@ -129,3 +129,26 @@ def test_a_full_circle_of_one_to_four_arcs_is_a_disc(count: int, is_clockwise: b
     for one in (scene, cfree.load_scene(tmp_path / "scene.json")):
         assert cfree.is_free(one, (1, 0, 0)) and cfree.is_free(one, (0, 1, 0))
         assert not cfree.is_free(one, (cfree.Pose("0.999999999999999999", 0)))
+
+
+@pytest.mark.slow
+def test_radii_of_all_sizes_are_planned_from_a_file(tmp_path: Path) -> None:
+    """A disc of radius 2**-60 goes around one of radius 2**60, from contact to contact."""
+    large, unit = 2**60, 2**60
+    far = f"{large * unit + 1}/{unit}"
+    data = {
+        "robot": {"circle": {"center": [0, 0], "radius": f"1/{unit}"}},
+        "obstacles": [{"circle": {"center": [0, 0], "radius": large}}],
+        "start": [far, 0, 0],
+        "goal": [0, far, 0],
+    }
+    (tmp_path / "sizes.json").write_text(json.dumps(data))
+    answer = tmp_path / "answer.json"
+    for command in (["plan", "-o", str(answer), "--improve", "0"], ["verify"]):
+        files = [str(tmp_path / "sizes.json"), *([str(answer)] if command == ["verify"] else [])]
+        result = CliRunner().invoke(app, [command[0], *files, *command[1:]])
+        assert result.exit_code == 0, result.output
+    data["start"] = [f"{large * unit}/{unit}", 0, 0]
+    (tmp_path / "sizes.json").write_text(json.dumps(data))
+    result = CliRunner().invoke(app, ["plan", str(tmp_path / "sizes.json")])
+    assert result.exit_code == 2 and "is forbidden" in result.output
