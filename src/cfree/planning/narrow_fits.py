@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cfree.collision.motion import Translation
 from cfree.exact.number import ExactPoint, simplest_between
 from cfree.exact.pose import Pose, pose_at
 
@@ -77,12 +78,16 @@ def way_through_fits(planner: ArcPlanner, path: Path, options: Options, error: f
 def _links(planner: ArcPlanner, path: Path, error: float) -> list[Way]:
     """Return ways that are free among the shapes, along a path: its longest free parts, and motions through fits."""
     links = [(position, travel, _lengthened(planner, part)) for position, travel, part in _free_parts(planner, path)]
-    lines = dict[tuple[object, ...], tuple[float, Way]]()
+    lines = dict[tuple[object, ...], tuple[float, float, Way]]()
     for position, run in _narrow_runs(planner, path):
-        for key, portal in _portals(planner, run, NEAR * error).items():
-            first, way = lines.get(key, (position, portal))
-            lines[key] = first, _longer(planner, way, portal)
-    links += [(position, math.hypot(*map(float, _apart(*way))), way) for position, way in lines.values()]
+        steps = math.hypot(*(run[-1, :2] - run[0, :2]))
+        for portal in _portals(planner, run, NEAR * error):
+            key, is_back = _line_of(planner, *portal)
+            own = portal[::-1] if is_back else portal
+            first, ahead, way = lines.get(key, (position, 0.0, own))
+            lines[key] = first, ahead + (-steps if is_back else steps), _joined(planner, way, own)
+    for position, ahead, way in lines.values():  # in the direction in which the path passes the line
+        links.append((position, math.hypot(*map(float, _apart(*way))), way[::-1] if ahead < 0 else way))
     longest = sorted(links, key=lambda link: -link[1])[:MOST_PLACES]
     between = [way for _, _, way in sorted(longest, key=lambda link: link[0])]
     begins = ways_out(planner, path.start, path.goal)
@@ -138,40 +143,44 @@ def _narrow_runs(planner: ArcPlanner, path: Path) -> Iterator[tuple[float, np.nd
         yield middle, rows[max(0, begin - 1) : end + 1]
 
 
-def _longer(planner: ArcPlanner, one: Way, other: Way) -> Way:
-    """Return the motion from the begin of one to the end of another on its line, if it is free; else the longer one."""
-    whole = [one[0], other[-1]]
-    if one is other or planner.checker.joins(whole):
+def _joined(planner: ArcPlanner, one: Way, other: Way) -> Way:
+    """Return the motion from the first to the last pose of two on one line, if it is free; else the longer one."""
+    if one == other or one[0].tau != one[-1].tau:
+        return one
+    x, y = _apart(*one)
+    poses = sorted([*one, *other], key=lambda pose: pose.x * x + pose.y * y)
+    whole = [poses[0], poses[-1]]
+    if planner.checker.joins(whole):
         return whole
     return max(one, other, key=lambda way: math.hypot(*map(float, _apart(*way))))
 
 
-def _portals(planner: ArcPlanner, run: np.ndarray, near: float) -> dict[tuple[object, ...], Way]:
-    """Return motions through exact fits near some poses, proved free, by their lines."""
-    portals = dict[tuple[object, ...], Way]()
+def _portals(planner: ArcPlanner, run: np.ndarray, near: float) -> Iterator[Way]:
+    """Yield motions through exact fits near some poses, proved free."""
     rows = run[[len(run) * k // (2 * LOOKS) for k in range(1, 2 * LOOKS, 2)]]
     for x, y, theta in rows[np.argsort(abs(np.arange(LOOKS) - LOOKS // 2))].tolist():
         place = _about(x, near), _about(y, near)  # few digits: motions are decided faster
         for tau in planner.fits.angles(x, y, theta, near):
             portal = next(chain(_turns(planner, place, tau, run, near), _lines(planner, place, tau, run, near)), None)
             if portal is not None:
-                portals.setdefault((tau, *_rounded_line(planner, *portal)), [*portal])
+                yield [*portal]
                 break
-    return portals
 
 
 def _about(x: float, near: float) -> Fraction:
     return simplest_between(Fraction(x - near / 8), Fraction(x + near / 8))
 
 
-def _rounded_line(planner: ArcPlanner, begin: Pose, end: Pose) -> tuple[float, ...]:
-    """Return numbers that two parts of a line have in common, if they are run in the same direction."""
+def _line_of(planner: ArcPlanner, begin: Pose, end: Pose) -> tuple[tuple[object, ...], bool]:
+    """Return values that two parts of a line have in common, and True if this one leads back along it."""
     x, y = _apart(begin, end)
     travel = math.hypot(x, y)
     if begin.tau != end.tau or not travel:
-        return begin.theta, end.theta
-    height = float(begin.x * y - begin.y * x) / travel / planner.angle_scale
-    return round(float(x) / travel, 6), round(float(y) / travel, 6), round(height, 6)
+        return (begin, end), False
+    u, v = round(float(x) / travel, 6), round(float(y) / travel, 6)
+    is_back = (u, v) < (0, 0)
+    height = round(float(begin.x * y - begin.y * x) / travel / planner.angle_scale, 6)
+    return (begin.tau, *((-u, -v, -height) if is_back else (u, v, height))), is_back
 
 
 def _turns(
@@ -216,10 +225,27 @@ def _along(planner: ArcPlanner, middle: Pose, along: ExactPoint, run: np.ndarray
     ]
     least = max(sum(lengths) / 4, 1e-9 * planner.angle_scale)
     back, ahead = (
-        _beyond(planner, middle, (sign * u, sign * v), [share * max(length, least) for share in FARTHER])
+        _as_far(planner, middle, (sign * u, sign * v), [share * max(length, least) for share in FARTHER])
         for sign, length in zip((-1, 1), lengths, strict=True)
     )
     return (back, ahead) if back != ahead else None
+
+
+def _as_far(planner: ArcPlanner, pose: Pose, along: ExactPoint, lengths: Sequence[float]) -> Pose:
+    """Return the pose of `_beyond`; or the one at which something stops the translation, if that place is rational.
+
+    Two lines that hold the robot meet at such a place.
+    """
+    beyond = _beyond(planner, pose, along, lengths[:1])
+    if beyond != pose:
+        return beyond
+    share = simplest_between(*(Fraction(max(lengths) / math.hypot(*along) * part) for part in (0.99, 1.01)))
+    motion = Translation((share * along[0], share * along[1]))
+    if stop := planner.arcs.first_contact(pose, motion):
+        end = motion.at(pose, simplest_between(*stop[:2]))
+        if end != pose and planner.checker.joins([pose, end]):
+            return end
+    return _beyond(planner, pose, along, lengths[1:])
 
 
 def _beyond(planner: ArcPlanner, pose: Pose, along: ExactPoint, lengths: Sequence[float]) -> Pose:
