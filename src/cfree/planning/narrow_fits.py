@@ -205,10 +205,16 @@ def _lines(
     for line in planner.fits.lines(place, tau, near):
         ways = [_along(planner, line.pose, line.along, run)]
         if ways[0] and line.center:
-            others = planner.fits.angles(x, y, theta, near, WIDELY)
+            others = [Fraction(0), *planner.fits.angles(x, y, theta, near, WIDELY)]
             ways += [_along(planner, line.center.pose(other), line.along, run) for other in others if other != tau]
         if free := [way for way in ways if way]:
-            yield max(free, key=lambda way: math.hypot(*map(float, _apart(*way))))
+            yield max(free, key=lambda way: _length_and_simplicity(planner, *way))
+
+
+def _length_and_simplicity(planner: ArcPlanner, begin: Pose, end: Pose) -> tuple[float, int]:
+    """Return the rounded length of a translation, and a number that is larger for simpler orientations."""
+    length, tau = math.hypot(*map(float, _apart(begin, end))), begin.tau
+    return round(length / planner.angle_scale, 6), 0 if tau is None else -tau.denominator - abs(tau.numerator)
 
 
 def _along(planner: ArcPlanner, middle: Pose, along: ExactPoint, run: np.ndarray) -> tuple[Pose, Pose] | None:
