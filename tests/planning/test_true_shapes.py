@@ -91,6 +91,18 @@ def test_a_disc_goes_around_the_corner_of_two_corridors_of_its_width(seed: int) 
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", [449, 964])
+def test_a_disc_passes_many_gaps_of_a_lattice_one_after_the_other(seed: int) -> None:
+    assert not fault(seed)[1] and fault(seed)[0].endswith(": Path")
+
+
+@pytest.mark.slow
+def test_a_clear_path_through_an_exact_fit_is_free_among_the_shapes_themselves() -> None:
+    """Its detours with a margin are found among polygons inside of the shapes."""
+    assert fault(999) == ("gate of discs, exact: Path", "")
+
+
+@pytest.mark.slow
 def test_a_peg_leaves_a_round_slot_of_its_own_radius() -> None:
     bay = Arc((-2, 1), center=(-2, 0), clockwise=True)
     block = Curved([(-2, -5), (4, -5), (4, -1), (-2, -1), bay, (4, 1), (4, 5), (-8, 5), (-8, -5)])

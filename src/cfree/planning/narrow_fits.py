@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from cfree.planning.options import Options
 
 SAMPLES = 600  # poses at which a path is looked at
-MOST_PLACES = 8  # free parts of a path, and motions through fits, that are tried
-MOST_TRIES = 40  # searches that join them
+MOST_PLACES = 8  # free parts of a path that are tried, and as many motions through fits
+MOST_TRIES = 80  # searches that join them
 MOST_WAYS = 8  # motions out of a contact
 MOST_PAIRS = 12  # searches between motions out of contacts
 LOOKS = 5  # poses of a forbidden part of a path near which fits are looked for
@@ -77,7 +77,7 @@ def way_through_fits(planner: ArcPlanner, path: Path, options: Options, error: f
 
 def _links(planner: ArcPlanner, path: Path, error: float) -> list[Way]:
     """Return ways that are free among the shapes, along a path: its longest free parts, and motions through fits."""
-    links = [(position, travel, _lengthened(planner, part)) for position, travel, part in _free_parts(planner, path)]
+    parts = [(position, travel, _lengthened(planner, part)) for position, travel, part in _free_parts(planner, path)]
     lines = dict[tuple[object, ...], tuple[float, float, Way]]()
     for position, run in _narrow_runs(planner, path):
         steps = math.hypot(*(run[-1, :2] - run[0, :2]))
@@ -86,9 +86,10 @@ def _links(planner: ArcPlanner, path: Path, error: float) -> list[Way]:
             own = portal[::-1] if is_back else portal
             first, ahead, way = lines.get(key, (position, 0.0, own))
             lines[key] = first, ahead + (-steps if is_back else steps), _joined(planner, way, own)
+    through = list[tuple[float, float, Way]]()
     for position, ahead, way in lines.values():  # in the direction in which the path passes the line
-        links.append((position, math.hypot(*map(float, _apart(*way))), way[::-1] if ahead < 0 else way))
-    longest = sorted(links, key=lambda link: -link[1])[:MOST_PLACES]
+        through.append((position, math.hypot(*map(float, _apart(*way))), way[::-1] if ahead < 0 else way))
+    longest = [link for links in (parts, through) for link in sorted(links, key=lambda link: -link[1])[:MOST_PLACES]]
     between = [way for _, _, way in sorted(longest, key=lambda link: link[0])]
     begins = ways_out(planner, path.start, path.goal)
     ends = ([*reversed(way)] for way in ways_out(planner, path.goal, path.start))
