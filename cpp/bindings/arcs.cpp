@@ -52,8 +52,8 @@ void check(const ArcPoseChecker& checker, const In<double, 2>& poses, int thread
 
 std::array<double, 2> bounds_of(const cfree::DistanceBounds& interval) { return {interval.low, interval.high}; }
 
-cfree::Motion motion_of(const ArcMotionChecker& checker, nb::handle from, nb::handle motion, bool turns) {
-    const auto m = given_motion(checker.scale, from, motion, turns);
+cfree::Motion motion_of(nb::handle from, nb::handle motion, bool turns) {
+    const auto m = given_motion(cfree::Int(1), from, motion, turns);
     require(m.has_value(), "the motion must begin at a pose");
     return *m;
 }
@@ -62,7 +62,7 @@ cfree::Motion motion_of(const ArcMotionChecker& checker, nb::handle from, nb::ha
 using Collision = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, int, int>;
 
 std::optional<Collision> first_collision(const ArcMotionChecker& checker, nb::handle from, nb::handle motion, bool turns) {
-    const cfree::Motion m = motion_of(checker, from, motion, turns);
+    const cfree::Motion m = motion_of(from, motion, turns);
     const auto found = watched([&] { return checker.first_collision(m); });
     if (!found) return {};
     return Collision{integer(found->low.n), integer(found->low.d), integer(found->high.n), integer(found->high.d), found->part, found->obstacle};
@@ -83,12 +83,12 @@ void bind_arcs(nb::module_& m) {
     nb::class_<ArcMotionChecker>(m, "ArcMotionChecker")
         .def(nb::init<std::shared_ptr<const ArcScene>>(), "scene"_a)
         .def("is_free", [](const ArcMotionChecker& checker, nb::handle pose, nb::handle motion, bool turns) {
-            const cfree::Motion moved = arcs::motion_of(checker, pose, motion, turns);
+            const cfree::Motion moved = arcs::motion_of(pose, motion, turns);
             return watched([&] { return checker.is_free(moved); });
         }, "pose"_a, "motion"_a, "turns"_a)
         .def("first_collision", &arcs::first_collision, "pose"_a, "motion"_a, "turns"_a)
         .def("clearance", [](const ArcMotionChecker& checker, nb::handle pose, nb::handle motion, bool turns, double width) {
-            const cfree::Motion moved = arcs::motion_of(checker, pose, motion, turns);
+            const cfree::Motion moved = arcs::motion_of(pose, motion, turns);
             return arcs::bounds_of(watched([&] { return checker.clearance(moved, width); }));
         }, "pose"_a, "motion"_a, "turns"_a, "width"_a);
 }

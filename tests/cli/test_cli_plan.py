@@ -433,3 +433,17 @@ def test_a_place_and_a_clearance(run: Run, tmp_path: Path) -> None:
     ):
         found = run("plan", scene, "--goal", goal, "--clearance", clearance, "-o", answer)
         assert found.exit_code == code and said in " ".join(found.stdout.split()), found.output
+
+
+@pytest.mark.slow
+def test_decimals_of_an_exact_fit_among_round_shapes_are_approximate(run: Run, tmp_path: Path) -> None:
+    """The path touches two walls, and not only the polygons that guided the search."""
+    walls = [[[-3, y], [3, y], [3, y + 3], [-3, y + 3]] for y in (1, -4)]
+    scene, answer = tmp_path / "fit.json", tmp_path / "answer.json"
+    disc = {"circle": {"center": [0, 0], "radius": 1}}
+    data = {"robot": disc, "obstacles": walls, "bounds": [-9, -5, 9, 5], "start": [-6, 0.5, 0], "goal": [6, 0, 0]}
+    scene.write_text(json.dumps(data))
+    assert run("plan", scene, "--improve", "0", "-o", answer).exit_code == 0
+    assert json.loads(answer.read_text())["decimals"] == "approximate"
+    verified = run("verify", scene, answer)
+    assert verified.exit_code == 0 and "its decimals are approximate" in verified.stdout, verified.stdout

@@ -17,6 +17,7 @@ import fuzz_arcs
 from cfree import Curved, Pose, Rotation, Scene, Translation, is_free
 from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.collision.motion import joining
+from cfree.contact import ArcArc
 from cfree.curves import Arc, Circle
 from cfree.exact.number import ExactPoint
 from cfree.planning.core_ways import end_of, from_numbers
@@ -276,7 +277,7 @@ def test_a_disc_rolls_around_a_disc() -> None:
 def test_the_first_contact_is_in_a_narrow_interval() -> None:
     scene = Scene(DISC, [[(20, 0), (21, 0), (21, 1)], Curved.circle((0, 0), 2)])
     found = cfree.first_contact(scene, Pose(1, 10), Translation((0, -10)))
-    assert found is not None and (found.robot, found.obstacle, found.contact) == (0, 1, None)
+    assert found is not None and (found.robot, found.obstacle, found.contact) == (0, 1, ArcArc(0, 0))
     assert abs(10 - 10 * float(found.at) - math.sqrt(8)) < 1e-14 and 0 < found.width <= Fraction(1, 2**60)
     assert cfree.first_contact(scene, Pose(3, 10), Translation((0, -20))) is None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import random
 from fractions import Fraction
@@ -150,3 +151,94 @@ def test_what_is_not_nearly_tangent_stays() -> None:
     assert grown.healed() is grown
     with pytest.raises(ValueError, match="tolerance"):
         disc.healed(0)
+
+
+# --- chains of arcs ---
+
+
+def smooth_joints(shape: Curved) -> tuple[int, int]:
+    """Joints at which an arc has no corner of more than 0.01, and how many of them are exactly smooth."""
+
+    def direction(piece: Any, *, is_end: bool) -> tuple[Fraction, Fraction]:
+        if isinstance(piece, Line):
+            return piece.end[0] - piece.start[0], piece.end[1] - piece.start[1]
+        (x, y), (a, b) = piece.end if is_end else piece.at(0, Fraction(0)), piece.center
+        return piece.sense * (b - y), piece.sense * (x - a)
+
+    joints = smooth = 0
+    for curve in shape.curves:
+        for before, after in zip((curve[-1], *curve), curve, strict=False):
+            if isinstance(before, Span) or isinstance(after, Span):
+                (a, b), (c, d) = direction(before, is_end=True), direction(after, is_end=False)
+                joints += a * c + b * d > 0 and abs(float(a * d - b * c)) < 0.01 * float(a * c + b * d)
+                smooth += a * c + b * d > 0 and a * d == b * c
+    return joints, smooth
+
+
+def chain_of(start: complex, angle: float, arcs: list[tuple[float, float]]) -> list[tuple[complex, complex]]:
+    """Middles and ends of arcs, each by its radius and the angle that it turns, from a point and a direction."""
+    items = list[tuple[complex, complex]]()
+    for radius, turn in arcs:
+        center = start + math.copysign(radius, turn) * cmath.rect(1, angle + math.pi / 2)
+        middle, end = (center + (start - center) * cmath.rect(1, turn * share) for share in (0.5, 1.0))
+        items.append((middle, end))
+        start, angle = end, angle + turn
+    return items
+
+
+def path_of(
+    points: list[complex], items: list[tuple[complex, complex]], after: list[complex], digits: int
+) -> list[Any]:
+    """A path of lines, arcs and lines, in decimals."""
+
+    def decimal(z: complex) -> tuple[str, str]:
+        return f"{z.real:.{digits}f}", f"{z.imag:.{digits}f}"
+
+    arcs = [Arc(decimal(end), through=decimal(middle)) for middle, end in items]
+    return [*map(decimal, points), *arcs, *map(decimal, after)]
+
+
+BENDS = [(2.3, 1.1), (3.1, 0.7), (1.7, -0.9), (2.9, -0.4), (1.3, 1.6)]
+
+
+@pytest.mark.parametrize("digits", [6, 9, 12])
+@pytest.mark.parametrize("count", [1, 2, 3, 5])
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+@pytest.mark.parametrize("ends", ["lines", "a line and a corner", "a corner and a line", "corners"])
+def test_chains_of_arcs_in_decimals_become_tangent(digits: int, count: int, angle: float, ends: str) -> None:
+    items = chain_of(0j, angle, BENDS[:count])
+    last, turned = items[-1][1], angle + sum(turn for _, turn in BENDS[:count])
+    before, after = -3 * cmath.rect(1, angle), last + 3 * cmath.rect(1, turned)
+    points = [before, 0j] if ends in ("lines", "a line and a corner") else [0j]
+    more = [after] if ends in ("lines", "a corner and a line") else []
+    shape = Curved(path_of(points, items, [*more, last + 30j - 9, -40 + 40j, -30 - 3j], digits))
+    joints = {"lines": count + 1, "corners": count - 1}.get(ends, count)
+    healed = shape.healed(10.0 ** (3 - digits))
+    assert smooth_joints(shape)[0] == joints == smooth_joints(healed)[0]
+    assert smooth_joints(healed)[1] == joints, smooth_joints(shape)
+    for one, other in zip(shape.curves[0], healed.curves[0], strict=True):
+        assert math.dist(map(float, one.end), map(float, other.end)) <= 10.0 ** (3 - digits)  # type: ignore[union-attr]
+    again = healed.healed(10.0 ** (3 - digits))
+    assert smooth_joints(again)[1] == joints
+
+
+OVAL = [(1.9, 0.8), (0.7, math.pi - 0.8)] * 2
+CIRCLE = [(1.3, 2.1), (1.3, 1.9), (1.3, math.tau - 4.0)]
+HALVES = [(1.7, math.pi - 0.4), (1.7, math.pi + 0.4)]
+
+
+@pytest.mark.parametrize("digits", [6, 9, 12])
+@pytest.mark.parametrize("arcs", [OVAL, CIRCLE, HALVES], ids=["oval", "circle", "circle of two arcs"])
+def test_closed_chains_become_tangent(digits: int, arcs: list[tuple[float, float]]) -> None:
+    items = chain_of(1 + 2j, 0.3, arcs)
+    path = path_of([1 + 2j], [*items[:-1], (items[-1][0], 1 + 2j)], [], digits)
+    shape = Curved(path)
+    healed = shape.healed(10.0 ** (3 - digits))
+    assert smooth_joints(shape)[1] < len(arcs) and smooth_joints(healed) == (len(arcs), len(arcs))
+    assert max(abs(float(a - b)) for a, b in zip(shape.box, healed.box, strict=True)) < 10.0 ** (4 - digits)
+
+
+def test_arcs_that_are_tangent_stay() -> None:
+    """Two half discs side by side, and an S of two arcs: exactly tangent already."""
+    path = [(0, 0), Arc((4, 0), center=(2, 0), clockwise=True), Arc((8, 0), center=(6, 0)), (8, -3), (0, -3)]
+    assert Curved(path).healed(1e-3).path == Curved(path).path

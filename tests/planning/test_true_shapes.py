@@ -72,6 +72,37 @@ def test_a_disc_goes_from_hole_to_hole_of_a_lattice_that_just_lets_it_pass() -> 
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("length", [HALF, Fraction(1), Fraction(4)])
+@pytest.mark.parametrize("gap", [Fraction(0), Fraction(1, 10**6)])
+def test_two_discs_pass_a_corridor_that_holds_one_at_a_time(length: Fraction, gap: Fraction) -> None:
+    """The first disc holds the robot on a line, about which it may turn, then the second one does."""
+    frame, half, x = Frame(Fraction(1, 3), shift=(Fraction(7, 3), Fraction(1))), 1 + gap / 2, length / 2
+    ring = [(-12, -6), (-x, -6), (-x, -half), (x, -half), (x, -6), (12, -6)]
+    ring += [(-a, -b) for a, b in ring]
+    robot = [Curved.circle((0, 0), 1), Curved.circle(("-9/4", 0), 1)]
+    planned(Scene(robot, workspace=frame.shape(ring)), frame.pose(-7, 1, Fraction(1, 4)), frame.pose(7, -1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [338, 675])
+def test_a_disc_goes_around_the_corner_of_two_corridors_of_its_width(seed: int) -> None:
+    """Two lines hold it; both end where they meet."""
+    assert fault(seed) == ("bent, exact: Path", "")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [449, 964])
+def test_a_disc_passes_many_gaps_of_a_lattice_one_after_the_other(seed: int) -> None:
+    assert not fault(seed)[1] and fault(seed)[0].endswith(": Path")
+
+
+@pytest.mark.slow
+def test_a_clear_path_through_an_exact_fit_is_free_among_the_shapes_themselves() -> None:
+    """Its detours with a margin are found among polygons inside of the shapes."""
+    assert fault(999) == ("gate of discs, exact: Path", "")
+
+
+@pytest.mark.slow
 def test_a_peg_leaves_a_round_slot_of_its_own_radius() -> None:
     bay = Arc((-2, 1), center=(-2, 0), clockwise=True)
     block = Curved([(-2, -5), (4, -5), (4, -1), (-2, -1), bay, (4, 1), (4, 5), (-8, 5), (-8, -5)])

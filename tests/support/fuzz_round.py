@@ -225,7 +225,7 @@ def contact(rng: random.Random) -> Case:
     robot = rng.choice([cfree.Curved.circle((0, 0), r), stadium(1, r), rounded(-2 * r, -r, 2 * r, r, r / 3)])
     pillar, floor = cfree.Curved.circle((6, 2 * r), r), box(-12, -4, 12, -r)
     touching = (6, 0, 0)
-    ends = [touching, (rng.choice([0, 1]), rng.choice([0, 1]), 0)]
+    ends = [touching, (-rng.choice([0, 1]), rng.choice([0, 1]), 0)]  # left of the pillar
     return Case("contact", "exact", [robot], [pillar, floor], ends, None, True, None, "any")
 
 

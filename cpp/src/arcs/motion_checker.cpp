@@ -126,11 +126,10 @@ private:
 // The motion in doubles, scaled.
 class NearCourse {
 public:
-    NearCourse(const Motion& m, const NearScene& scene, const Int& scale) : turns(m.turns) {
+    NearCourse(const Motion& m, const NearScene& scene) : turns(m.turns) {
         const auto scaled = [&](const Int& n, const Int& d) {
-            const Int whole = d * scale;
-            const int bits = bits_of(whole);
-            return ball(n, bits + scene.shift).hi / ball(whole, bits).hi;
+            const int bits = bits_of(d);
+            return ball(n, bits + scene.shift).hi / ball(d, bits).hi;
         };
         x = scaled(m.x, m.unit), y = scaled(m.y, m.unit), vx = scaled(m.vx, m.unit), vy = scaled(m.vy, m.unit);
         c = ratio(m.c, m.w), s = ratio(m.s, m.w);
@@ -167,7 +166,7 @@ private:
 class ArcMotionChecker::Run {
 public:
     Run(const ArcMotionChecker& of, const Motion& m, bool only_whether)
-        : scene(*of.scene), near(*of.near), motion(m), scale_of_motion(of.scale), doubles(m, near, of.scale), stops(only_whether) {}
+        : scene(*of.scene), near(*of.near), motion(m), doubles(m, near), stops(only_whether) {}
 
     std::optional<ArcCollision> first;
 
@@ -224,7 +223,7 @@ private:
         // the coordinate times W, less the limit
         const auto beyond = [&](std::size_t k) {
             const bool is_x = k % 2 == 0;
-            const Ratio limit = b[k] * Ratio{scale_of_motion * w, 1};  // in the integers of the course
+            const Ratio limit = b[k] * Ratio{w, 1};  // in the integers of the course
             Terms f = course.turns ? (is_x ? course.mixed(a.x, -a.y, pole.x) : course.mixed(a.y, a.x, pole.y))
                                    : Terms{is_x ? a.x : a.y, is_x ? course.by.x : course.by.y, 0};
             for (std::size_t i = 0; i < 3; ++i) {
@@ -315,9 +314,9 @@ private:
 
     void decide(Index part, Index obstacle, const Span& span) {
         const ArcShape &A = scene.robot[static_cast<std::size_t>(part)], &B = scene.obstacles[static_cast<std::size_t>(obstacle)];
-        const CommonScale scale(A, B, scale_of_motion);
-        const Course course(motion, scale.of_motion);
-        const Int whole = motion.w * motion.unit * scale.of_obstacle, own = motion.unit * scale.of_robot, w = motion.w * scale.of_motion;
+        const CommonScale scale(A, B);
+        const Course course(motion, scale.whole);
+        const Int whole = motion.w * motion.unit * scale.of_obstacle, own = motion.unit * scale.of_robot, w = motion.w * scale.whole;
         const Vec<Int> pole = course.turns ? Vec<Int>{motion.vx * w, motion.vy * w} : Vec<Int>{0, 0};
         const Vec<Int> from = Vec<Int>{motion.x * w, motion.y * w} - pole;
         const auto moving = [&](const Vec<Int>& p) {
@@ -354,15 +353,13 @@ private:
     const ArcScene& scene;
     const NearScene& near;
     const Motion& motion;
-    const Int& scale_of_motion;
     const NearCourse doubles;
     const bool stops;
     std::map<Pair, std::vector<Span>> left;
     std::optional<QuadraticRoot> at;
 };
 
-ArcMotionChecker::ArcMotionChecker(std::shared_ptr<const ArcScene> s, Int of_unit)
-    : scene(std::move(s)), scale(std::move(of_unit)), near(std::make_unique<NearScene>(scene)) {}
+ArcMotionChecker::ArcMotionChecker(std::shared_ptr<const ArcScene> s) : scene(std::move(s)), near(std::make_unique<NearScene>(scene)) {}
 ArcMotionChecker::~ArcMotionChecker() = default;
 
 bool ArcMotionChecker::is_free(const Motion& motion) const {
@@ -374,7 +371,7 @@ bool ArcMotionChecker::is_free(const Motion& motion) const {
 // Parts of the motion, the one that may hold the least distance first.
 DistanceBounds ArcMotionChecker::clearance(const Motion& motion, double width) const {
     constexpr int most_parts = 1 << 14;
-    const NearCourse course(motion, *near, scale);
+    const NearCourse course(motion, *near);
     if (!course.is_known) return {0, HUGE_VAL};
     std::vector<NearShape> placed(near->robot.size());
     const auto distance = [&](double u, double most) {

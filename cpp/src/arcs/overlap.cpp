@@ -238,9 +238,8 @@ Spot point_at(const RoundEdge& curve, const Ratio& s) {
     return {curve.center.x * w + u.x * c + t.x * d, curve.center.y * w + u.y * c + t.y * d, w};
 }
 
-CommonScale::CommonScale(const ArcShape& robot, const ArcShape& obstacle, const Int& motions)
-    : whole(common_multiple(common_multiple(robot.scale, obstacle.scale), motions)), of_robot(whole / robot.scale),
-      of_obstacle(whole / obstacle.scale), of_motion(whole / motions) {}
+CommonScale::CommonScale(const ArcShape& robot, const ArcShape& obstacle)
+    : whole(common_multiple(robot.scale, obstacle.scale)), of_robot(whole / robot.scale), of_obstacle(whole / obstacle.scale) {}
 
 bool overlap(const PlacedShape& a, const PlacedShape& b, const Int& distance) {
     if (distance.sign() > 0) {

@@ -29,10 +29,10 @@ std::optional<int> turns_about(const PlacedShape& shape, Index first, Index last
 Ratio last_parameter(const RoundEdge& curve);
 Spot point_at(const RoundEdge& curve, const Ratio& parameter);
 
-// A common denominator of two shapes and of the motions, and what each of the three is multiplied with.
+// A common denominator of two shapes, and the factors of their integers.
 struct CommonScale {
-    Int whole, of_robot, of_obstacle, of_motion;
-    CommonScale(const ArcShape& robot, const ArcShape& obstacle, const Int& motions);
+    Int whole, of_robot, of_obstacle;
+    CommonScale(const ArcShape& robot, const ArcShape& obstacle);
 };
 
 // True if the interiors meet; with a distance above 0, if some points are closer than that, or the interiors meet.

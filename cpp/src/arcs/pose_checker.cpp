@@ -169,7 +169,7 @@ Verdict ArcPoseChecker::verdict(Placed& placed, double x, double y, double c, do
 bool ArcPoseChecker::decide(const Placed& placed, const ExactPlacement& at) const {
     for (const auto& [i, j] : placed.open) {
         const ArcShape &a = scene->robot[i], &b = scene->obstacles[j];
-        const CommonScale scale(a, b, Int(1));
+        const CommonScale scale(a, b);
         const Int dx = at.x * scale.whole * at.w, dy = at.y * scale.whole * at.w, own = at.unit * scale.of_robot;
         const Int unit = at.w * at.unit * scale.of_obstacle;
         const auto place = [&](const Vec<Int>& p) {

@@ -98,7 +98,7 @@ _OPTIONS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
      "help": "Close gaps of a drawing up to D; 0 closes none."}),
     (("--join-holes",), {"is_flag": True, "help": "Let outlines that --join closes be holes."}),
     (("--heal",), {"type": click.FloatRange(min=0), "default": 0.0, "metavar": "LENGTH", "show_default": "none",
-     "help": "Make arcs exactly tangent to their lines if that moves them by LENGTH at most."}),
+     "help": "Make arcs exactly tangent to lines and arcs if that moves them by LENGTH at most."}),
     (("--strokes",), {"metavar": "WIDTH", "default": "ignore", "show_default": True,
      "help": "Make walls of unfilled lines of SCENE, of this width or as drawn; ignore: none."}),
     (("--holes",), {"type": Word(["outlines", "nested"]), "default": "outlines", "show_default": True,

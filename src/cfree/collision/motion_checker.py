@@ -16,8 +16,10 @@ from typing import Any
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.arcs import arcs_of
+from cfree.collision.entered import entered_contact
 from cfree.collision.motion import Motion, Rotation, Translation, joining
 from cfree.collision.slide import Slide
+from cfree.contact.arcs import ArcContact
 from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.kind import Kind
 from cfree.errors import UnsupportedError
@@ -44,10 +46,10 @@ class FirstContact:
         The robot's polygon.
     obstacle : int
         The obstacle; -1 stands for the bounds, -2 for the workspace.
-    contact : VertexEdge or EdgeVertex, optional
-        The contact that is entered, in the numbering of the two polygons, the workspace's for -2. None if the first
-        pose is forbidden, for bounds, for round shapes, and if a diagonal of the convex pieces is the last to separate
-        them.
+    contact : VertexEdge or EdgeVertex; among round shapes ArcEdge, EdgeArc or ArcArc; optional
+        The contact that is entered, in the numbering of the two polygons, the workspace's for -2; of round shapes, in
+        that of `cfree.contact.shape_features`. None if the first pose is forbidden, for bounds, and if a diagonal of
+        the convex pieces is the last to separate them.
     width : Fraction
         The motion is forbidden right after a parameter that is at most this above `at`: 0 between polygons, at most
         2**-60 between round shapes.
@@ -56,7 +58,7 @@ class FirstContact:
     at: Surd
     robot: int
     obstacle: int
-    contact: VertexEdge | EdgeVertex | None
+    contact: VertexEdge | EdgeVertex | ArcContact | None
     width: Fraction = field(default=Fraction(0), repr=False)
 
 
@@ -263,11 +265,14 @@ def first_contact(scene: Scene, pose: PoseLike, motion: Motion) -> FirstContact 
     1/3 VertexEdge(i=2, j=0)
     """
     if scene.curved and (arcs := arcs_of(scene)) is not None:
-        contact = arcs.first_contact(to_pose(pose, "pose"), motion)
+        first = to_pose(pose, "pose")
+        contact = arcs.first_contact(first, motion)
         if contact is None:
             return None
         low, high, part, obstacle = contact
-        return FirstContact(Surd(low), part, obstacle, None, high - low)
+        is_entered = low > 0 or arcs.is_free(first)
+        entered = entered_contact(scene, part, obstacle, motion.at(first, low), motion) if is_entered else None
+        return FirstContact(Surd(low), part, obstacle, entered, high - low)
     return MotionChecker(scene)._first_contact(to_pose(pose, "pose"), motion)
 
 

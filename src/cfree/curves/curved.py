@@ -14,6 +14,7 @@ from functools import lru_cache
 from typing import Any
 
 from cfree.arguments import checked
+from cfree.curves.crossings import crossing
 from cfree.curves.healing import Change, healed_ring
 from cfree.curves.hulls import FINEST, Outline, polygon_of
 from cfree.curves.pieces import Box, Frame, box_of, drawn_of, hull_points, is_proved
@@ -84,6 +85,8 @@ class Curved(Shown):
             raise InvalidPolygonError(f"grown: {grown}; give a length, 0 or more")
         try:
             error = self.size / ROUGH
+            if not error:
+                raise InvalidPolygonError("it is smaller than doubles can tell; scale the shape")
             if self.grown:
                 self._base()
             else:
@@ -190,18 +193,18 @@ class Curved(Shown):
 
     @checked
     def healed(self, tolerance: float | None = None) -> Curved:
-        """Return the shape with arcs exactly tangent to lines where they are nearly so, as rounded decimals leave them.
+        """Return the shape with arcs exactly tangent to lines and arcs where they nearly are, as decimals leave them.
 
         Parameters
         ----------
         tolerance : float, optional
-            Ends of pieces and middles of arcs move by this length at most; an arc that needs more stays as it is. The
+            Ends of pieces and middles of arcs move by this length at most; a joint that needs more stays as it is. The
             default is a billionth of the size.
 
         Notes
         -----
         Lines at such arcs get directions that are rational unit vectors; axis-parallel ones stay as they are. Radii
-        become simple numbers. Corners of more than 0.01 radians stay.
+        become simple numbers, but for two in a chain of arcs. Corners of more than 0.01 radians stay.
 
         Examples
         --------
@@ -226,6 +229,9 @@ class Curved(Shown):
             return (result,)
         if inside:
             return ()
+        if isinstance(result, InvalidPolygonError) and result.edges:  # of the polygon
+            place = crossing(self.curves, (self.path, *self.holes))
+            result = InvalidPolygonError(f"{place}; divide the shape there, or move them apart", ring=result.ring)
         raise result.with_traceback(None)
 
     @property

@@ -1,9 +1,9 @@
 """Arcs that are tangent to their neighbours but for rounding, made exactly tangent.
 
-Files give an arc's bulge, or its radius and ends, in short decimals. A corner remains where it meets a line, often of
-an angle of 1e-15, which exact decisions keep. If the directions of two lines are rational unit vectors, an arc of
-rational radius is tangent to both at rational points. So lines get such directions, nearly their own, about their
-middles; axis-parallel and Pythagorean ones stay.
+Files give an arc's bulge, or its radius and ends, in short decimals. A corner remains where it meets a line or an arc,
+often of an angle of 1e-15, which exact decisions keep. If the directions of two lines are rational unit vectors, an arc
+of rational radius is tangent to both at rational points. So lines get such directions, nearly their own, about their
+middles; axis-parallel and Pythagorean ones stay. Arcs that follow each other are `tangent_chains`.
 """
 
 from __future__ import annotations
@@ -12,9 +12,11 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Arc, Bezier, Cubic, GivenRing, Piece, Segment, Span
+from cfree.curves.tangent_chains import Chain, Tangent, tangent_chain
 from cfree.exact.number import ExactPoint, rational_root, simplest_between
 
 WIDEST_CORNER = 0.01  # angle of a corner that is still taken for rounding
@@ -44,9 +46,9 @@ def healed_ring(pieces: Sequence[Piece], tolerance: float) -> tuple[GivenRing, l
     """
     runs = _runs(pieces, tolerance)
     whole = [_joined(run) for run in runs]
-    arcs = {k for k in range(len(whole)) if len(whole) > 2 and _is_tangent(whole, k, tolerance)}
-    while arcs := _movable(whole, arcs):
-        ends, centers, bad = _places(whole, arcs, tolerance)
+    smooth = {k for k in range(len(whole)) if len(whole) > 1 and _is_smooth(whole, k, tolerance)}
+    while smooth := _movable(whole, smooth):
+        ends, centers, bad = _places(whole, smooth, tolerance)
         if not bad:
             changes = _changes(runs, whole, ends, centers)
             bad = {k for k, change in changes.items() if change.size > tolerance}
@@ -54,14 +56,17 @@ def healed_ring(pieces: Sequence[Piece], tolerance: float) -> tuple[GivenRing, l
             new = [k for k, center in centers.items() if _is_new(whole[k], center, ends[k])]
             healed = [changes[k] for k in sorted(new)]
             return (_path(runs, whole, ends, centers), healed) if healed else None
-        arcs -= _near(bad, arcs, len(whole))
+        smooth -= _near(bad, smooth, len(whole))
     return None
 
 
-def _near(bad: set[int], arcs: set[int], count: int) -> set[int]:
-    """Return the arcs nearest to pieces that cannot be placed within the tolerance."""
-    near = bad & arcs
-    return near or {k for k in arcs if {(k + j) % count for j in (-2, -1, 1, 2)} & bad}
+def _near(bad: set[int], smooth: set[int], count: int) -> set[int]:
+    """Return the smooth joints nearest to pieces that cannot be placed within the tolerance."""
+    for reach in range(1, count + 1):
+        near = {(k + j) % count for k in bad for j in range(1 - reach, 1 + reach)} & smooth
+        if near:
+            return near
+    return smooth
 
 
 def _runs(pieces: Sequence[Piece], tolerance: float) -> list[list[Piece]]:
@@ -107,28 +112,36 @@ def _joined(run: Sequence[Piece]) -> Piece:
     return Span(arc.center, arc.u, arc.v, quarters, rest)
 
 
-def _movable(pieces: Sequence[Piece], arcs: set[int]) -> set[int]:
-    """Return the arcs whose lines can get rational directions: each such line ends at a line, or at such an arc."""
+def _arcs(pieces: Sequence[Piece], smooth: set[int]) -> set[int]:
+    """Return the arcs with a smooth joint; joint k is the start of piece k."""
+    count = len(pieces)
+    return {k for j in smooth for k in (j, (j - 1) % count) if isinstance(pieces[k], Span)}
+
+
+def _movable(pieces: Sequence[Piece], smooth: set[int]) -> set[int]:
+    """Return the joints whose lines can get rational directions: each such line ends at a line, or at such an arc."""
     count = len(pieces)
     while True:
-        lines = {j % count for k in arcs for j in (k - 1, k + 1)}
+        arcs = _arcs(pieces, smooth)
         stuck = {
             k
-            for k in lines
-            if _exact_unit(_vector(pieces[k])) is None
+            for k in range(count)
+            if isinstance(pieces[k], Line)
+            and {k, (k + 1) % count} & smooth
+            and _exact_unit(_vector(pieces[k])) is None
             and any(j % count not in arcs and not isinstance(pieces[j % count], Line) for j in (k - 1, k + 1))
         }
         if not stuck:
-            return arcs
-        arcs = {k for k in arcs if not {(k - 1) % count, (k + 1) % count} & stuck}
+            return smooth
+        smooth = smooth - {joint % count for k in stuck for joint in (k, k + 1)}
 
 
 def _places(
-    pieces: Sequence[Piece], arcs: set[int], tolerance: float
+    pieces: Sequence[Piece], smooth: set[int], tolerance: float
 ) -> tuple[dict[int, ExactPoint], dict[int, ExactPoint], set[int]]:
     """Return the new ends of pieces, the new centers of arcs, and the pieces that have no place."""
-    count = len(pieces)
-    lines = {j % count for k in arcs for j in (k - 1, k + 1)}
+    count, arcs = len(pieces), _arcs(pieces, smooth)
+    lines = {k for k in range(count) if isinstance(pieces[k], Line) and {k, (k + 1) % count} & smooth}
     on = {
         k: _line(piece, tolerance) if k in lines else (piece.start, _vector(piece))
         for k, piece in enumerate(pieces)
@@ -138,14 +151,13 @@ def _places(
     ends: dict[int, ExactPoint] = {}
     centers: dict[int, ExactPoint] = {}
     bad: set[int] = set()
-    for k in arcs:
-        arc = pieces[k]
-        assert isinstance(arc, Span)
-        place = _tangent_arc(arc, on[(k - 1) % count], on[(k + 1) % count])
+    for chain in _chains(arcs, smooth, count):
+        place = _chained(pieces, chain, smooth, {k: on[k] for k in lines}, tolerance)
         if place is None:
-            bad.add(k)
-        else:
-            ends[(k - 1) % count], ends[k], centers[k] = place
+            bad |= {*chain}
+            continue
+        for k, start, end, center in zip(chain, place[0], place[0][1:], place[1], strict=False):
+            ends[(k - 1) % count], ends[k], centers[k] = start, end, center
     for k in range(count):
         j = (k + 1) % count
         if not {k, j} & arcs and {k, j} & moved:
@@ -154,6 +166,89 @@ def _places(
             else:
                 bad |= {k, j} & moved
     return ends, centers, bad
+
+
+def _chains(arcs: set[int], smooth: set[int], count: int) -> list[list[int]]:
+    """Return the chains of arcs that follow each other smoothly."""
+    firsts = [k for k in sorted(arcs) if k not in smooth or (k - 1) % count not in arcs]
+    chains = [[k] for k in firsts or sorted(arcs)[:1]]
+    for chain in chains:
+        while (k := (chain[-1] + 1) % count) in arcs and k in smooth and k != chain[0]:
+            chain.append(k)
+    return chains
+
+
+def _chained(
+    pieces: Sequence[Piece],
+    chain: Sequence[int],
+    smooth: set[int],
+    lines: Mapping[int, tuple[ExactPoint, ExactPoint]],
+    tolerance: float,
+) -> Tangent | None:
+    """Return new joints and centers of a chain of arcs; None if there are none."""
+    count, first, last = len(pieces), chain[0], (chain[-1] + 1) % len(pieces)
+    arcs = [pieces[k] for k in chain]
+    before, after = lines.get((first - 1) % count), lines.get(last)
+    is_closed = first == last and first in smooth
+    if len(chain) == 1 and first in smooth and last in smooth and before and after:
+        (arc,) = arcs
+        assert isinstance(arc, Span)
+        if arc_place := _tangent_arc(arc, before, after):
+            return [*arc_place[:2]], [arc_place[2]]
+    spans = [arc for arc in arcs if isinstance(arc, Span)]
+    longest = max(Fraction(math.hypot(*_float(arc.u))) for arc in spans)
+    by = Fraction(tolerance) / longest / CHOICE_SHARE
+    joints, normals = [*map(_start, spans), spans[-1].end], list[ExactPoint | None]()
+    for k, joint in enumerate(joints):
+        line = before if k == 0 else after if k == len(spans) else None
+        if line:
+            joints[k] = _along(line[0], _dot(_minus(joint, line[0]), line[1]) / _dot(line[1], line[1]), line[1])
+        if line and (first if k == 0 else last) in smooth:
+            normals.append((-line[1][1], line[1][0]))
+        elif 0 < k < len(spans) or is_closed:
+            x, y = (p + q for p, q in zip(_leaving(spans[k - 1]), _entering(spans[k % len(spans)]), strict=True))
+            u, v = _unit_near(Fraction(x), Fraction(y), by)
+            normals.append((-v, u))
+        else:
+            normals.append(None)
+    if is_closed:
+        normals[-1] = normals[0]
+    if _is_tangent(spans, before if normals[0] else None, after if normals[-1] else None, is_closed=is_closed):
+        return [_start(spans[0]), *(arc.end for arc in spans)], [arc.center for arc in spans]
+    place = tangent_chain(Chain((*joints,), (*normals,)), Fraction(tolerance) / CHOICE_SHARE)
+    if place and all(_dot(arc.u, _minus(p, c)) > 0 for arc, p, c in zip(spans, *place, strict=False)):
+        return place
+    return None  # a center is on the other side
+
+
+def _is_tangent(
+    arcs: Sequence[Span],
+    before: tuple[ExactPoint, ExactPoint] | None,
+    after: tuple[ExactPoint, ExactPoint] | None,
+    *,
+    is_closed: bool,
+) -> bool:
+    """True if a chain of arcs is exactly tangent, also to lines before and after it."""
+    follow = [*pairwise(arcs), *([(arcs[-1], arcs[0])] if is_closed else [])]
+    touching = [(_start(arcs[0]), arcs[0], before), (arcs[-1].end, arcs[-1], after)]
+    return all(not _cross(_minus(one.end, one.center), _minus(one.end, other.center)) for one, other in follow) and all(
+        not (line and (_cross(_minus(p, line[0]), line[1]) or _dot(_minus(p, arc.center), line[1])))
+        for p, arc, line in touching
+    )
+
+
+def _entering(arc: Span) -> tuple[float, float]:
+    """Return the unit vector in which an arc begins."""
+    x, y = _float(arc.v)
+    length = math.hypot(x, y)
+    return x / length, y / length
+
+
+def _leaving(arc: Span) -> tuple[float, float]:
+    """Return the unit vector in which an arc ends."""
+    x, y = _float(_minus(arc.end, arc.center))
+    length = math.hypot(x, y) * arc.sense
+    return -y / length, x / length
 
 
 def _changes(
@@ -216,19 +311,24 @@ def _segment(piece: Piece) -> Segment:
     return Arc(piece.end, center=piece.center, conjugate=piece.v, clockwise=_cross(piece.u, piece.v) < 0)
 
 
-def _is_tangent(pieces: Sequence[Piece], k: int, tolerance: float) -> bool:
-    """True if a piece is a circular arc of at most half a turn, nearly tangent to lines before and after it."""
-    arc, before, after = pieces[k], pieces[k - 1], pieces[(k + 1) % len(pieces)]
-    if not (isinstance(arc, Span) and isinstance(before, Line) and isinstance(after, Line) and arc.is_circular):
+def _is_smooth(pieces: Sequence[Piece], k: int, tolerance: float) -> bool:
+    """True if a piece and the one before it are nearly tangent, and one or both are circular arcs."""
+    before, after = pieces[k - 1], pieces[k]
+    if not any(isinstance(piece, Span) for piece in (before, after)):
         return False
-    back = _minus(arc.end, arc.center)
-    leaving = (-back[1], back[0]) if _cross(arc.u, arc.v) > 0 else (back[1], -back[0])
-    lines = _vector(before), _vector(after)
-    shortest = min(math.hypot(*_float(v)) for v in (*lines, _minus(arc.end, _start(arc))))
-    widest = min(WIDEST_CORNER, CORNER_SHARE * tolerance / shortest)
-    return arc.sweep <= math.pi + widest and all(
-        _dot(v, w) > 0 and abs(_cross(v, w)) <= widest * _dot(v, w) for v, w in ((arc.v, lines[0]), (leaving, lines[1]))
-    )
+    if not all(isinstance(piece, Line) or (isinstance(piece, Span) and piece.is_circular) for piece in (before, after)):
+        return False
+    v = _leaving(before) if isinstance(before, Span) else _float(_vector(before))
+    w = _entering(after) if isinstance(after, Span) else _float(_vector(after))
+    widest = min(WIDEST_CORNER, CORNER_SHARE * tolerance / min(map(_length, (before, after))))
+    return v[0] * w[0] + v[1] * w[1] > 0 and abs(v[0] * w[1] - v[1] * w[0]) <= widest * (v[0] * w[0] + v[1] * w[1])
+
+
+def _length(piece: Piece) -> float:
+    """Length of a line; of an arc, its radius if that is less."""
+    if isinstance(piece, Span):
+        return math.hypot(*_float(piece.u)) * min(piece.sweep, 1.0)
+    return math.hypot(*_float(_vector(piece)))
 
 
 def _tangent_arc(
@@ -274,17 +374,22 @@ def _line(piece: Piece, tolerance: float) -> tuple[ExactPoint, ExactPoint]:
     x, y = _vector(piece)
     if (unit := _exact_unit((x, y))) is not None:
         return piece.start, unit
+    by = Fraction(tolerance) / Fraction(math.hypot(x, y)) / CHOICE_SHARE
+    (p, q), (r, s) = piece.start, piece.end
+    return ((p + r) / 2, (q + s) / 2), _unit_near(x, y, by)
+
+
+def _unit_near(x: Fraction, y: Fraction, by: Fraction) -> ExactPoint:
+    """Return a rational unit vector whose half angle is that of a vector, or nearly so."""
     quarters = 0
     while not (x > 0 and -x < y <= x):
         x, y, quarters = y, -x, quarters + 1
-    half = Fraction(math.tan(math.atan2(y, x) / 2))
-    by = min(Fraction(tolerance) / Fraction(math.hypot(x, y)) / CHOICE_SHARE, MOST_TURN)
+    half, by = Fraction(math.tan(math.atan2(y, x) / 2)), min(by, MOST_TURN)
     t = simplest_between(half - by, half + by)
     x, y = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
     for _ in range(quarters):
         x, y = -y, x
-    (p, q), (r, s) = piece.start, piece.end
-    return ((p + r) / 2, (q + s) / 2), (x, y)
+    return x, y
 
 
 def _exact_unit(vector: ExactPoint) -> ExactPoint | None:

@@ -252,13 +252,34 @@ def exact_ring(ring: GivenRing) -> list[Piece]:
         raise InvalidPolygonError("a path begins with a point; give one first")
     place, pieces = ring[0], list[Piece]()
     for k, item in enumerate(ring[1:], 1):
-        end = item if isinstance(item, tuple) else item.to if isinstance(item, Arc) else item.points[-1]
         try:
             pieces += _pieces(place, item)
         except InvalidPolygonError as error:
             raise InvalidPolygonError(f"item {k} of the path: {error}") from None
-        place = end
+        place = _end(item)
     return [*pieces, *([Line(place, ring[0])] if place != ring[0] else [])]
+
+
+def items_of(ring: GivenRing) -> list[str]:
+    """Return the names of the items of an input ring that the pieces of `exact_ring` belong to.
+
+    Examples
+    --------
+    >>> items_of(given_ring([(1, 0), Arc((-1, 0), center=(0, 0))]))
+    ['item 1', 'the closing line']
+    """
+    if isinstance(ring, Circle | Ellipse):
+        return ["the circle" if isinstance(ring, Circle) else "the ellipse"]
+    names, place = list[str](), ring[0]
+    for k, item in enumerate(ring[1:], 1):
+        assert isinstance(place, tuple)
+        names += [f"item {k}"] * len(_pieces(place, item))
+        place = _end(item)
+    return names + (["the closing line"] if place != ring[0] else [])
+
+
+def _end(item: Segment) -> ExactPoint:
+    return item if isinstance(item, tuple) else item.to if isinstance(item, Arc) else item.points[-1]
 
 
 def _pieces(start: ExactPoint, item: Segment) -> list[Piece]:

@@ -130,9 +130,9 @@ def load_shapes(
     join_holes : bool
         Outlines that a larger `join` closes may be holes. By default they are solid, whatever was meant.
     heal : float
-        Arcs of round shapes become exactly tangent to their lines where rounding leaves a tiny corner and ends and
-        middles of arcs move by no more than this length, in the scene's unit. 0 heals none. Polygons have no arcs: of
-        a drawing give `curves` as well.
+        Arcs of round shapes become exactly tangent to lines and arcs beside them where rounding leaves a tiny corner
+        and ends and middles of arcs move by no more than this length, in the scene's unit. 0 heals none. Polygons have
+        no arcs: of a drawing give `curves` as well.
     strokes : float, "ignore" or "drawn"
         Unfilled lines are walls of this width, or of the width drawn; by default closed ones are solids, and open ones
         forbid nothing.

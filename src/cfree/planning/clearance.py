@@ -174,7 +174,8 @@ def _among_discs(query: _Query, goal: Goal) -> list[Path]:
                 continue
             answer: Path | Proof | None = planner.first_path(start, end, options)
             if answer is None and inner:
-                guide = PosePlanner(inner).path_or_proof(start, end, replace(options, improve=0.0, vehicle=None))
+                plain = replace(options, improve=0.0, objective="balanced", vehicle=None)
+                guide = PosePlanner(inner).path_or_proof(start, end, plain)
                 answer = planner.mended(guide, options) if isinstance(guide, Path) else None
             paths += [answer] if isinstance(answer, Path) else []
     return paths

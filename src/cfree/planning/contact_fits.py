@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import chain, combinations, islice, product
 
@@ -47,15 +47,6 @@ Feature = Round | Side
 
 
 @dataclass(frozen=True)
-class Line:
-    """A line on which contacts hold the reference point, at one orientation."""
-
-    place: ExactPoint
-    along: ExactPoint
-    tau: Fraction | None
-
-
-@dataclass(frozen=True)
 class Center:
     """A point of the robot, held at a point of the plane."""
 
@@ -69,6 +60,18 @@ class Center:
 
 
 @dataclass(frozen=True)
+class Line:
+    """A line on which contacts hold the reference point, at one orientation; its direction.
+
+    If one arc or vertex of the robot has both contacts, they hold its center at all orientations.
+    """
+
+    pose: Pose
+    along: ExactPoint
+    center: Center | None
+
+
+@dataclass(frozen=True)
 class _Held:
     """A contact: the reference point p is at n . p = h, n a unit vector; or at a distance from a center."""
 
@@ -76,6 +79,7 @@ class _Held:
     h: Fraction = Fraction(0)
     center: ExactPoint = (Fraction(0), Fraction(0))
     radius: Fraction = Fraction(0)
+    own: Feature | None = field(default=None, compare=False)
 
 
 class Fits:
@@ -93,10 +97,10 @@ class Fits:
         self._others = [*dict.fromkeys(chain.from_iterable(map(_features, others)))]
         self._reach = max(map(_extent, self._robot))
 
-    def angles(self, x: float, y: float, theta: float, near: float) -> list[Fraction | None]:
+    def angles(self, x: float, y: float, theta: float, near: float, most: float = ASKEW) -> list[Fraction | None]:
         """Return half-angle tangents near an orientation: those parallel to something near, and the simplest."""
         others = self._close(x, y, near)
-        ways = [*_parallel(_directions(self._robot), [*_directions(others), *_across(others)], theta)]
+        ways = [*_parallel(_directions(self._robot), [*_directions(others), *_across(others)], theta, most)]
         nearest = islice(dict.fromkeys(tau for _, tau in sorted(ways, key=lambda way: way[0])), MOST_ANGLES)
         return [*dict.fromkeys([*nearest, *_simple(theta)])]
 
@@ -104,7 +108,12 @@ class Fits:
         """Yield lines on which two contacts near a pose hold the robot, or all but hold it."""
         for one, other in combinations(islice(self._contacts(place, tau, near), MOST_CONTACTS), 2):
             if fit := _between(one, other, place):
-                yield Line(*fit, tau)
+                (x, y), along = fit
+                own, center = one.own, None
+                if own and own == other.own and isinstance(own, Round):
+                    a, b = _rotated(own.center, tau)
+                    center = Center(own.center, (x + a, y + b))
+                yield Line(pose_at(x, y, tau), along, center)
 
     def tangents(self, pose: Pose, near: float) -> Iterator[ExactPoint]:
         """Yield the directions of contacts at a pose."""
@@ -135,7 +144,7 @@ class Fits:
             turned = _turned(own, tau)
             for other in others:
                 if contact := _contact(turned, other, place, near):
-                    held.setdefault(*contact)
+                    held.setdefault(replace(contact[0], own=own), contact[1])
         yield from sorted(held, key=held.__getitem__)
 
 
@@ -279,7 +288,7 @@ def _simple(theta: float) -> Iterator[Fraction | None]:
 
 
 def _parallel(
-    own: Iterator[ExactPoint], others: Sequence[ExactPoint], theta: float
+    own: Iterator[ExactPoint], others: Sequence[ExactPoint], theta: float, most: float
 ) -> Iterator[tuple[float, Fraction | None]]:
     """Yield half-angle tangents that make vectors of the robot parallel to others, and their distance from an angle."""
     directions = dict.fromkeys(others)
@@ -287,11 +296,11 @@ def _parallel(
         # the quotient of the vectors as complex numbers is that of their lengths times exp(i theta)
         re, im = u * a + v * b, v * a - u * b
         off = math.remainder(math.atan2(im, re) - theta, math.pi)
-        if abs(off) > ASKEW:
+        if abs(off) > most:
             continue
         square = re * re + im * im
         length = _root(square)
         if length * length == square:
-            if abs(math.remainder(math.atan2(im, re) - theta, math.tau)) > 1:
+            if abs(math.remainder(math.atan2(im, re) - theta, math.tau)) > math.pi / 2:
                 re, im = -re, -im
             yield abs(off), None if re == -length else im / (length + re)

@@ -356,7 +356,8 @@ class CurvedQuery:
             return None
         options, seconds = replace(self.options, work=self._work, exact_discs=False), self.options.max_seconds
         if not outward:
-            options = replace(options, improve=0.0, vehicle=None)  # a proof holds for every vehicle
+            # a path here is a guide; a proof holds for every vehicle
+            options = replace(options, improve=0.0, objective="balanced", vehicle=None)
         if seconds is not None:
             options = replace(options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
         try:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cfree.collision.motion import Translation
 from cfree.exact.number import ExactPoint, simplest_between
 from cfree.exact.pose import Pose, pose_at
 
@@ -24,14 +25,15 @@ if TYPE_CHECKING:
     from cfree.planning.options import Options
 
 SAMPLES = 600  # poses at which a path is looked at
-MOST_PLACES = 8  # free parts of a path, and motions through fits, that are tried
-MOST_TRIES = 40  # searches that join them
+MOST_PLACES = 8  # free parts of a path that are tried, and as many motions through fits
+MOST_TRIES = 80  # searches that join them
 MOST_WAYS = 8  # motions out of a contact
 MOST_PAIRS = 12  # searches between motions out of contacts
 LOOKS = 5  # poses of a forbidden part of a path near which fits are looked for
 NEAR = 16  # errors of polygons within which a contact counts as near
 TOUCHING = 1e-9  # largest distance of a contact, relative to the robot
 FAR = 100  # of these: distances are not bounded beyond
+WIDELY = 1.2  # radians by which a robot is turned about the center of an arc that is held on a line
 FARTHER = (1.25, 2.0, 1.0, 0.5)  # lengths of a motion through a place, relative
 
 Way = list[Pose]
@@ -76,14 +78,19 @@ def way_through_fits(planner: ArcPlanner, path: Path, options: Options, error: f
 
 def _links(planner: ArcPlanner, path: Path, error: float) -> list[Way]:
     """Return ways that are free among the shapes, along a path: its longest free parts, and motions through fits."""
-    links = [(position, travel, _lengthened(planner, part)) for position, travel, part in _free_parts(planner, path)]
-    lines = dict[tuple[object, ...], tuple[float, Way]]()
+    parts = [(position, travel, _lengthened(planner, part)) for position, travel, part in _free_parts(planner, path)]
+    lines = dict[tuple[object, ...], tuple[float, float, Way]]()
     for position, run in _narrow_runs(planner, path):
-        for key, portal in _portals(planner, run, NEAR * error).items():
-            first, way = lines.get(key, (position, portal))
-            lines[key] = first, _longer(planner, way, portal)
-    links += [(position, math.hypot(*map(float, _apart(*way))), way) for position, way in lines.values()]
-    longest = sorted(links, key=lambda link: -link[1])[:MOST_PLACES]
+        steps = math.hypot(*(run[-1, :2] - run[0, :2]))
+        for portal in _portals(planner, run, NEAR * error):
+            key, is_back = _line_of(planner, *portal)
+            own = portal[::-1] if is_back else portal
+            first, ahead, way = lines.get(key, (position, 0.0, own))
+            lines[key] = first, ahead + (-steps if is_back else steps), _joined(planner, way, own)
+    through = list[tuple[float, float, Way]]()
+    for position, ahead, way in lines.values():  # in the direction in which the path passes the line
+        through.append((position, math.hypot(*map(float, _apart(*way))), way[::-1] if ahead < 0 else way))
+    longest = [link for links in (parts, through) for link in sorted(links, key=lambda link: -link[1])[:MOST_PLACES]]
     between = [way for _, _, way in sorted(longest, key=lambda link: link[0])]
     begins = ways_out(planner, path.start, path.goal)
     ends = ([*reversed(way)] for way in ways_out(planner, path.goal, path.start))
@@ -138,40 +145,44 @@ def _narrow_runs(planner: ArcPlanner, path: Path) -> Iterator[tuple[float, np.nd
         yield middle, rows[max(0, begin - 1) : end + 1]
 
 
-def _longer(planner: ArcPlanner, one: Way, other: Way) -> Way:
-    """Return the motion from the begin of one to the end of another on its line, if it is free; else the longer one."""
-    whole = [one[0], other[-1]]
-    if one is other or planner.checker.joins(whole):
+def _joined(planner: ArcPlanner, one: Way, other: Way) -> Way:
+    """Return the motion from the first to the last pose of two on one line, if it is free; else the longer one."""
+    if one == other or one[0].tau != one[-1].tau:
+        return one
+    x, y = _apart(*one)
+    poses = sorted([*one, *other], key=lambda pose: pose.x * x + pose.y * y)
+    whole = [poses[0], poses[-1]]
+    if planner.checker.joins(whole):
         return whole
     return max(one, other, key=lambda way: math.hypot(*map(float, _apart(*way))))
 
 
-def _portals(planner: ArcPlanner, run: np.ndarray, near: float) -> dict[tuple[object, ...], Way]:
-    """Return motions through exact fits near some poses, proved free, by their lines."""
-    portals = dict[tuple[object, ...], Way]()
+def _portals(planner: ArcPlanner, run: np.ndarray, near: float) -> Iterator[Way]:
+    """Yield motions through exact fits near some poses, proved free."""
     rows = run[[len(run) * k // (2 * LOOKS) for k in range(1, 2 * LOOKS, 2)]]
     for x, y, theta in rows[np.argsort(abs(np.arange(LOOKS) - LOOKS // 2))].tolist():
         place = _about(x, near), _about(y, near)  # few digits: motions are decided faster
         for tau in planner.fits.angles(x, y, theta, near):
             portal = next(chain(_turns(planner, place, tau, run, near), _lines(planner, place, tau, run, near)), None)
             if portal is not None:
-                portals.setdefault((tau, *_rounded_line(planner, *portal)), [*portal])
+                yield [*portal]
                 break
-    return portals
 
 
 def _about(x: float, near: float) -> Fraction:
     return simplest_between(Fraction(x - near / 8), Fraction(x + near / 8))
 
 
-def _rounded_line(planner: ArcPlanner, begin: Pose, end: Pose) -> tuple[float, ...]:
-    """Return numbers that two parts of a line have in common, if they are run in the same direction."""
+def _line_of(planner: ArcPlanner, begin: Pose, end: Pose) -> tuple[tuple[object, ...], bool]:
+    """Return values that two parts of a line have in common, and True if this one leads back along it."""
     x, y = _apart(begin, end)
     travel = math.hypot(x, y)
     if begin.tau != end.tau or not travel:
-        return begin.theta, end.theta
-    height = float(begin.x * y - begin.y * x) / travel / planner.angle_scale
-    return round(float(x) / travel, 6), round(float(y) / travel, 6), round(height, 6)
+        return (begin, end), False
+    u, v = round(float(x) / travel, 6), round(float(y) / travel, 6)
+    is_back = (u, v) < (0, 0)
+    height = round(float(begin.x * y - begin.y * x) / travel / planner.angle_scale, 6)
+    return (begin.tau, *((-u, -v, -height) if is_back else (u, v, height))), is_back
 
 
 def _turns(
@@ -188,26 +199,61 @@ def _turns(
 def _lines(
     planner: ArcPlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
 ) -> Iterator[tuple[Pose, Pose]]:
-    """Yield translations along a line between contacts, about as long as the run, or longer."""
-    steps = run[-1, :2] - run[0, :2]
+    """Yield translations along a line between contacts, about as long as the run, or longer.
+
+    A line that holds the center of an arc holds it at all orientations: the longest translation is that of one of them.
+    """
+    x, y, theta = float(place[0]), float(place[1]), Pose(0, 0, {"tau": tau}).theta
     for line in planner.fits.lines(place, tau, near):
-        middle, (u, v) = pose_at(*line.place, tau), line.along
-        if not planner.checker.joins([middle]):
-            continue
-        if float(u) * steps[0] + float(v) * steps[1] < 0:
-            u, v = -u, -v
-        along = math.hypot(u, v)
-        lengths = [
-            abs((x - float(middle.x)) * float(u) + (y - float(middle.y)) * float(v)) / along
-            for x, y in (run[0, :2], run[-1, :2])
-        ]
-        least = max(sum(lengths) / 4, 1e-9 * planner.angle_scale)
-        back, ahead = (
-            _beyond(planner, middle, (sign * u, sign * v), [share * max(length, least) for share in FARTHER])
-            for sign, length in zip((-1, 1), lengths, strict=True)
-        )
-        if back != ahead:
-            yield back, ahead
+        ways = [_along(planner, line.pose, line.along, run)]
+        if ways[0] and line.center:
+            others = [Fraction(0), *planner.fits.angles(x, y, theta, near, WIDELY)]
+            ways += [_along(planner, line.center.pose(other), line.along, run) for other in others if other != tau]
+        if free := [way for way in ways if way]:
+            yield max(free, key=lambda way: _length_and_simplicity(planner, *way))
+
+
+def _length_and_simplicity(planner: ArcPlanner, begin: Pose, end: Pose) -> tuple[float, int]:
+    """Return the rounded length of a translation, and a number that is larger for simpler orientations."""
+    length, tau = math.hypot(*map(float, _apart(begin, end))), begin.tau
+    return round(length / planner.angle_scale, 6), 0 if tau is None else -tau.denominator - abs(tau.numerator)
+
+
+def _along(planner: ArcPlanner, middle: Pose, along: ExactPoint, run: np.ndarray) -> tuple[Pose, Pose] | None:
+    """Return a translation through a pose, about as long as a run of poses, or longer; None if there is none."""
+    if not planner.arcs.is_free(middle):
+        return None
+    (u, v), steps = along, run[-1, :2] - run[0, :2]
+    if float(u) * steps[0] + float(v) * steps[1] < 0:
+        u, v = -u, -v
+    whole = math.hypot(u, v)
+    lengths = [
+        abs((x - float(middle.x)) * float(u) + (y - float(middle.y)) * float(v)) / whole
+        for x, y in (run[0, :2], run[-1, :2])
+    ]
+    least = max(sum(lengths) / 4, 1e-9 * planner.angle_scale)
+    back, ahead = (
+        _as_far(planner, middle, (sign * u, sign * v), [share * max(length, least) for share in FARTHER])
+        for sign, length in zip((-1, 1), lengths, strict=True)
+    )
+    return (back, ahead) if back != ahead else None
+
+
+def _as_far(planner: ArcPlanner, pose: Pose, along: ExactPoint, lengths: Sequence[float]) -> Pose:
+    """Return the pose of `_beyond`; or the one at which something stops the translation, if that place is rational.
+
+    Two lines that hold the robot meet at such a place.
+    """
+    beyond = _beyond(planner, pose, along, lengths[:1])
+    if beyond != pose:
+        return beyond
+    share = simplest_between(*(Fraction(max(lengths) / math.hypot(*along) * part) for part in (0.99, 1.01)))
+    motion = Translation((share * along[0], share * along[1]))
+    if stop := planner.arcs.first_contact(pose, motion):
+        end = motion.at(pose, simplest_between(*stop[:2]))
+        if end != pose and planner.checker.joins([pose, end]):
+            return end
+    return _beyond(planner, pose, along, lengths[1:])
 
 
 def _beyond(planner: ArcPlanner, pose: Pose, along: ExactPoint, lengths: Sequence[float]) -> Pose:

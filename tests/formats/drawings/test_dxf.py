@@ -1,5 +1,6 @@
 """DXF, entity by entity: the region that is drawn is the region that is read, and each loss is noted."""
 
+import math
 from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ import ezdxf.recover
 import pytest
 import shapely
 
+import cfree
 import dxf_drawings
 from cfree.errors import FormatError
 from cfree.formats.drawings import source as source_module
@@ -406,3 +408,20 @@ def test_a_room_of_lines_is_asked_about(tmp_path: Path) -> None:
     for x in (3, 6, 9):  # dividing walls: T junctions
         space.add_line((x, 0), (x, 8), dxfattribs={"layer": "plate"})
     assert [note for note in read(written(room), tmp_path).reading if "around nearly" in note.what]
+
+
+def test_circles_and_arcs_without_a_radius_are_noted(tmp_path: Path) -> None:
+    document = ezdxf.new()  # type: ignore[attr-defined]
+    space = document.modelspace()
+    space.add_circle((0, 0), 5)
+    space.add_circle((0, 0), 0)
+    space.add_arc((0, 0), 0, 0, 90)
+    space.add_circle((1, 1), -1)
+    space.add_arc((1, 1), -2, 0, 90)
+    space.add_lwpolyline([(0, 0, math.nan), (1, 0, 0), (0, 1, 0)], format="xyb", close=True)
+    document.saveas(tmp_path / "a.dxf")
+    notes = {note.what: note.kind for note in cfree.load_shapes(tmp_path / "a.dxf", curves=True).reading}
+    assert notes["circle that is a point"] == notes["arc that is a point"] == "info"
+    assert notes["CIRCLE that cannot be read: radius -1, which is no length"] == "lost"
+    assert notes["ARC that cannot be read: radius -2, which is no length"] == "lost"
+    assert notes["LWPOLYLINE that cannot be read: bulge nan is not finite"] == "lost"

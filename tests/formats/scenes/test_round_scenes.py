@@ -1,12 +1,15 @@
 """Round shapes in JSON scenes: read, written again, and refused with their place."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
 import cfree
+from cfree.cli.app import app
 from cfree.formats.scene_file import scene_from_text, scene_text
 from cfree.scene.digest import stamp_of
 from round_shapes import random_scene
@@ -87,3 +90,65 @@ def test_what_is_wrong_is_said_with_its_place(shape: Any, message: str) -> None:
 def test_a_grown_workspace_is_refused() -> None:
     with pytest.raises(cfree.FormatError, match=r"workspace: a grown shape"):
         read({"outer": [[0, 0], [9, 0], [0, 9]], "grown": 1}, "workspace")
+
+
+ARC = [(1, 0), (0, 1), (-1, 0), (0, -1)]
+BAD_ARCS = {
+    "a radius of 0": {"circle": {"center": [0, 0], "radius": 0}},
+    "an arc about its own start": {"path": [[0, 0], {"arc": {"to": [1, 0], "center": [0, 0]}}, [0, 1]]},
+    "an arc through its own start": {"path": [[0, 0], {"arc": {"to": [2, 0], "through": [0, 0]}}, [0, 1]]},
+    "arcs that cross": {"path": [[-2, 0], [2, 0], [2, 1], {"arc": {"to": [-2, 1], "through": [0, -1]}}]},
+    "an arc twice around": {"path": [[1, 0], *[{"arc": {"to": [1, 0], "center": [0, 0]}}] * 2]},
+    "a radius below doubles": {"circle": {"center": [0, 0], "radius": "1/1" + 400 * "0"}},
+    "no number": {"circle": {"center": [0, 0], "radius": float("nan")}},
+}
+
+
+@pytest.mark.parametrize("name", BAD_ARCS)
+@pytest.mark.parametrize("role", ["robot", "obstacles", "workspace"])
+def test_bad_arcs_end_with_2_and_one_line_that_names_their_place(name: str, role: str, tmp_path: Path) -> None:
+    data: dict[str, Any] = {"robot": [ROBOT], "obstacles": [], "start": [0, 0, 0], "goal": [1, 0, 0]}
+    data[role] = BAD_ARCS[name] if role == "workspace" else [*data[role], BAD_ARCS[name]]
+    file = tmp_path / "bad.json"
+    file.write_text(json.dumps(data))
+    for command in (["check", str(file)], ["plan", str(file)]):
+        result = CliRunner().invoke(app, command)
+        place = {"robot": "robot[1]", "obstacles": "obstacles[0]", "workspace": "workspace"}[role]
+        assert result.exit_code == 2, result.output
+        assert re.match(rf"error: \S*bad\.json:1:\d+ {re.escape(place)}", result.output), result.output
+        assert result.output.count("\n") == 1, result.output
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+@pytest.mark.parametrize("is_clockwise", [False, True])
+def test_a_full_circle_of_one_to_four_arcs_is_a_disc(count: int, is_clockwise: bool, tmp_path: Path) -> None:
+    ends = [(x, -y if is_clockwise else y) for x, y in [*ARC[1:count], ARC[0]]]
+    path = [[1, 0], *({"arc": {"to": end, "center": [0, 0], "clockwise": is_clockwise}} for end in ends)]
+    scene = read({"path": path})
+    cfree.save(scene, tmp_path / "scene.json")
+    for one in (scene, cfree.load_scene(tmp_path / "scene.json")):
+        assert cfree.is_free(one, (1, 0, 0)) and cfree.is_free(one, (0, 1, 0))
+        assert not cfree.is_free(one, (cfree.Pose("0.999999999999999999", 0)))
+
+
+@pytest.mark.slow
+def test_radii_of_all_sizes_are_planned_from_a_file(tmp_path: Path) -> None:
+    """A disc of radius 2**-60 goes around one of radius 2**60, from contact to contact."""
+    large, unit = 2**60, 2**60
+    far = f"{large * unit + 1}/{unit}"
+    data = {
+        "robot": {"circle": {"center": [0, 0], "radius": f"1/{unit}"}},
+        "obstacles": [{"circle": {"center": [0, 0], "radius": large}}],
+        "start": [far, 0, 0],
+        "goal": [0, far, 0],
+    }
+    (tmp_path / "sizes.json").write_text(json.dumps(data))
+    answer = tmp_path / "answer.json"
+    for command in (["plan", "-o", str(answer), "--improve", "0"], ["verify"]):
+        files = [str(tmp_path / "sizes.json"), *([str(answer)] if command == ["verify"] else [])]
+        result = CliRunner().invoke(app, [command[0], *files, *command[1:]])
+        assert result.exit_code == 0, result.output
+    data["start"] = [f"{large * unit}/{unit}", 0, 0]
+    (tmp_path / "sizes.json").write_text(json.dumps(data))
+    result = CliRunner().invoke(app, ["plan", str(tmp_path / "sizes.json")])
+    assert result.exit_code == 2 and "is forbidden" in result.output

@@ -20,8 +20,8 @@ struct ArcCollision {
 
 class ArcMotionChecker final : public MotionTest {
 public:
-    // Motions are in integers of which `scale` are a unit.
-    explicit ArcMotionChecker(std::shared_ptr<const ArcScene> scene, Int scale = 1);
+    // Motions are in units.
+    explicit ArcMotionChecker(std::shared_ptr<const ArcScene> scene);
     ~ArcMotionChecker() override;
     ArcMotionChecker(const ArcMotionChecker&) = delete;
     ArcMotionChecker& operator=(const ArcMotionChecker&) = delete;
@@ -31,7 +31,6 @@ public:
     DistanceBounds clearance(const Motion& motion, double width) const;
 
     const std::shared_ptr<const ArcScene> scene;
-    const Int scale;
 
 private:
     class Run;

@@ -220,7 +220,9 @@ def text_of(
     from cfree.formats.answers.path_text import path_text
     from cfree.formats.answers.poses_text import csv_text, geojson_text, ros_text
 
-    scene = scene or path.scene or path.curved
+    if path.scene is None and path.curved:
+        scene = path.curved  # the path is free among these shapes, not only among polygons near them
+    scene = scene or path.scene
     if form == "json":
         stamp = _stamp(file, path, scene)
         scene = path.scene or scene  # that of the polygons, if there are some

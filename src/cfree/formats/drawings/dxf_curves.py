@@ -68,6 +68,20 @@ def is_upright(entity: Any) -> bool:
     return bool(z[2] > 0)
 
 
+def radius_of(entity: Any) -> float:
+    """Return the radius of a circle or an arc, 0 or more.
+
+    Raises
+    ------
+    ValueError
+        If it is below 0, or not finite.
+    """
+    radius = float(entity.dxf.radius)
+    if not 0 <= radius < math.inf:
+        raise ValueError(f"radius {radius:g}, which is no length")
+    return radius
+
+
 def arc_of(center: Any, radius: float, degrees: tuple[float, float]) -> Arc:
     """Return the counter-clockwise arc between two angles; the whole circle, if they are equal."""
     first, last = map(math.radians, degrees)
@@ -134,6 +148,8 @@ def segments(corners: Corners) -> tuple[Ring, list[tuple[float, float]]]:
 
 def bulge_of(a: Vector, b: Vector, bulge: float) -> Line | Arc:
     """Return the segment of a polyline from a to b."""
+    if not math.isfinite(bulge):
+        raise ValueError(f"bulge {bulge} is not finite")
     return bulged(a, b, bulge) if abs(bulge) > FLATTEST else Line(point_of(*a), point_of(*b))
 
 

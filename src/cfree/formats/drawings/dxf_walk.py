@@ -275,19 +275,23 @@ class Walk:
             self.source.note("info", "line that is a point from above", where=layer)
 
     def arc(self, entity: Any, layer: str, place: Place) -> None:
-        c, radius = entity.dxf.center, float(entity.dxf.radius)
+        c, radius = entity.dxf.center, curves.radius_of(entity)
         arc = curves.arc_of(c, radius, (entity.dxf.start_angle, entity.dxf.end_angle))
         ring = curves.in_plane(entity, [arc])
         self.height(c.z if curves.is_upright(entity) else -c.z)
         if radius > 0:
             self.add(entity, layer, place, ring, arc.closed, radius, 0.5)
+        else:
+            self.source.note("info", "arc that is a point", where=layer)
 
     def circle(self, entity: Any, layer: str, place: Place) -> None:
-        c, radius = entity.dxf.center, float(entity.dxf.radius)
+        c, radius = entity.dxf.center, curves.radius_of(entity)
         ring = curves.in_plane(entity, [curves.arc_of(c, radius, (0, 360))])
         self.height(c.z if curves.is_upright(entity) else -c.z)
         if radius > 0:
             self.add(entity, layer, place, ring, True, 0.0, 0.5)
+        else:
+            self.source.note("info", "circle that is a point", where=layer)
 
     def ellipse(self, entity: Any, layer: str, place: Place) -> None:
         arc, whole = curves.ellipse_of(entity)
