@@ -115,10 +115,8 @@ def test_what_takes_polygons_says_so() -> None:
     for call in (
         lambda: cfree.boundary(scene), lambda: cfree.fits(scene.obstacles[0], [(0, 0), (9, 0), (9, 9)]),
         lambda: cfree.turn_in_place(scene, pose),
-        lambda: cfree.nearest_miss(scene), lambda: cfree.max_scale(scene), lambda: cfree.max_margin(scene),
-        lambda: cfree.blockers(scene), lambda: cfree.MotionChecker(scene), lambda: cfree.PoseChecker(scene),
-        lambda: cfree.require_free(scene, pose),
-        lambda: cfree.arrangements.arrangement(scene), lambda: cfree.collision.free_nearby(scene, pose),
+        lambda: cfree.MotionChecker(scene), lambda: cfree.PoseChecker(scene),
+        lambda: cfree.arrangements.arrangement(scene),
         lambda: cfree.save(scene, "round.svg"), lambda: cfree.save(scene, "round.geojson"),
     ):  # fmt: skip
         with pytest.raises(cfree.UnsupportedError, match=r"scene\.outer\(error\) or scene\.inner\(error\)"):
