@@ -53,7 +53,7 @@ def test_from_start_to_goal(run: Run) -> None:
 @pytest.mark.slow
 def test_park_a_car(run: Run) -> None:
     found, said = run("plot_park_a_car.py")
-    assert "free: True - drivable: True" in said and "a car with a turning radius of 3 can drive it. verified" in said
+    assert "free: True - drivable: True" in said and "a car with a turning radius of 3 m can drive it. verified" in said
     assert found["proof"].of == "closed" and "not even one that touches. verified" in said
     assert found["held"].sentence() in said and found["path"].goal == found["scene"].goal
 

@@ -9,6 +9,9 @@ MOST_NAMES = 8
 """Names in one message at most; longer lists end with their count."""
 
 
+MOST_OF_ABBREVIATION = 4
+"""Characters."""
+
 ENDINGS = {"vertex": "vertices", "patch": "patches"}
 """Nouns whose plural takes more than an s."""
 
@@ -67,6 +70,17 @@ def plural_of(phrase: str) -> str:
     if re.search(r"[^aeiou]y$", noun):
         return f"{noun[:-1]}ies{rest}"
     return f"{noun}{'es' if re.search(r'(s|x|ch|sh)$', noun) else 's'}{rest}"
+
+
+def is_abbreviation(units: str) -> bool:
+    """True if units are short enough to stand after each number.
+
+    Examples
+    --------
+    >>> is_abbreviation("m"), is_abbreviation("corridor widths"), is_abbreviation("")
+    (True, False, False)
+    """
+    return 0 < len(units) <= MOST_OF_ABBREVIATION
 
 
 def listed(names: Sequence[str], by: str = "; ") -> str:

@@ -149,3 +149,42 @@ def test_the_vehicle_of_a_scene_drives_in_its_folder_or_is_stuck_there(
         if place != "city":
             files = [(tmp_path / name).read_text() for name in (place, "answer.json")]
             assert check_answer.verdict(*files)[0] == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("vehicle", "words"),
+    [
+        (cfree.Car(4, axle=(-1, 0)), ["car", "--turning-radius", "4", "--axle", "-1,0"]),
+        (cfree.DifferentialDrive(), ["differential"]),
+    ],
+)
+def test_any_vehicle_drives_in_a_folder_as_in_its_scene(vehicle: Any, words: list[str], tmp_path: Path) -> None:
+    posts = [[(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] for x in range(0, 60, 12) for y in (-6, 6)]
+    robot = [(-2, -1), (2, -1), (2, 1), (-2, 1)]
+    for own in (None, cfree.Car(9)):  # the scene's own vehicle does not matter
+        folder = tmp_path / f"city {own}"
+        scene = cfree.Scene(robot, posts, start=(-5, 0, 0), goal=(55, 2, "90deg"), vehicle=own)
+        answers = [boundary(scene, folder=folder, tiles=4).plan(improve=0.0, vehicle=vehicle)]
+        many = cfree.distributed.Sharded(folder).plan_many
+        answers += many([(scene.start, scene.goal)], improve=0.0, vehicle=vehicle)
+        result = run("plan", folder, "--vehicle", *words, "--improve", "0", "-o", tmp_path / "way.json")
+        assert result.exit_code == 0, result.output
+        for answer in (*answers, cfree.load(tmp_path / "way.json")):
+            assert isinstance(answer, cfree.Path) and answer.vehicle == vehicle
+            assert cfree.is_drivable(answer, vehicle) and cfree.verify.answer(scene, answer).verified
+    plain = run("plan", folder, "--vehicle", "any", "--improve", "0", "-o", tmp_path / "way.json")
+    assert plain.exit_code == 0 and cfree.load(tmp_path / "way.json").vehicle is None
+
+
+@pytest.mark.slow
+def test_a_car_in_a_folder_that_needs_too_many_manoeuvres_has_a_path_among_all_obstacles(tmp_path: Path) -> None:
+    posts = [[(x, 3), (x + 1, 3), (x + 1, 4), (x, 4)] for x in range(0, 60, 12)]
+    robot, ends = [(-2, -1), (2, -1), (2, 1), (-2, 1)], {"start": (-5, 0, 0), "goal": (55, 2, "90deg")}
+    scene = cfree.Scene(robot, posts, bounds=(-20, -20, 80, 20), **ends)
+    with pytest.raises(cfree.UndecidedError, match=r"a path of a car .* exists") as caught:
+        boundary(scene, folder=tmp_path / "city", tiles=4).plan(improve=0.0, vehicle=cfree.Car("1e12"))
+    assert isinstance(caught.value.path, cfree.Path)
+    assert caught.value.path.is_free(cfree.MotionChecker(scene))
+    with pytest.raises(cfree.UndecidedError, match=r"too long .* give the scene bounds"):
+        boundary(cfree.Scene(robot, posts, **ends), folder=tmp_path / "plain").plan(vehicle=cfree.Car("1e12"))

@@ -23,7 +23,7 @@ from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import FormatError, UnsupportedError
 from cfree.exact.pose import Pose, Poses
 from cfree.formats.answers.answer_file import load_answer
-from cfree.paths.clearance import narrowest
+from cfree.paths.clearance import clearance, narrowest
 from cfree.paths.path import Path
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
@@ -427,3 +427,16 @@ def test_narrowest_places_are_those_of_dense_samples() -> None:
         placed = shapely.Polygon(sample.apply(scene.robot[0].vertices))
         assert place.found == pytest.approx(placed.distance(gates[place.obstacle[0]].to_shapely()), abs=1e-9)
     assert narrowest(path, scene, 1)[0].found == cfree.clearance(path, scene).found
+
+
+@pytest.mark.parametrize("tau", ["0", "1/3", "1/7", "2/5", "3/8"])
+def test_a_path_that_touches_has_a_clearance_of_0(tau: str) -> None:
+    """A slot that just fits, in any direction: rounding leaves 2e-16 for 1/3."""
+    place = Pose("1/3", "2/7", {"tau": tau})
+    box, walls = [(-2, -1), (2, -1), (2, 1), (-2, 1)], [(1, 9), (-9, -1)]
+    corners = [[(Fraction(x), Fraction(y)) for x, y in ((-3, a), (3, a), (3, b), (-3, b))] for a, b in walls]
+    scene = Scene(box, [place.apply_exact(points) for points in corners])
+    start, goal = place @ Pose(-8, 0), place @ Pose(8, 0)
+    path = Path(start, [Translation((goal.x - start.x, goal.y - start.y))])
+    found = clearance(path, scene)
+    assert found is not None and (found.least, found.found) == (0, 0)

@@ -100,6 +100,8 @@ def test_pauses_are_the_change_of_the_steering_angle_over_its_rate() -> None:
     assert [stop.pause for stop in its.stops] == pytest.approx([4.5, 4.5 + math.degrees(math.atan(0.5)) / 10])
     assert its.stops[0].time == pytest.approx(3)
     assert timed(path, speed=1, steer_rate=math.radians(10), wheelbase=4).stops[0].pause > 6
+    assert timed(path, speed=1, steer_rate="10deg") == timed(path, speed=1, steer_rate="10 °") == its
+    assert timed(path, speed=1, steer_rate="1/4") == timed(path, speed=1, steer_rate="0.25rad")
 
 
 def test_wheels_that_turn_by_less_than_a_hundredth_of_a_degree_need_no_stop() -> None:
@@ -211,6 +213,8 @@ def test_a_path_without_motions_takes_no_time() -> None:
         (CAR, {"speed": 1, "acceleration": 0}, "acceleration 0: give a positive one"),
         (CAR, {"speed": 1, "acceleration": math.nan}, "acceleration nan"),
         (CAR, {"speed": 1, "steer_rate": -1, "wheelbase": 1}, "steer_rate -1: give a positive one"),
+        (CAR, {"speed": 1, "steer_rate": "-5deg", "wheelbase": 1}, "steer_rate: '-5deg'; give an angle a second"),
+        (CAR, {"speed": 1, "steer_rate": "fast", "wheelbase": 1}, "steer_rate: 'fast'; give an angle a second"),
         (CAR, {"speed": 1, "steer_rate": 1, "wheelbase": 0}, "wheelbase 0: give a positive one"),
         (CAR, {"speed": 1, "steer_rate": 1}, "steer_rate: the wheelbase is missing; give it as well"),
         (CAR, {"speed": 1, "stops": "none"}, 'stops: \'none\'; give "all" or "cusps"'),

@@ -248,11 +248,27 @@ def test_a_planner_keeps_its_vehicle_in_copies_and_is_another_with_another() -> 
     assert planner != cfree.Planner(WALL) and planner != cfree.Planner(WALL, vehicle=Car(2))
 
 
+def test_a_first_path_needs_no_balanced_path_of_the_robot(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither where few words suffice, nor where the robot's first path is too near to obstacles."""
+    monkeypatch.setattr(vehicles, "_roomy", lambda *_: pytest.fail("a path was balanced"))
+    for scene, car, most in ((WALL, Car(1), 30), (PARKING, CAR, 60)):
+        assert path_in(scene, car, improve=0).cusps <= most
+
+
+@pytest.mark.parametrize("radius", ["1e-9", "1e-12", "1e-100", ("1e-15", 2), ("1/3", "1e-30")])
+def test_a_car_drives_with_any_tiny_radius(radius: Any) -> None:
+    car = Car(radius, axle=("-1/3", 0))
+    path = plan(WALL, vehicle=car, improve=0)
+    assert isinstance(path, Path) and is_drivable(path, car)
+    assert path.cusps <= 8 and path.is_free(MotionChecker(WALL)) and path.goal == WALL.goal
+
+
 @pytest.mark.slow
 def test_too_many_manoeuvres_are_an_error_with_a_proof_that_a_path_exists() -> None:
     with pytest.raises(UndecidedError, match=r"a path of a car with a turning radius of 1e\+09 exists") as caught:
         plan(WALL, vehicle=Car(10**9))
     assert isinstance(caught.value.path, Path) and caught.value.manoeuvres > 1000
+    assert "its turning radius is 1e+09, correct it, or give the robot more room" in str(caught.value)
     assert verified_in_a_file(WALL, caught.value.path).verified
     place = clearance(caught.value.path, WALL)
     assert place and place.least > 0

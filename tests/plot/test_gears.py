@@ -1,6 +1,8 @@
 """Pictures of driven paths: gears by colour, changes of direction as dots, the axle's track, and wheels."""
 
 import math
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -162,7 +164,7 @@ def test_a_path_that_its_vehicle_cannot_drive_is_refused() -> None:
 def test_the_picture_names_vehicle_and_changes_of_direction() -> None:
     figure = FORTH_AND_BACK.plot(room(FORTH_AND_BACK))
     headline, details = (text.get_text() for text in figure.texts)
-    assert headline == "a path for a car with a turning radius of 2"
+    assert headline == "a path for a car with a turning radius of 2 m"
     assert f"{FORTH_AND_BACK.cusps} changes of direction" in details
     assert "a path for a differential drive" in TURNS.plot(room(TURNS)).texts[0].get_text()
 
@@ -231,13 +233,16 @@ def test_long_numbers_leave_the_name_of_the_axis_inside_of_the_figure() -> None:
         assert box is not None and box.x0 > 0
 
 
-def test_a_corner_on_a_wall_is_one_contact_and_all_poses_of_a_rail_are_drawn() -> None:
+def test_a_corner_on_a_wall_is_one_contact_and_few_poses_of_a_rail_are_drawn() -> None:
     walls = [[(-20, -3), (20, -3), (20, -1), (-20, -1)], *([(x, -3), (x + 2, -3), (x + 2, 4), (x, 4)] for x in (-7, 5))]
     scene = Scene(BODY, walls, start=(0, 0, 0), goal=(-13, 12, 0), vehicle=Car(4, axle=(-1, 0)))
     proof = plan(scene)
     assert isinstance(proof, Stuck)
     (ax,) = proof.plot(scene).axes
-    assert len(artists(ax)["reached"].get_paths()) == len(proof.rail) - 1 > 0
+    drawn = len(artists(ax)["reached"].get_paths())
+    assert 0 < drawn < len(proof.rail)
+    many = replace(proof, rail=tuple(Pose(Fraction(x, 100), 0) for x in range(300)))
+    assert len(artists(many.plot(scene).axes[0])["reached"].get_paths()) == SHOWN
     point = Scene(BODY, [[(2, 0), (3, -1), (3, 1)], [(-2, 0), (-3, 1), (-3, -1)]])
     tip = Stuck(Pose(0, 0), Pose(0, 9), CAR, "start", "pieces", (Pose(0, 0),), (0, 1))
     contacts = artists(tip.plot(point).axes[0])["contacts"].get_xydata()

@@ -16,6 +16,7 @@ using Segment = EdgeDistances::Segment;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_parts = 1 << 12;  // most parts of motions at once; if more are needed, the distance bounded so far is the answer
 constexpr double rounding = 0x1p-40;         // share of the coordinates: a thousand times what placing and measuring round away
+constexpr double nothing = 0x1p-48;          // share of the coordinates: a distance that may be nothing but rounding
 
 double from_point(double x, double y, const Segment& s) {
     const double ux = s.x1 - s.x0, uy = s.y1 - s.y0, vx = x - s.x0, vy = y - s.y0, square = ux * ux + uy * uy;
@@ -207,7 +208,8 @@ LeastDistance EdgeDistances::least(const std::vector<MeasuredMotion>& motions, d
         }
         std::swap(parts, open);
     }
-    return {unit * std::max(0.0, least - rounding * extent), unit * best.distance, best.motion, best.share, best.edge, best.other};
+    const double found = best.distance > nothing * extent ? unit * best.distance : 0;
+    return {unit * std::max(0.0, least - rounding * extent), found, best.motion, best.share, best.edge, best.other};
 }
 
 }  // namespace cfree

@@ -15,6 +15,7 @@ namespace {
 constexpr double nearby = 0x1p-20;      // relative to coordinates: nearer poses are compared exactly
 constexpr double same_cost = 1e-9;    // relative
 constexpr double same_curvature = 2e-4;  // in reciprocals of the radius: a hundredth of a degree of the wheels
+constexpr double short_share = 0.25, cost_of_short = 0.5;  // of the robot's length; of a cusp
 constexpr int zigzags = 8;
 constexpr double widest_zigzag = 1.4;  // radians
 
@@ -62,6 +63,8 @@ double Driver::mark_of(const Configuration& axle, double from, double to) const 
     if (way.ridge.mark.empty()) return from;
     return std::clamp(way.ridge.mark[way.nearest(vehicle.robot_of(axle.place()), from, to, 0)], from, to);
 }
+
+double Driver::short_run(double length) const { return length < short_share * size ? cost_of_short * dues.cusp : 0; }
 
 double Driver::cost_of(const Word& word) const {
     double sum = 0, run = 0;

@@ -15,6 +15,7 @@ namespace {
 constexpr double least_gain = 1e-9;       // relative
 constexpr int idle_at_most = 50;          // attempts in a row without gain, before a window
 constexpr int tries_to_shorten = 4;
+constexpr std::size_t farthest = 512;     // legs that one word replaces in the first pass: each attempt takes time for all of them
 constexpr int most_legs = 12, stations = 7, copies = 2, most_struck = 150;
 constexpr double worth = 1e-5;            // relative gain of a window
 constexpr int bits = 0;
@@ -79,7 +80,7 @@ bool Shortening::replace(std::size_t i, std::size_t j, Legs fresh) {
 
 void Shortening::join_far() {
     for (std::size_t i = 0; i < path.size(); ++i)
-        for (std::size_t j = path.size(); j > i + 1; j = i + (j - i) / 2) {
+        for (std::size_t j = std::min(path.size(), i + farthest); j > i + 1; j = i + (j - i) / 2) {
             const double old = driver.total(part(i, j), run_before(i), run_after(j));
             auto leg = driver.join(path[i].begin(), path[j - 1].end(), path[i].from, path[j - 1].to, old, tries_to_shorten);
             if (leg && replace(i, j, {std::move(*leg)})) break;

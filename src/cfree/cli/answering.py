@@ -69,7 +69,8 @@ class Sampling:
         ValueError
             If an option needs sampled poses, and the form has none; or needs a speed.
         """
-        from cfree.cli.values import read_length, read_rate, read_turn
+        from cfree.cli.values import read_length, read_turn
+        from cfree.exact.half_angle import to_rate
         from cfree.formats.answers.answer_file import form_of, limits_of
 
         form = "json" if output is None or (str(output) == "-" and form is None) else form_of(output, form)
@@ -90,7 +91,7 @@ class Sampling:
             for name, what in kinds.items()
         }
         length = values.pop("step")
-        values["steer_rate"] = read_rate(texts["steer_rate"], "--steer-rate") if "steer_rate" in texts else None
+        values["steer_rate"] = to_rate(texts.get("steer_rate"), "--steer-rate")
         its = limits_of(**values, stops="cusps" if texts.get("stops") == "cusps" else "all")
         return cls(form, length, read_turn(turn) if turn else math.radians(5), its, per_gear)
 

@@ -132,7 +132,7 @@ def planner_of(
     if source.is_dir():
         from cfree.cli.folders import FolderPlanner
 
-        planner: Planner | FolderPlanner = FolderPlanner(source, preferences)
+        planner: Planner | FolderPlanner = FolderPlanner(source, preferences, vehicle)
         report(planner.scene.reading, source)
     elif is_archive(source):
         from cfree.formats.boundaries.boundary_file import load_boundary

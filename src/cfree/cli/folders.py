@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from cfree.cli.reading import is_strict, report
 from cfree.cli.terminal import status
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from cfree.paths.preferences import Preferences
     from cfree.planning.proof import Proof
     from cfree.scene.scene import Scene
+    from cfree.vehicles.vehicle import Vehicle
     from cfree.verify.result import Verification
 
 SECOND, MINUTE, HOUR = 1, 60, 3600
@@ -138,19 +139,22 @@ class FolderPlanner:
         The scene without obstacles before a query; then the one of the answer.
     """
 
-    def __init__(self, folder: Path, preferences: Preferences) -> None:
+    def __init__(self, folder: Path, preferences: Preferences, vehicle: Vehicle | Literal["any"] | None = None) -> None:
         from cfree.distributed.sharded import Sharded
+        from cfree.scene.scene import vehicle_for
 
         self.sharded = Sharded(folder)
         self.preferences = preferences
         self.scene: Scene = self.sharded.head
+        self.vehicle = vehicle_for(self.scene, vehicle)
 
     def plan(
         self, start: Pose, goal: Pose, *, clearance: Any, improve: float | None, objective: Any
     ) -> Motions | Proof:
         if clearance is not None:
             raise ValueError("--clearance: not in a folder; give the scene itself")
-        answer = self.sharded.plan(start, goal, improve=improve, objective=objective, preferences=self.preferences)
+        wishes: dict[str, Any] = {"improve": improve, "objective": objective, "preferences": self.preferences}
+        answer = self.sharded.plan(start, goal, vehicle=self.vehicle or "any", **wishes)
         assert answer.scene is not None  # the answer is new
         self.scene = answer.scene
         return answer

@@ -178,7 +178,7 @@ def answer_text(answer: Path | Proof | AllSeparated, scene: Scene) -> str:
         return f"unreachable, proved: {answer.sentence()}"
     keeping = f"{float(answer.clearance):g}{f' {scene.units}' if scene.units else ''}" if answer.clearance else ""
     if isinstance(answer, Path):
-        drives = f", which {described(answer.vehicle)} can drive" if answer.vehicle else ""
+        drives = f", which {described(answer.vehicle, scene.units)} can drive" if answer.vehicle else ""
         return f"a path, each motion proved free{f' and to keep {keeping}' if keeping else ''}{drives}"
     verdict = {
         "closed": "no path at all, proved",

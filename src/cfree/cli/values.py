@@ -109,21 +109,6 @@ def read_turn(text: str) -> float:
     return min(math.radians(turn) if unit == "deg" else turn, math.tau)
 
 
-def read_rate(text: str, name: str) -> float:
-    """Read a rate of turning, from "30deg" or "0.5": an angle a second, in radians without a unit."""
-    from cfree.exact.half_angle import number_and_unit
-    from cfree.exact.number import to_fraction
-
-    try:
-        value, unit = number_and_unit(text)
-        rate = float(to_fraction(value))
-    except (ValueError, OverflowError):
-        rate, unit = 0.0, ""
-    if not rate > 0:
-        raise ValueError(f'{name}: {text!r}; give an angle a second above 0 such as "30deg"')
-    return math.radians(rate) if unit == "deg" else rate
-
-
 def read_preferences(text: str | None) -> Preferences:
     """Read the costs of motions, from "sideways=5,turning=2"."""
     from cfree.paths.preferences import Preferences

@@ -329,14 +329,14 @@ def motion_between(a: PoseLike, b: PoseLike) -> Translation | Rotation:
 
 def joining(a: Pose, b: Pose) -> Translation | Rotation:
     """Return the motion of `motion_between`; the poses are not checked."""
-    dx, dy = b.x - a.x, b.y - a.y
     if a.tau == b.tau:
-        return _translation((dx, dy))
+        return _translation((b.x - a.x, b.y - a.y))
     (q, p), (r, s) = ((0, 1) if tau is None else (tau.denominator, tau.numerator) for tau in (a.tau, b.tau))
     cosine, sine = q * r + p * s, q * s - p * r  # of half the angle between them, times the same
-    cotangent = Fraction(cosine, sine)
-    pole = (a.x + b.x - cotangent * dy) / 2, (a.y + b.y + cotangent * dx) / 2
-    return _rotation(pole, Fraction(sine, cosine) if cosine else None)
+    (x0, y0, unit), (x1, y1, other) = a.integers, b.integers  # faster than fractions
+    x0, y0, x1, y1, unit = x0 * other, y0 * other, x1 * unit, y1 * unit, 2 * unit * other * sine
+    pole = (x0 + x1) * sine - cosine * (y1 - y0), (y0 + y1) * sine + cosine * (x1 - x0)
+    return _rotation((Fraction(pole[0], unit), Fraction(pole[1], unit)), Fraction(sine, cosine) if cosine else None)
 
 
 def _translation(vector: ExactPoint) -> Translation:

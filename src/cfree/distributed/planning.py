@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from cfree.distributed.tasks import Work
 from cfree.distributed.tiles import BoxIndex
+from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
@@ -24,6 +25,7 @@ from cfree.scene.scene import Scene
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
+MOST_STEPS = 10_000_000  # along a path, each as long as the robot's reach
 MARGIN, WIDER = 2.0, 4.0
 """Distance around a path within which obstacles are added, in reaches of the robot; the factor if some were missing."""
 
@@ -66,7 +68,18 @@ class Surroundings:
         return numbers[BoxIndex(self.work.store.column("box")[numbers]).near(squares, reach)]
 
     def add_around(self, path: Path, margin: float = 0.0) -> bool:
-        """Add obstacles that the robot may touch on a path, or within a margin of it; False if all were known."""
+        """Add obstacles that the robot may touch on a path, or within a margin of it; False if all were known.
+
+        Raises
+        ------
+        UndecidedError
+            If the path is too long to look at all places along it.
+        """
+        if path.length > MOST_STEPS * self.work.store.radius:
+            raise UndecidedError(
+                f"a path was found that is {path.length:.3g} long, too long to look for all obstacles along it; "
+                "give the scene bounds, or the vehicle a smaller turning radius"
+            )
         ends = np.array([[float(q.x), float(q.y)] for q in (path.start, path.goal)])
         points, radius = path.sample(self.work.store.radius).xy, self.work.store.radius
         near = set(self.around(points, 2 * radius).tolist()) | set(self.around(ends, radius, spans=True).tolist())
@@ -83,7 +96,13 @@ def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> P
     for wish in ({"improve": 0.0}, wishes):
         margin = MARGIN * known.work.store.radius
         while True:
-            answer = plan(known.scene, start, goal, **wishes | wish)
+            try:
+                answer = plan(known.scene, start, goal, **wishes | wish)
+            except UndecidedError as error:  # a vehicle needs too many manoeuvres on a path, if that is free among all
+                if isinstance(error.path, Path) and known.add_around(error.path, margin):
+                    margin *= WIDER
+                    continue
+                raise
             if isinstance(answer, Proof):  # further obstacles do not change that
                 return replace(answer, whole=known.whole)
             assert isinstance(answer, Path)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path as FilePath
-from typing import Any, overload
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,6 +30,7 @@ from cfree.paths.preferences import Preferences
 from cfree.planning.proof import Proof
 from cfree.scene.scene import Scene, required
 from cfree.value import Value
+from cfree.vehicles.vehicle import Vehicle
 from cfree.verify.result import Verification
 from cfree.verify.whole import renumbered
 from cfree.words import counted
@@ -163,6 +164,7 @@ class Sharded(Value):
         improve: float | None = None,
         objective: Objective = "balanced",
         preferences: Preferences | None = None,
+        vehicle: Vehicle | Literal["any"] | None = None,
     ) -> Path | Proof:
         """A path among all obstacles, each motion proved free, or a proof that there is none.
 
@@ -172,7 +174,7 @@ class Sharded(Value):
         ----------
         start, goal : Pose or (x, y, theta), optional
             Those of the scene by default.
-        improve, objective, preferences
+        improve, objective, preferences, vehicle
             Options of `cfree.plan`.
 
         Returns
@@ -187,7 +189,8 @@ class Sharded(Value):
         """
         known = Surroundings(self.work)
         ends = required(self.head, start, goal)
-        answer = plan_among(known, *ends, improve=improve, objective=objective, preferences=preferences)
+        wishes: dict[str, Any] = {"improve": improve, "objective": objective, "preferences": preferences}
+        answer = plan_among(known, *ends, vehicle=vehicle, **wishes)
         self.tiles_read = len(known.read)
         return answer
 
@@ -199,6 +202,7 @@ class Sharded(Value):
         improve: float | None = None,
         objective: Objective = "balanced",
         preferences: Preferences | None = None,
+        vehicle: Vehicle | Literal["any"] | None = None,
         client: Any = None,
     ) -> list[Path | Proof]:
         """Answers to many queries, each as from `plan`, in their order.
@@ -206,13 +210,13 @@ class Sharded(Value):
         Parameters
         ----------
         queries : pairs (start, goal) of Pose or (x, y, theta)
-        improve, objective, preferences
+        improve, objective, preferences, vehicle
             Options of `cfree.plan`.
         client : distributed.Client, optional
             Client, as in `boundary`.
         """
         check_client(client)
-        wishes = {"improve": improve, "objective": objective, "preferences": preferences}
+        wishes = {"improve": improve, "objective": objective, "preferences": preferences, "vehicle": vehicle}
         asked = [
             (k, (str(self.folder), self.work.stamp, to_pose(start, f"start {k}"), to_pose(goal, f"goal {k}"), wishes))
             for k, (start, goal) in enumerate(queries)

@@ -23,9 +23,35 @@ from cfree.exact.number import ExactPoint, Number, simplest_between, to_fraction
 
 Floats = NDArray[np.float64]
 MOST_EXACT = 2**53  # all integers up to it are doubles
+Rate = float | str  # an angle a second: radians, or a text such as "30deg" or "0.5rad"
 # radians, also as "1.5rad"; degrees as in "90deg" or "90°"; or the half-angle tangent: {"tau": "1/3"}, {"tau": "inf"},
 # {"tau": None}
 Angle = Number | Mapping[str, Number | None]
+
+
+def to_rate(rate: Rate | None, name: str) -> float | None:
+    """Read a rate of turning, an angle a second, in radians; None stays None.
+
+    Raises
+    ------
+    ValueError
+        If it is no angle above 0.
+
+    Examples
+    --------
+    >>> to_rate("180deg", "rate"), to_rate("1/2", "rate"), to_rate(0.35, "rate")
+    (3.141592653589793, 0.5, 0.35)
+    """
+    if not isinstance(rate, str):
+        return rate
+    try:
+        value, unit = number_and_unit(rate)
+        number = float(to_fraction(value))
+    except (ValueError, OverflowError):
+        number, unit = 0.0, ""
+    if not 0 < number < math.inf:
+        raise ValueError(f'{name}: {rate!r}; give an angle a second above 0 such as "30deg"')
+    return math.radians(number) if unit == "deg" else number
 
 
 def half_angle_rotation(tau: Fraction | None) -> tuple[int, int, int]:

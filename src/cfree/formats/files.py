@@ -10,6 +10,7 @@ from typing import Any
 
 from cfree.arguments import checked
 from cfree.collector import collection_paused
+from cfree.exact.half_angle import Rate
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.mesh import Mesh
 from cfree.forbidden.slice import Slice
@@ -42,7 +43,7 @@ def save(
     turn: float = math.radians(5),
     speed: float | None = None,
     acceleration: float | None = None,
-    steer_rate: float | None = None,
+    steer_rate: Rate | None = None,
     wheelbase: float | None = None,
     stops: Stops = "all",
     per_gear: bool = False,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
+from cfree.exact.half_angle import Rate, to_rate
 from cfree.exact.pose import Poses
 from cfree.paths.path import Path
 from cfree.paths.ramps import Ramp, ramp_length
@@ -267,7 +268,7 @@ def timed(
     *,
     speed: float,
     acceleration: float | None = None,
-    steer_rate: float | None = None,
+    steer_rate: Rate | None = None,
     wheelbase: float | None = None,
     stops: Stops = "all",
 ) -> Timed:
@@ -285,9 +286,10 @@ def timed(
         Greatest speed of any point of the robot, in lengths a second; with a vehicle, of its axle point as well.
     acceleration : float, optional
         Greatest change of these speeds along the motion, in lengths a second squared. Without it they change at once.
-    steer_rate : float, optional
-        Greatest rate at which the wheels turn, in radians a second, by the bicycle model. Without it they turn at once.
-        A differential drive for which it is given is one with a steered wheel, like a forklift.
+    steer_rate : float or str, optional
+        Greatest rate at which the wheels turn, by the bicycle model: radians a second, or a text such as "30deg".
+        Without it they turn at once. A differential drive for which it is given is one with a steered wheel, like a
+        forklift.
     wheelbase : float, optional
         Distance of the axles; a car's own by default.
     stops : "all" or "cusps"
@@ -308,7 +310,7 @@ def timed(
     >>> round(timed(path, speed=2).duration, 2)
     5.0
     """
-    return timed_by(path, scene, Limits(speed, acceleration, steer_rate, wheelbase, stops))
+    return timed_by(path, scene, Limits(speed, acceleration, to_rate(steer_rate, "steer_rate"), wheelbase, stops))
 
 
 def timed_by(path: Path, scene: Scene | None, limits: Limits) -> Timed:

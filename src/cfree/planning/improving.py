@@ -10,7 +10,7 @@ import math
 import os
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from itertools import pairwise
 from typing import Any
@@ -91,15 +91,23 @@ class Improver:
         """Return `balanced` without a time limit; Ctrl-C ends it without a result."""
         if len(poses) < 2:
             return poses
-        better = self._balanced(poses, 0)
-        better.merge()
-        return self._checked(poses, [*map(from_numbers, better.path())])
+        return self._finished(poses, self._balanced(poses, 0))
+
+    def farther(self, poses: Sequence[Pose]) -> Iterator[Sequence[Pose]]:
+        """Yield a path with the same ends farther from obstacles, unchecked; then `balanced_once`."""
+        better = self.searcher.balanced([*map(end_of, poses)], 0)
+        yield [*map(from_numbers, better.path())]
+        yield self._finished(poses, self._run(poses, better))
 
     def pushed(self, poses: Sequence[Pose], motions: int) -> Sequence[Pose]:
         """Return a path farther from obstacles, unchecked, after checks of so many motions."""
         better = self.searcher.balanced([*map(end_of, poses)], 0)
         better.run(motions)
         return [*map(from_numbers, better.path())]
+
+    def _finished(self, poses: Sequence[Pose], better: Better) -> Sequence[Pose]:
+        better.merge()
+        return self._checked(poses, [*map(from_numbers, better.path())])
 
     def _checked(self, poses: Sequence[Pose], best: Sequence[Pose]) -> Sequence[Pose]:
         """Return the better path if it is free, exactly."""
@@ -112,7 +120,10 @@ class Improver:
         return better
 
     def _balanced(self, poses: Sequence[Pose], seed: int) -> Better:
-        better = self.searcher.balanced([*map(end_of, poses)], seed)
+        return self._run(poses, self.searcher.balanced([*map(end_of, poses)], seed))
+
+    def _run(self, poses: Sequence[Pose], better: Better) -> Better:
+        """Balance a path in the usual number of attempts."""
         better.run((DEAR if self._prefers else 1) * BALANCE * (len(better.path()) + min(MOST, len(poses))))
         return better
 

@@ -135,7 +135,7 @@ def plan(
     A vehicle that reverses reaches every pose of its cell that touches nothing, whatever its turning radius. So
     `Separated` is a proof for every vehicle. "balanced" keeps half of the distance that a path of the robot keeps
     there, and no more than a twentieth of the robot's length. Where that takes many changes of direction, it keeps a
-    quarter, an eighth or nothing, if the path then costs less than two thirds.
+    quarter, an eighth or nothing, if the path then costs less than two thirds. The first path (`improve=0`) keeps none.
 
     Examples
     --------

@@ -105,4 +105,4 @@ class Stuck(Shown, Answer):
         way = f"leave its {self.at}" if self.at == "start" else f"arrive at its {self.at}"
         if self.of == "paths":
             return f"no path of finite length lets a vehicle with this axle {way}, whatever its turning radius"
-        return f"no path of finitely many lines and arcs lets {described(self.vehicle)} {way}"
+        return f"no path of finitely many lines and arcs lets {described(self.vehicle, self.units)} {way}"

@@ -147,7 +147,7 @@ class Unreachable(Shown, Answer):
 
     def sentence(self) -> str:
         """Write the proof in a sentence."""
-        return f"no path of {described(self.vehicle)} leads from the start to the goal"
+        return f"no path of {described(self.vehicle, self.units)} leads from the start to the goal"
 
 
 def margin_of(grid: BoxGrid, reach: float) -> float:

@@ -20,7 +20,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, cached_property
-from itertools import count, islice, pairwise
+from itertools import chain, count, islice, pairwise
 from typing import Any
 
 import cfree._core as _core
@@ -34,6 +34,7 @@ from cfree.paths.preferences import NONE, Dues, Preferences, dues_of, robot_leng
 from cfree.planning.clearance import plan_at_distance
 from cfree.planning.core_ways import end_of, from_numbers
 from cfree.planning.first_motions import Touching
+from cfree.planning.improving import Improver
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rails import Explored, Way, explore, reversed_way
@@ -46,7 +47,7 @@ from cfree.scene.scene import Scene
 from cfree.vehicles.vehicle import Car, Vehicle, described
 
 WORDS = 40_000  # most words tried to follow one path, for each share
-FEW_WORDS = 300  # most words tried to follow a path that is not improved
+WORDS_AT_ONCE = (600, 1000, WORDS)  # the same for one path after the other, if none is improved
 SHARES: dict[Objective, tuple[float, ...]] = {
     "balanced": (0.5, 0.25, 0.125, 0.0),
     "short": (0.0,),
@@ -66,7 +67,8 @@ MOST_DEARER = 1.5  # and left for it if it costs so many times as much
 FEW_CUSPS = 1  # a path with no more needs no other guide
 ROOMS = (4, 6, 8, 12, 16, 20, 24)  # binary exponents of a clearance that keeps a path off contacts, in robot radii
 PLACES = (Fraction(0), Fraction(1, 3), Fraction(1, 2), Fraction(2, 3))  # on a motion, at which contacts are looked for
-FAR = 100  # robot's lengths: an axle point farther away is probably a mistake
+FAR = 100  # robot's lengths: an axle point farther away is probably a mistake, and so is a greater turning radius
+LEAST_RADIUS = Fraction(1, 2**20)  # robot's lengths: a sharper car takes no sharper arcs, which doubles would blur
 MOST_PAIRS = 16  # pairs of ways out that are tried to be joined
 
 
@@ -198,14 +200,26 @@ def _in_room(
 
 
 def _at_once(question: Question, way: list[Pose]) -> Path | None:
-    """Return a path along a first path of the robot, unimproved, if few words suffice."""
-    if question.options.improve != 0 or not _is_roomy(question, way):
+    """Return a path that is not improved and keeps no distance; None if none is found soon.
+
+    It is along a first path of the robot, if few words suffice; else along that path pushed away from obstacles, which
+    takes longer than few words and saves many; else along a balanced one.
+    """
+    if question.options.improve != 0 or question.options.objective == "clear":
         return None
-    is_whole, _, drive = _driving(question, way, SHARES["balanced"][0], "balanced").follow(FEW_WORDS, 0)
-    if not is_whole:
-        return None
-    drive.join_far()
-    return _path(question, drive)
+
+    def along(guide: Sequence[Pose], words: int) -> Path | None:
+        if not _is_roomy(question, guide):
+            return None
+        is_whole, _, drive = _driving(question, guide, 0.0, "short").follow(words, 0)
+        if not is_whole:
+            return None
+        drive.join_far()
+        return _path(question, drive)
+
+    guides = chain([way], _improver(question, way, NONE).farther(way))
+    found = (along(guide, words) for guide, words in zip(guides, WORDS_AT_ONCE, strict=False))
+    return next((path for path in found if path is not None), None)
 
 
 def _ways_out(question: Question, pose: Pose, name: str, other: Pose) -> Explored | None:
@@ -539,8 +553,12 @@ def _cost(drive: _core.Drive) -> float:
 
 def _guide(question: Question, way: Sequence[Pose], preferences: Preferences) -> Sequence[Pose]:
     """Return a balanced path of the robot beside this one, by preferences."""
-    options = replace(question.options, preferences=preferences, vehicle=question.vehicle)
-    return question.planner.improver(way, options).balanced_once(way)
+    return _improver(question, way, preferences).balanced_once(way)
+
+
+def _improver(question: Question, way: Sequence[Pose], preferences: Preferences) -> Improver:
+    """Return an improver of a path of the robot; preferences count at the vehicle's axle."""
+    return question.planner.improver(way, replace(question.options, preferences=preferences, vehicle=question.vehicle))
 
 
 def _other_way(question: Question, way: Sequence[Pose], seed: int) -> Sequence[Pose] | None:
@@ -570,7 +588,9 @@ def _driving(question: Question, guide: Sequence[Pose], share: float, objective:
     dues = question.dues
     cap = dues.length * CAP if objective == "balanced" else question.planner.angle_scale
     wishes = (dues.backward, dues.cusp, dues.stop, dues.in_place, dues.length, question.planner.angle_scale, share, cap)
-    return _core.Driving(question.known, numbers_of_vehicle(question.vehicle), [*map(end_of, guide)], wishes)
+    sharp = question.vehicle.kind == "car"
+    numbers = numbers_of_vehicle(question.vehicle, LEAST_RADIUS * Fraction(dues.length) if sharp else Fraction(0))
+    return _core.Driving(question.known, numbers, [*map(end_of, guide)], wishes)
 
 
 def _path(question: Question, drive: _core.Drive) -> Path:
@@ -585,9 +605,11 @@ def _too_many(question: Question, way: Sequence[Pose], reached: tuple[float, int
     needed = max(1, round(motions / share)) if share > 0 else 0
     about = f"about {needed:,}" if needed else "too many"
     proof = _path_of(question, way[0], [joining(a, b) for a, b in pairwise(way) if a != b])
-    away, remedy = question.onward.reach, "give the robot more room"
-    if away > FAR * question.dues.length:
+    away, remedy, far = question.onward.reach, "give the robot more room", FAR * question.dues.length
+    if away > far:
         remedy = f"its axle point is {away:.3g} away from the robot, correct it"
+    elif max(question.vehicle.radii) > far:
+        remedy = f"its turning radius is {float(max(question.vehicle.radii)):.3g}, correct it, or {remedy}"
     return UndecidedError(
         f"a path of {vehicle} exists, as start and goal are in one cell of the free space; it needs {about} "
         f"manoeuvres: {remedy}",
@@ -596,9 +618,9 @@ def _too_many(question: Question, way: Sequence[Pose], reached: tuple[float, int
     )
 
 
-def numbers_of_vehicle(vehicle: Vehicle) -> tuple[Any, ...]:
-    """Convert a vehicle to the core's numbers."""
-    (left, right), (x, y) = vehicle.radii, vehicle.axle
+def numbers_of_vehicle(vehicle: Vehicle, least: Fraction = Fraction(0)) -> tuple[Any, ...]:
+    """Convert a vehicle to the core's numbers, with radii of a least length."""
+    (left, right), (x, y) = (max(radius, least) for radius in vehicle.radii), vehicle.axle
     q, p = (0, 1) if vehicle.heading is None else (vehicle.heading.denominator, vehicle.heading.numerator)
     ratios = (number.as_integer_ratio() for number in (left, right, x, y))
     return vehicle.kind == "differential", vehicle.gears == "both", *ratios, q, p

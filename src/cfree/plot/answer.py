@@ -120,7 +120,7 @@ def picture(
     Parameters
     ----------
     answer : Path, Separated, Stuck, Unreachable, AllSeparated, UndecidedError, Scene or Shapes
-        The first of several proofs is drawn. The contacts of a vehicle that is stuck are marked, and all poses that it
+        The first of several proofs is drawn. The contacts of a vehicle that is stuck are marked, and some poses that it
         reaches; of one without reverse gear, the places of its axle point in the proof. Of an `UndecidedError` its path
         is drawn, which proves that a vehicle has one. A scene is drawn as by `plot_workspace`, round shapes with many
         edges.

@@ -17,6 +17,7 @@ from cfree.palette import AHEAD, BACK, GREY, IN_PLACE, INK
 from cfree.paths.driven import Driven, Gear
 from cfree.paths.path import Path
 from cfree.paths.travel import Travel
+from cfree.plot.boundary import plain
 from cfree.plot.workspace import draw_robot, path_of, rings_of
 from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Vehicle, described
@@ -34,7 +35,7 @@ CHANGE = "change of direction"
 FINE = math.radians(2)  # of a turn from point to point of a track
 WHEEL, TYRE = 0.15, 0.4  # length of a wheel in lengths of the robot; its width in its own lengths
 TRACK = 0.82  # distance of the wheels' outsides in widths of the robot
-SHOWN, APART = 6, 0.5  # changes of direction at which the robot is drawn, and their least distance in robot radii
+SHOWN, APART = 6, 0.5  # most poses between start and goal at which the robot is drawn; their least distance in radii
 VISIBLE = 0.05  # robot's radii: front wheels have the angle of the next part that is longer
 NEAR = 3.0  # robot's radii: a picture shows axle points within this distance
 MANY = 40  # changes of direction from which on their dots are smaller
@@ -188,18 +189,13 @@ class Gears:
     @cached_property
     def stands(self) -> list[tuple[Pose, float]]:
         """Poses at changes of direction, some way from each other, with the curvature that follows."""
-        radius, chosen = robot_radius(self.scene), list[int]()
         poses = [self.path.poses[self.parts[k].first] for k in self.changes]
-        ends = self.path.start, self.path.goal
-        apart = np.array([min(_apart(pose, end, radius) for end in ends) for pose in poses])
-        while len(chosen) < SHOWN and apart.max(initial=0.0) > APART * radius:  # the farthest from all others is next
-            chosen.append(int(apart.argmax()))
-            apart = np.minimum(apart, [_apart(pose, poses[chosen[-1]], radius) for pose in poses])
-        return [(poses[k], self._follows(self.parts[self.changes[k] :])) for k in sorted(chosen)]
+        chosen = far_apart(poses, (self.path.start, self.path.goal), robot_radius(self.scene))
+        return [(poses[k], self._follows(self.parts[self.changes[k] :])) for k in chosen]
 
     def driver(self) -> str:
-        """Name the vehicle with its turning radius."""
-        return described(self.wheels.vehicle)
+        """Name the vehicle with its turning radius, for a figure."""
+        return plain(described(self.wheels.vehicle, self.scene.units))
 
     def part_at(self, travel: Floats) -> Ints:
         """Return the part in which the robot is after some travel (n,)."""
@@ -262,6 +258,24 @@ class Gears:
             shares = np.linspace(0, last if k == end - 1 else 1.0, 2 + int(abs(motion.turn) / FINE))
             points.append(motion.sample(self.path.poses[k], shares).apply([self._axle])[:, 0])
         return np.concatenate(points)
+
+
+def far_apart(poses: Sequence[Pose], drawn: Sequence[Pose], radius: float, least: float = APART) -> list[int]:
+    """Choose few of some poses, in their order, that are far from each other and from those drawn already.
+
+    They are apart by `least` radii, and a radian is as long as a radius.
+
+    Examples
+    --------
+    >>> far_apart([Pose(x / 10, 0) for x in range(41)], [Pose(0, 0)], radius=1.9)
+    [10, 20, 30, 40]
+    """
+    chosen = list[int]()
+    apart = np.array([min(_apart(pose, other, radius) for other in drawn) for pose in poses])
+    while len(chosen) < SHOWN and apart.max(initial=0.0) > least * radius:  # the farthest from all others is next
+        chosen.append(int(apart.argmax()))
+        apart = np.minimum(apart, [_apart(pose, poses[chosen[-1]], radius) for pose in poses])
+    return sorted(chosen)
 
 
 def _apart(one: Pose, other: Pose, radius: float) -> float:

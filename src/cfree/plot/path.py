@@ -28,7 +28,7 @@ from cfree.plot.looks import looks, of_polygons, own
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
-from cfree.words import counted
+from cfree.words import counted, is_abbreviation
 
 Floats = NDArray[np.float64]
 
@@ -274,7 +274,7 @@ def quantity(value: float, units: str) -> str:
     ('0.123 m', '2346')
     """
     number = f"{value:.0f}" if 1000 <= value < 1_000_000 else f"{value:.3g}"
-    return f"{number} {plain(units)}" if 0 < len(units) <= 4 else number
+    return f"{number} {plain(units)}" if is_abbreviation(units) else number
 
 
 def _draw_least(ax: Any, track: Track, labels: Labels) -> None:

@@ -1,4 +1,4 @@
-"""Pictures of a vehicle that is stuck: its contacts, what it touches, and all poses that it reaches."""
+"""Pictures of a vehicle that is stuck: its contacts, what it touches, and some of the poses that it reaches."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from cfree.exact.pose import Pose
 from cfree.palette import BARRIER, ROBOT, paler
 from cfree.planning.stuck import Stuck
 from cfree.plot.boundary import plain, set_window
-from cfree.plot.gears import Wheels, draw_vehicle
+from cfree.plot.gears import Wheels, draw_vehicle, far_apart
 from cfree.plot.headed import headed, new_picture, window_of
 from cfree.plot.labels import BODY, GHOST, Labels
 from cfree.plot.looks import looks, of_polygons
@@ -32,11 +32,12 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 TOUCHING = 1e-7  # robot's radii: a picture shows less as a contact
+NEAR = 0.1  # robot's radii: least distance of outlines along a rail
 RING = 5.0  # typographic points: radius of the mark of a contact
 
 
 def picture_of_stuck(answer: Stuck, scene: Scene) -> Figure:
-    """Draw start and goal of a vehicle, its contacts where it is stuck, and the poses that it reaches along them."""
+    """Draw start and goal of a vehicle, its contacts where it is stuck, and some poses that it reaches along them."""
     scene = of_polygons(answer, scene)
     ends = {"start": answer.start, "goal": answer.goal}
     window, shown = window_of(scene, [*ends.values(), *answer.rail]), looks(answer, scene)
@@ -47,7 +48,8 @@ def picture_of_stuck(answer: Stuck, scene: Scene) -> Figure:
     ax.add_patch(PathPatch(path_of(rings_of(touched)), facecolor=paler(BARRIER, 0.7), label="touched", **style))
     wheels = Wheels.of(scene, answer.vehicle)
     rings = rings_of(shown.robot)
-    others = [path_of(pose.apply(ring) for ring in rings) for pose in answer.rail if pose != answer.pose]
+    chosen = far_apart(answer.rail, [*ends.values()], robot_radius(scene), NEAR)
+    others = [path_of(answer.rail[k].apply(ring) for ring in rings) for k in chosen]
     ghosts = PathCollection(others, facecolors="none", edgecolors=ROBOT, linewidths=0.9, zorder=2.8, label="reached")
     ax.add_collection(ghosts, autolim=False)
     for name, pose in ends.items():
@@ -56,7 +58,7 @@ def picture_of_stuck(answer: Stuck, scene: Scene) -> Figure:
     contacts = list(contacts_of(answer, scene, answer.pose))
     _draw_contacts(ax, [points for _, points in contacts])
     labels = Labels(ax, scene)
-    labels.avoid_robot(scene, answer.rail, GHOST)
+    labels.avoid_robot(scene, [answer.rail[k] for k in chosen], GHOST)
     labels.avoid_robot(scene, ends.values(), BODY)
     for name, pose in ends.items():
         labels.name_robot(scene, pose, f"{name}: stuck" if name == answer.at else name)

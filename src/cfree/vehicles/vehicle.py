@@ -18,6 +18,7 @@ from cfree.errors import InvalidVehicleError
 from cfree.exact.half_angle import Angle, number_and_unit, read_angle
 from cfree.exact.number import LARGEST, ExactPoint, Number, simplest_between, to_fraction
 from cfree.exact.pose import Pose
+from cfree.words import is_abbreviation
 
 Gears = Literal["both", "forward"]
 Radius = Number | tuple[Number, Number]
@@ -225,18 +226,19 @@ class DifferentialDrive:
 Vehicle = Car | DifferentialDrive
 
 
-def described(vehicle: Vehicle) -> str:
-    """Name a vehicle in a sentence.
+def described(vehicle: Vehicle, units: str = "") -> str:
+    """Name a vehicle in a sentence, its radii with their unit if that is an abbreviation.
 
     Examples
     --------
-    >>> described(Car((4, 5), gears="forward"))
-    'a car with turning radii of 4 and 5 and no reverse gear'
+    >>> described(Car((4, 5), gears="forward")), described(Car("3.5"), "m")
+    ('a car with turning radii of 4 and 5 and no reverse gear', 'a car with a turning radius of 3.5 m')
     """
     if isinstance(vehicle, DifferentialDrive):
         return "a differential drive"
     left, right = map(_length, vehicle.radii)
-    radius = f"a turning radius of {left}" if left == right else f"turning radii of {left} and {right}"
+    unit = f" {units}" if is_abbreviation(units) else ""
+    radius = f"a turning radius of {left}{unit}" if left == right else f"turning radii of {left} and {right}{unit}"
     return f"a car with {radius}{'' if vehicle.gears == 'both' else ' and no reverse gear'}"
 
 

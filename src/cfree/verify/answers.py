@@ -390,7 +390,7 @@ def _of_path(path: Path) -> dict[str, str]:
     return texts | {
         CONTINUOUS: f"{count} from the start to the goal, one after the other",
         FREE: f"{count}: at no pose does the robot overlap anything",
-        **({DRIVABLE: f"{count}: {described(path.vehicle)} can do each"} if path.vehicle else {}),
+        **({DRIVABLE: f"{count}: {described(path.vehicle, path.units)} can do each"} if path.vehicle else {}),
     }
 
 
@@ -415,13 +415,13 @@ def _sentence(outcome: Path | Proof, read: Read | None) -> str:
         count = counted(len(outcome.motions), "motion")
         only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
         keeps = f"keeps {far}" if outcome.clearance else "is free of collisions"
-        drives = f"; {described(outcome.vehicle)} can drive it" if outcome.vehicle else ""
+        drives = f"; {described(outcome.vehicle, outcome.units)} can drive it" if outcome.vehicle else ""
         return f"A path of {count} leads from {ends[0]} to {ends[1]}, and {keeps}{only}{drives}."
     if isinstance(outcome, Stuck):
         sentence = outcome.sentence()
         return f"From {ends[0]} to {ends[1]}: {sentence}."
     if isinstance(outcome, Unreachable):
-        return f"No path of {described(outcome.vehicle)} leads from {ends[0]} to {ends[1]}."
+        return f"No path of {described(outcome.vehicle, outcome.units)} leads from {ends[0]} to {ends[1]}."
     return _none_leads(outcome, f"leads from {ends[0]} to {ends[1]}")
 
 

@@ -72,6 +72,11 @@ def test_a_curvature_is_never_more_than_that_of_the_radius(radius: str) -> None:
 LIMITS: dict[str, Any] = {"speed": 0.7, "acceleration": 0.3, "steer_rate": 0.4, "wheelbase": 2}
 
 
+def test_a_file_has_the_times_of_a_steer_rate_in_degrees(tmp_path: FilePath) -> None:
+    degrees = {**LIMITS, "steer_rate": "45deg"}
+    assert rows(PATH, tmp_path, **degrees) == rows(PATH, tmp_path, **LIMITS | {"steer_rate": math.radians(45)})
+
+
 def test_a_pause_has_two_rows_with_speed_0_and_the_second_has_the_next_gear_and_curvature(tmp_path: FilePath) -> None:
     table = rows(PATH, tmp_path, step=0.5, **LIMITS)
     stops = timed(PATH, **LIMITS).stops

@@ -77,7 +77,7 @@ private:
     // Cost of going on in one gear where the curvature changes: a car stands while its wheels turn.
     double steering(double from, double to) const;
     // Further cost of a run between two cusps, if it is short.
-    double short_run(double length) const { return length < 0.25 * size ? 0.5 * dues.cusp : 0; }
+    double short_run(double length) const;
     void car_words(const Configuration& a, const Configuration& b);
     void drive_words(const Configuration& a, const Configuration& b, bool at_any_scale);
 

@@ -196,10 +196,8 @@ def plan(
         room = None if clearance is None else read_length(clearance, "--clearance")
         how: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": objective}
         driver = read_vehicle(vehicle, turning_radius, axle, heading, gears)
-        if scene.is_dir():
-            options.refuse("not for a folder", "vehicle", remedy="give the scene itself")
         planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), driver)
-        poses.require_fit(getattr(planner, "vehicle", planner.scene.vehicle))
+        poses.require_fit(planner.vehicle)
         if nearest_free and scene.is_dir():
             raise ValueError("--nearest-free: not in a folder; give the scene itself")
         answering = Answering.of(planner, ends, written, how, nearest_free=nearest_free)

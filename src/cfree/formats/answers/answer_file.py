@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 from cfree.arguments import checked
 from cfree.errors import UnsupportedError
+from cfree.exact.half_angle import Rate, to_rate
 from cfree.formats.text.atomic import replacing
 from cfree.paths.leeway import keeps_leeway
 from cfree.paths.path import Path
@@ -98,7 +99,7 @@ def save_path(
     turn: float = math.radians(5),
     speed: float | None = None,
     acceleration: float | None = None,
-    steer_rate: float | None = None,
+    steer_rate: Rate | None = None,
     wheelbase: float | None = None,
     stops: Stops = "all",
     per_gear: bool = False,
@@ -146,7 +147,7 @@ def save_path(
 def limits_of(
     speed: float | None,
     acceleration: float | None = None,
-    steer_rate: float | None = None,
+    steer_rate: Rate | None = None,
     wheelbase: float | None = None,
     stops: Stops = "all",
 ) -> Limits | None:
@@ -160,7 +161,7 @@ def limits_of(
     from cfree.paths.timing import Limits
 
     if speed is not None:
-        return Limits(speed, acceleration, steer_rate, wheelbase, stops)
+        return Limits(speed, acceleration, to_rate(steer_rate, "steer_rate"), wheelbase, stops)
     others = {"acceleration": acceleration, "steer_rate": steer_rate, "wheelbase": wheelbase}
     names = [name for name, value in others.items() if value is not None] + (["stops"] if stops != "all" else [])
     if names:
