@@ -84,7 +84,6 @@ static void check_patch(const Scene& s, const Feature& x, int chart, const Event
             if (A.has_extent(x.robot))
                 is_free &= in_cone({Kind::edge_vertex, A.previous[x.robot], x.obstacle}, {Kind::edge_vertex, x.robot, x.obstacle});
         }
-        bool is_close = false;
         const Real c = std::cos(theta), d = std::sin(theta);
         for (Index p = 0; p < A.pieces(); ++p) {
             const auto robot = piece(A, p, [&](const Point& v) { return Point{at.x + c * v.x - d * v.y, at.y + d * v.x + c * v.y}; });
@@ -92,10 +91,8 @@ static void check_patch(const Scene& s, const Feature& x, int chart, const Event
                 const Real rho = Real(A.radii[A.piece_radius[p]].exact) + Real(O.radii[O.piece_radius[k]].exact);
                 const Real gap = distance_of(robot, piece(O, k, [](const Point& v) { return v; })) - rho;
                 is_free &= gap > -1e-9L;
-                is_close |= std::abs(gap) < 1e-9L && !(gap > -1e-15L * rho) ;
             }
         }
-        if (is_close && false) continue;
         bool is_live = false, is_near = false;
         for (const Trapezoid& z : live) {
             if (!(z.from.hi <= tau && tau <= z.to.lo)) continue;

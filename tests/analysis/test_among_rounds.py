@@ -193,3 +193,19 @@ def test_what_takes_polygons_only_still_refuses_round_shapes() -> None:
     with pytest.raises(cfree.UnsupportedError, match="round shapes"):
         boundary(hall(disc("0.4")))
     assert math.isinf(max_scale(Scene(disc(1), start=(0, 0, 0), goal=(1, 0, 0))).hi)
+
+
+def test_no_smaller_robot_is_found_where_no_polygon_is_inside_the_robot() -> None:
+    low, high = (Arc((1, 0), through=("1/2", "-10001/100000")), Arc((0, 0), through=("1/2", "-10000/100000")))
+    wall = [(4, -9), (5, -9), (5, 9), (4, 9)]
+    with pytest.raises(cfree.UndecidedError, match="no polygon is inside"):
+        cfree.nearest_miss(Scene(Curved([(0, 0), low, high]), [wall], bounds=(-9, -9, 9, 9)), (0, 0, 0), (7, 0, 0))
+
+
+@pytest.mark.slow
+def test_a_margin_of_a_gap_that_is_just_closed_is_refused() -> None:
+    walls = [[(0, "0.995"), (6, "0.995"), (6, 9), (0, 9)], [(0, -9), (6, -9), (6, "-0.995"), (0, "-0.995")]]
+    room = [(-9, -9), (14, -9), (14, 9), (-9, 9)]
+    scene = Scene(Curved.circle((0, 0), 1), walls, workspace=room, start=(-3, 0, 0), goal=(9, 0, 0))
+    with pytest.raises(ValueError, match="not joined without touching"):
+        cfree.max_margin(scene)

@@ -26,6 +26,17 @@ def test_kinds_are_those_of_the_core() -> None:
     assert {kind.name: kind.value for kind in Kind} == {kind.name: kind.value for kind in _core.Kind}
 
 
+def test_no_two_types_of_the_core_have_one_name(request: pytest.FixtureRequest) -> None:
+    """They are in one namespace, and the linker keeps one of two functions of one name."""
+    places: dict[str, list[str]] = {}
+    for file in sorted((request.config.rootpath / "cpp").glob("[is]*/**/*.?pp")):
+        outside = re.sub(r"(?ms)^namespace \{\n.*?^\}  // namespace$", "", file.read_text())
+        for name in re.findall(r"(?m)^(?:struct|class) (\w+)(?: final)?(?: : [^{;]*)? \{", outside):
+            places.setdefault(name, []).append(file.name)
+    assert len(places) > 150
+    assert {name: files for name, files in places.items() if len(files) > 1} == {}
+
+
 COMMENT = re.compile(r"//.*")
 NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?")
 # computed from the exact structure, in doubles

@@ -339,3 +339,20 @@ def test_an_undecided_query_among_many_is_named() -> None:
     scene = Scene(stadium(1, 1), [Curved.circle((0, 1), 1)], workspace=FLOOR)
     with pytest.raises(cfree.UndecidedError, match="query 1: "):
         cfree.plan_many(scene, [((-4, 2, 0), (5, 3, 1)), ((-4, 1, 0), (5, 1, 0))], vehicle=cfree.Car(1), improve=0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("vehicle", [cfree.Car(2), cfree.Car(2, gears="forward"), cfree.DifferentialDrive()])
+@pytest.mark.parametrize("goals", [[(6, 0)], [(6, 0, 0), (6, 3, 0)]])
+def test_a_vehicle_with_a_round_robot_drives_to_a_place_or_one_of_several_poses(vehicle: Any, goals: list[Any]) -> None:
+    walls = [[(2, -9), (3, -9), (3, -3), (2, -3)], [(2, 3), (3, 3), (3, 9), (2, 9)]]
+    scene = Scene(Curved.circle((0, 0), 1), walls, bounds=(-9, -9, 12, 9))
+    path = cfree.plan(scene, (0, 0, 0), goals, vehicle=vehicle, improve=0)
+    assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+
+
+def test_many_paths_of_a_robot_too_thin_for_a_polygon_inside_are_kept() -> None:
+    low, high = (Arc((1, 0), through=("1/2", "-10001/100000")), Arc((0, 0), through=("1/2", "-10000/100000")))
+    scene = Scene(Curved([(0, 0), low, high]), [[(4, -9), (5, -9), (5, 9), (4, 9)]], bounds=(-9, -9, 9, 9))
+    [path] = cfree.plan_many(scene, [((0, 0, 0), (2, 2, 0))])
+    assert isinstance(path, cfree.Path)

@@ -144,9 +144,9 @@ bool run_alike(const RoundEdge& a, const RoundEdge& b) {
     return a.turn == 0 ? dot(a.end - a.start, b.end - b.start).sign() > 0 : a.turn == b.turn;
 }
 
-Spot spot_of(const Vec<Int>& p) { return {p.x, p.y, 1}; }
+HomogeneousPoint spot_of(const Vec<Int>& p) { return {p.x, p.y, 1}; }
 
-bool is_inside(const PlacedShape& b, const RoundEdge& a, const Spot& spot) {
+bool is_inside(const PlacedShape& b, const RoundEdge& a, const HomogeneousPoint& spot) {
     Index met = 0;
     const auto turns = turns_about(b, 0, static_cast<Index>(b.curves.size()), spot, &met);
     if (!turns) return run_alike(a, b.curves[static_cast<std::size_t>(met)]);
@@ -189,7 +189,7 @@ int shift_for(const std::vector<RoundEdge>& a, const std::vector<RoundEdge>& b) 
     return bits;
 }
 
-std::optional<int> turns_about(const PlacedShape& shape, Index first, Index last, const Spot& spot, Index* met) {
+std::optional<int> turns_about(const PlacedShape& shape, Index first, Index last, const HomogeneousPoint& spot, Index* met) {
     const int shift = shape.shift + bits_of(spot.w);
     const double scale = ball(spot.w, bits_of(spot.w)).hi;
     const double x = ball(spot.x, shift).hi / scale, y = ball(spot.y, shift).hi / scale;
@@ -228,7 +228,7 @@ std::optional<int> turns_about(const PlacedShape& shape, Index first, Index last
 
 Ratio last_parameter(const RoundEdge& curve) { return curve.turn == 0 ? one : parameter_of(curve, curve.end); }
 
-Spot point_at(const RoundEdge& curve, const Ratio& s) {
+HomogeneousPoint point_at(const RoundEdge& curve, const Ratio& s) {
     if (curve.turn == 0) {
         const Vec<Int> e = curve.end - curve.start;
         return {curve.start.x * s.d + e.x * s.n, curve.start.y * s.d + e.y * s.n, s.d};

@@ -6,7 +6,7 @@
 namespace cfree {
 
 // A point (x / w, y / w), w > 0.
-struct Spot {
+struct HomogeneousPoint {
     Int x, y, w;
 };
 
@@ -23,11 +23,11 @@ struct PlacedShape {
 int shift_for(const std::vector<RoundEdge>& a, const std::vector<RoundEdge>& b);
 
 // Turns of some of the curves about a point; nothing if one of them goes through it, which is then `met`.
-std::optional<int> turns_about(const PlacedShape& shape, Index first, Index last, const Spot& spot, Index* met = nullptr);
+std::optional<int> turns_about(const PlacedShape& shape, Index first, Index last, const HomogeneousPoint& spot, Index* met = nullptr);
 
 // Last parameter of a curve, and its point at another: a share of a segment; at s an arc has turned by 2 arctan(s).
 Ratio last_parameter(const RoundEdge& curve);
-Spot point_at(const RoundEdge& curve, const Ratio& parameter);
+HomogeneousPoint point_at(const RoundEdge& curve, const Ratio& parameter);
 
 // A common denominator of two shapes, and the factors of their integers.
 struct CommonScale {

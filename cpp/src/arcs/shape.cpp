@@ -22,12 +22,12 @@ int direction_of(const std::vector<RoundEdge>& ring) {
     const PlacedShape placed(shape, ring, shift_for(ring, {}));
     for (unsigned k = 1; k < finest; k += 1 + k / 4)
         for (const RoundEdge& curve : ring) {
-            const Spot m = point_at(curve, last_parameter(curve) * Ratio{1, 2});
+            const HomogeneousPoint m = point_at(curve, last_parameter(curve) * Ratio{1, 2});
             // towards the center, or across the segment
             const Vec<Int> d = curve.turn == 0 ? Vec<Int>{(curve.start.y - curve.end.y) * m.w, (curve.end.x - curve.start.x) * m.w}
                                                : Vec<Int>{curve.center.x * m.w - m.x, curve.center.y * m.w - m.y};
             for (const int side : {1, -1}) {
-                const Spot spot{(m.x << k) + side * d.x, (m.y << k) + side * d.y, m.w << k};
+                const HomogeneousPoint spot{(m.x << k) + side * d.x, (m.y << k) + side * d.y, m.w << k};
                 if (const auto turns = turns_about(placed, 0, shape.ring[1], spot); turns && *turns != 0) return *turns > 0 ? 1 : -1;
             }
         }

@@ -456,9 +456,10 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
     };
     std::vector<Placed> placed;
     for (const Crossing& c : crossings) {
-        for (const Feature& seam : seams) {
-            const int sign = sign_of(c.curve, seam, at);
-            out.watched.push_back({c.curve, seam, sign, sign == 0});
+        for (const Feature& seam : seams) {  // of both branches
+            const Feature other = with_branch(c.curve, 0);
+            const int sign = sign_of(other, seam, at);
+            out.watched.push_back({other, seam, sign, sign == 0});
         }
         const int ahead = orders.coordinate_sign(c.curve, 0, tau), back = orders.coordinate_sign(c.curve, 1, tau);
         placed.push_back({c, ahead >= 0 ? (back <= 0 ? 0 : 1) : (back > 0 ? 2 : 3)});

@@ -12,7 +12,6 @@ namespace {
 constexpr int degree = 4;  // degree of slides
 
 bool touches(const Scene& scene, const Feature& contact) {
-    const auto kind = contact.kind;
     const Index i = contact.robot, j = contact.obstacle;
     const Shape &A = scene.robot, &O = scene.obstacles;
     if (i >= A.ring_vertices || j >= O.ring_vertices) return false;

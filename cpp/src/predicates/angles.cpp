@@ -155,7 +155,7 @@ bool Predicates::same_polynomial(const Event& x, const Event& y) {
     const auto same = [&](const Feature& p, const Feature& q) { return same_feature(scene, p, q); };
     if (same(x.first, y.first) && same(x.second, y.second)) return true;
     if (x.second.kind != Kind::none) return same(x.first, y.second) && same(x.second, y.first);
-    if (x.first.kind != Kind::vertex_vertex || y.first.kind != Kind::vertex_vertex || y.second.kind != Kind::none)
+    if (x.first.kind != Kind::vertex_vertex || y.first.kind != Kind::vertex_vertex || y.second.kind != Kind::none || scene.is_round)
         return false;
     // helices at one height above the surface's edge
     const Shape &A = scene.robot, &O = scene.obstacles;
@@ -220,7 +220,7 @@ const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
         return 4 * (static_cast<std::size_t>(f.obstacle) * 31 + static_cast<std::size_t>(f.robot)) + static_cast<std::size_t>(f.kind);
     };
     const auto same = [](const Feature& f, const Feature& g) {
-        return f.kind == g.kind && f.robot == g.robot && f.obstacle == g.obstacle;
+        return f.kind == g.kind && f.branch == g.branch && f.robot == g.robot && f.obstacle == g.obstacle;
     };
     const auto is_known = [&](const Event& y) {
         return same(x.first, y.first) && same(x.second, y.second) && x.lo == y.lo && x.hi == y.hi && x.fine == y.fine;
@@ -276,7 +276,8 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
     const auto alone = [&](const Event& z) {
         return changes_sign(z, std::min(x.lo, y.lo), std::max(x.hi, y.hi)) || is_touch_of_quadratic(z);
     };
-    if (same_polynomial(x, y) && alone(x)) return ++counters.identity, 0;
+    const bool are_narrow = x.fine < 0 && y.fine < 0;  // else there may be other roots between them
+    if (are_narrow && same_polynomial(x, y) && alone(x)) return ++counters.identity, 0;
     if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge)
         return settled(counters, [&]<class T>() { return parallel_order<T>(scene, x.first, y.first); });
     if (x.first.kind == Kind::none) return -order(y, Sample{x.lo, {}});

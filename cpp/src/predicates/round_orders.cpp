@@ -36,7 +36,8 @@ struct Between {
         // Bernstein coefficients, by the polar form
         const Bounds a = bounds(f.a), b = bounds(f.b * Ball(kappa)), c = bounds(f.c * Ball(kappa));
         const auto polar = [&](double p, double q) {
-            return a * outwards(1 + p * q, 1 + p * q) + b * outwards(1 - p * q, 1 - p * q) + c * outwards(p + q, p + q);
+            const Bounds one{1, 1}, x{p, p}, y{q, q}, product = x * y;
+            return a * (one + product) + b * (one - product) + c * (x + y);
         };
         const Bounds x = polar(lo, lo), y = polar(lo, hi), z = polar(hi, hi);
         return {std::min({x.lo, y.lo, z.lo}), std::max({x.hi, y.hi, z.hi})};
@@ -248,9 +249,7 @@ auto RoundOrders::event(const Feature& first, const Feature& second, const Ring&
 }
 
 Coefficients<Ball> RoundOrders::in_balls(const Feature& first, const Feature& second) const {
-    Coefficients<Ball> p = event<Ball>(first, second, AsBallPoly{kappa});
-    p.count += 1 - p.count % 2;  // of even degree
-    return p;
+    return event<Ball>(first, second, AsBallPoly{kappa});
 }
 SurdPoly RoundOrders::exactly(const Feature& first, const Feature& second) const {
     return event<RootSum>(first, second, AsSurdPoly{kappa});

@@ -86,7 +86,7 @@ Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, 
     for (int k = 0; k <= all.at.size(); ++k) {
         const Event &before = k == 0 ? from : all.at[k - 1], &after = k == all.at.size() ? to : all.at[k];
         int sign = 0;
-        for (int attempt = 0; sign == 0; ++attempt) {  // a sample may be where the curves touch
+        for (int attempt = 0; sign == 0; ++attempt) {
             if (attempt == most_attempts) throw std::logic_error("two different curves are equal at every sample");
             sign = sign_at_sample(between(before, after, attempt));
         }

@@ -55,9 +55,9 @@ class Decisions:
     ----------
     start, goal : Pose
     scenes : callable
-        Returns, for a number and the error of polygons in robot sizes, two scenes: a path in the first counts, and so
-        does a proof for the second. They differ only if polygons replace shapes of the robot; the second may be None.
-        None for both stands for a robot without shapes.
+        Returns, for a number and the error of polygons in robot sizes, two scenes. A path in the first one answers
+        yes, a proof for the second one no; the second may be None. They differ only if polygons replace shapes of the
+        robot. A robot without shapes has no scenes: None.
 
     Attributes
     ----------
@@ -154,7 +154,8 @@ def margin_bounds(
         return larger, larger
 
     size, decisions = max(map(size_of, scene.robot)), Decisions(start, goal, scenes)
-    joined = decisions.joined(Fraction(0))
+    while (joined := decisions.joined(Fraction(0))) is None and decisions.refine():
+        pass
     if joined is None:
         raise UndecidedError(f"start and goal: it is undecided if they are joined: {decisions.reason}")
     if not joined:
@@ -196,17 +197,24 @@ def miss_bounds(
     hi = _deepest(
         lambda by: bool(inset_shapes(scene.robot, by, size / ROUGH, outward=False)), Fraction(2) ** math.frexp(size)[1]
     )
-    nothing = apart(hi)
+    if not hi:
+        raise UndecidedError("the robot: it is so thin that no polygon is inside; give a thicker one")
+    while (nothing := apart(hi)) is None and decisions.refine():
+        pass
     if nothing is None:
         raise UndecidedError(f"start and goal: it is undecided if the smallest robot gets there: {decisions.reason}")
     if nothing:
         return None
-    lo, step, number = Fraction(0), 1, hi
-    while not lo and (number := number / 2**step) > size / 2**SMALLEST:
-        verdict, step = apart(number), step + 1
-        lo, hi = (number, hi) if verdict else (lo, number if verdict is False else hi)
+    lo = Fraction(0)
+    while not lo:
+        step, number = 1, hi
+        while not lo and (number := number / 2**step) > size / 2**SMALLEST:
+            verdict, step = apart(number), step + 1
+            lo, hi = (number, hi) if verdict else (lo, number if verdict is False else hi)
+        if not decisions.undecided or not decisions.refine():
+            break
     if lo:
-        lo, hi = between(apart, decisions, lo, hi, tolerance, progress)
+        lo, hi = _between(apart, decisions, lo, hi, tolerance, progress)
     wide = hi > lo * (1 + Fraction(tolerance))
     places = _bottlenecks(decisions, lo, hi) if lo else ()
     return float(lo), float(hi), places, decisions.reason if wide and decisions.undecided else ""
@@ -218,12 +226,12 @@ def _largest(
     """Bound the largest number for which a path exists, from a first one; a smaller robot counts as easier."""
     lo, hi = _around(decisions, first)
     if lo and hi is not None:
-        lo, hi = between(decisions.joined, decisions, lo, hi, tolerance, progress)
+        lo, hi = _between(decisions.joined, decisions, lo, hi, tolerance, progress)
     wide = hi is None or hi > lo * (1 + Fraction(tolerance))
     return float(lo), math.inf if hi is None else float(hi), decisions.reason if wide and decisions.undecided else ""
 
 
-def between(
+def _between(
     holds: Callable[[Fraction], bool | None],
     decisions: Decisions,
     lo: Fraction,
@@ -270,9 +278,9 @@ def _around(decisions: Decisions, first: Fraction) -> tuple[Fraction, Fraction |
 
 
 def _deepest(leaves: Callable[[Fraction], bool], size: Fraction) -> Fraction:
-    """Return a large inset that leaves something of a robot, within a 2**10th of the largest; never 0."""
+    """Return a large inset that leaves something of a robot, within a 2**10th of the largest; 0 if none does."""
     lo, hi = Fraction(0), size
-    while not lo or hi > lo * DEEP:
+    while (lo or hi > size / 2**SMALLEST) and hi > lo * DEEP:
         middle = (lo + hi) / 2
         lo, hi = (middle, hi) if leaves(middle) else (lo, middle)
     return lo

@@ -21,7 +21,8 @@ def inset_shapes(shapes: Sequence[AnyShape], by: Fraction, error: float, *, outw
     """Return shapes with edges and arcs moved inwards; nothing is left of those that are too thin.
 
     Discs, grown polygons, and rings whose arcs are joined smoothly or have rational corners stay round. Other round
-    shapes are replaced by polygons around them, or inside, first.
+    shapes are replaced by polygons around them, or inside, first. At concave arcs the inset of a polygon around may be
+    a little smaller than that of the shape.
 
     Examples
     --------
@@ -79,10 +80,7 @@ def _joint(one: Curve, other: Curve, by: Fraction) -> ExactPoint | None:
     p = other[0]
     n, m = _normal(one, one[1]), _normal(other, p)
     if n is None or m is None:
-        known = n or m
-        if known is None or _cross(_along(one, one[1]), _along(other, p)) != 0:
-            return None
-        n = m = known
+        return None
     if n == m:
         return p[0] + by * n[0], p[1] + by * n[1]
     if one[3] or other[3] or not _cross(n, m):

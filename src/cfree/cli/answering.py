@@ -326,10 +326,10 @@ class Answering:
             rows["goal reached"] = [x, y, theta] if for_machines else text
         if nearest_miss and self.path is None:
             rows["nearest miss"] = self._nearest_miss() if self.goal else "not of several goals; give one, with theta"
-        if what_if and self.path is None:
-            rows |= (
-                self._what_if(for_machines) if self.goal else {"what if": "not of several goals; give one, with theta"}
-            )
+        if what_if and self.path is None and self.goal:
+            rows |= self._what_if(for_machines)
+        elif what_if and self.path is None:
+            rows["what if"] = "not of several goals; give one, with theta"
         return rows
 
     def _as_read(self) -> str:
@@ -347,10 +347,10 @@ class Answering:
         either = "one of these: " * (len(obstacles) > 1)
         text = f"there is a path without {either}{all_placed(self.scene, obstacles)}"
         if not obstacles:
-            text = "no single obstacle, taken away, opens a path" + (", but for those undecided" if undecided else "")
+            text = "no path without any single obstacle" + (", except those undecided" if undecided else "")
         rows = {"what if": text}
         if undecided:
-            rows["undecided without"] = all_placed(self.scene, undecided)
+            rows["what if, undecided"] = all_placed(self.scene, undecided)
         return rows
 
     def _unwanted(self, parts: Sequence[Unwanted]) -> str:
@@ -360,8 +360,11 @@ class Answering:
     def _nearest_miss(self) -> str:
         from cfree.analysis.margins import nearest_miss
 
-        with bar("nearest miss") as progress:
-            miss = nearest_miss(self.scene, self.start, self.goal, progress=progress)
+        try:
+            with bar("nearest miss") as progress:
+                miss = nearest_miss(self.scene, self.start, self.goal, progress=progress)
+        except (ValueError, IncompleteError) as error:  # the answer stands: it may be about a vehicle or a clearance
+            return str(error)
         return str(miss) if miss is not None else "no smaller robot gets there either"
 
     def _leave_out(self, name: str, file: Path, why: str) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from shapely.affinity import affine_transform
 
 from cfree.curves.curved import Curved
-from cfree.errors import UndecidedError
+from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import AnyShape, Scene, polygons_for, shapes_of, size_of, with_polygons
@@ -126,7 +126,7 @@ class Approximations:
 
 def _polygons_for(shape: AnyShape, error: float, outward: bool) -> tuple[Polygon, ...]:
     """Return polygons for a shape, or none where none can be proved; their choice decides nothing."""
-    with suppress(UndecidedError):
+    with suppress(UndecidedError, InvalidPolygonError):  # a thin ring may have none so coarse
         return polygons_for(shape, error, outward)
     return ()
 

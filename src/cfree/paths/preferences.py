@@ -16,7 +16,7 @@ import numpy as np
 from cfree.arguments import checked
 from cfree.paths.path import Path
 from cfree.paths.stops import joints, usual_wheelbase
-from cfree.scene.scene import Scene, robot_radius
+from cfree.scene.scene import Scene, polygons_around, robot_radius
 from cfree.vehicles.vehicle import Vehicle
 
 Kind = Literal["sideways", "backward", "turning"]
@@ -135,7 +135,7 @@ def robot_length(scene: Scene, vehicle: Vehicle) -> float:
     >>> robot_length(Scene(robot=[(-1, -1), (3, -1), (3, 1), (-1, 1)]), Car(4, heading="90deg"))
     4.0
     """
-    points = np.concatenate([part.vertices for part in scene.robot])
+    points = np.concatenate([polygon.vertices for part in scene.robot for polygon in polygons_around(part)])
     extents = np.ptp(vehicle.frame.inverse().apply(points), axis=0)
     return float(extents.max())
 

@@ -164,16 +164,14 @@ def _among_discs(query: _Query, goal: Goal) -> list[Path]:
     """Return paths of the robot grown by the disc itself, to a pose or to poses at a place."""
     scene, start, options = query.scene, query.start, query.options
     true = TrueShapes(scene, Approximations(scene), options.clearance)
-    planner, paths, inner = true.planner(), list[Path](), None
-    with suppress(UndecidedError):
-        inner = planner.guide.scene
-    ends = _ends(inner, start, goal) if inner else []
-    for end in ends:
+    planner, paths = true.planner(), list[Path]()
+    inner = planner.guide.scene
+    for end in _ends(inner, start, goal):
         with suppress(UndecidedError):
             if not true.arcs.is_free(end):
                 continue
             answer: Path | Proof | None = planner.first_path(start, end, options)
-            if answer is None and inner:
+            if answer is None:
                 plain = replace(options, improve=0.0, objective="balanced", vehicle=None)
                 guide = PosePlanner(inner).path_or_proof(start, end, plain)
                 answer = planner.mended(guide, options) if isinstance(guide, Path) else None

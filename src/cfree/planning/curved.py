@@ -73,16 +73,27 @@ class CurvedPlanner:
     tolerance : float, optional
         As in `cfree.plan`.
 
-    Attributes
-    ----------
-    scene : Scene
-        The scene with round shapes; after a query, the scene of polygons in which it was answered.
     """
 
     def __init__(self, planner: Planner, tolerance: float | None = None) -> None:
-        self.scene, self._settings, self._tolerance = planner.scene, planner, tolerance
+        self._settings, self._tolerance = planner, tolerance
         self._near = Approximations(planner.scene, tolerance)
-        self._decided: Decided | None = None
+        self._last: tuple[PosePlanner | TruePlanner, Options] | None = None
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of polygons of the last answer; that of the round shapes before, and if they have none inside."""
+        with suppress(UndecidedError):
+            if decided := self._decided:
+                return decided[0].scene
+        return self._settings.scene
+
+    @property
+    def _decided(self) -> Decided | None:
+        if self._last is None:
+            return None
+        planner, options = self._last
+        return planner.guide if isinstance(planner, TruePlanner) else planner, options
 
     @property
     def preferences(self) -> Preferences:
@@ -164,10 +175,7 @@ class CurvedPlanner:
         try:
             return query.answer(ask, ends)
         finally:
-            if query.last is not None:
-                planner, options = query.last
-                planner = planner.guide if isinstance(planner, TruePlanner) else planner
-                self._decided, self.scene = (planner, options), planner.scene
+            self._last = query.last or self._last
 
 
 class CurvedQuery:

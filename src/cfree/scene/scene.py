@@ -410,8 +410,14 @@ def robot_radius(scene: Scene) -> float:
 
 @lru_cache
 def _radius(part: AnyShape) -> float:
-    polygons = polygons_for(part, size_of(part) / SIDES_OF_ROUND, True)
-    return max(math.hypot(x, y) for polygon in polygons for x, y in polygon.vertices.tolist())
+    return max(math.hypot(x, y) for polygon in polygons_around(part) for x, y in polygon.vertices.tolist())
+
+
+def polygons_around(part: AnyShape) -> Sequence[Polygon]:
+    """Return polygons whose outer rings are around a shape, a round one with few sides; holes of that are left out."""
+    if isinstance(part, Curved):
+        part = Curved(part.path, grown=part.grown)
+    return polygons_for(part, size_of(part) / SIDES_OF_ROUND, True)
 
 
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:

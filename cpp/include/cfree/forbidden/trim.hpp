@@ -159,7 +159,7 @@ protected:
             Index event;
             int which;
         };
-        Few<Cut, 16> cuts;
+        Few<Cut, 24> cuts;
         int position[4] = {0, 0, 0, 0};  // place among the signs of each order
         bool low_meets = false, high_meets = false;  // true if two lower, two upper curves meet at the last cut
         int sign(Which which) const { return orders[which].sign[position[which]]; }

@@ -42,7 +42,7 @@ Feature end_helix(const Scene& scene, const Feature& contact, int end);
 
 // The contact surface under study, in one chart.
 struct Surface {
-    Feature contact;  // vertex_edge or edge_vertex, with ring features
+    Feature contact;  // vertex_edge or edge_vertex, with ring features; where shapes are grown also a circle
     int chart = 0;    // base rotation 0 or pi
 };
 
@@ -61,12 +61,15 @@ struct Filtered {
 // A critical angle: the only root in [lo, hi] of the polynomial that its features define on the surface:
 //   none: an end of the chart (lo = hi = -1 or 1);  edge_edge: the two edges parallel;
 //   vertex_vertex alone: the helix meets the surface;  otherwise the two curves cross.
+// Where shapes are grown:  a line or circle alone: it touches the surface, on the side of its branch (round_surfaces.hpp);
+//   a line and a circle at its end: their joint is on the surface, or, with branch 2 of the circle, the foot of the surface's centre
+//   on the line is the circle's centre;  a surface and a seam: they meet.
 // If doubles cannot separate two roots, `fine` is the place of a finer interval, stored by the Predicates that found it.
 struct Event {
     Feature first, second;
     double lo, hi;
     Index fine = -1;
-    bool is_touch = false;  // the polynomial does not change sign there
+    bool is_touch = false;  // the polynomial does not change sign there; as part of an order, the order does not change
 };
 
 // A curve t(theta) = N / D on the surface, used where D > 0.
