@@ -347,7 +347,7 @@ class Answering:
         either = "one of these: " * (len(obstacles) > 1)
         text = f"there is a path without {either}{all_placed(self.scene, obstacles)}"
         if not obstacles:
-            text = "no path without any single obstacle" + (", except those undecided" if undecided else "")
+            text = "no single obstacle, taken away, opens a path" + ("; some are undecided" if undecided else "")
         rows = {"what if": text}
         if undecided:
             rows["what if, undecided"] = all_placed(self.scene, undecided)

@@ -414,9 +414,9 @@ def _radius(part: AnyShape) -> float:
 
 
 def polygons_around(part: AnyShape) -> Sequence[Polygon]:
-    """Return polygons whose outer rings are around a shape, a round one with few sides; holes of that are left out."""
-    if isinstance(part, Curved):
-        part = Curved(part.path, grown=part.grown)
+    """Return polygons whose outer rings are around a shape, with few sides if it is round; holes may be left out."""
+    if isinstance(part, Curved) and part.holes and not part.grown:
+        part = Curved(part.path)
     return polygons_for(part, size_of(part) / SIDES_OF_ROUND, True)
 
 
