@@ -251,7 +251,7 @@ def _between(
             if not decisions.refine():
                 break
             continue
-        middle = _rounded(math.sqrt(ends[0]) * math.sqrt(ends[1]))
+        middle = rounded(math.sqrt(ends[0]) * math.sqrt(ends[1]), BITS)
         verdict = holds(middle)
         lo = middle if verdict else lo
         hi = middle if verdict is False else hi
@@ -315,7 +315,7 @@ def _among(near: Approximations, place: Bottleneck) -> Bottleneck:
     return Bottleneck(place.pose, (one, other), (placed(near.exact, one), placed(near.exact, other)))
 
 
-def _rounded(value: float) -> Fraction:
+def rounded(value: float, bits: int) -> Fraction:
     """Round to a number of few bits."""
-    grid = Fraction(2) ** (math.frexp(value)[1] - BITS)
+    grid = Fraction(2) ** (math.frexp(value)[1] - bits)
     return round(Fraction(value) / grid) * grid

@@ -11,7 +11,8 @@ from cfree.collision.arcs import Curve, curves_of
 from cfree.curves.curved import Curved
 from cfree.curves.rings import Arc, Circle
 from cfree.errors import InvalidPolygonError
-from cfree.exact.number import ExactPoint, rational_root
+from cfree.exact.number import ExactPoint
+from cfree.exact.vectors import cross, dot, minus, unit
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape, polygons_for
@@ -67,8 +68,8 @@ def _moved(ring: Sequence[Curve], by: Fraction, *, is_hole: bool) -> list[ExactP
     for (start, end, center, turn), (p, q) in zip(ring, pairwise([*joints, joints[0]]), strict=True):
         if p is None or q is None:
             return None
-        inner, outer = (_minus(p, center), _minus(start, center)) if turn else (_minus(q, p), _minus(end, start))
-        if _dot(inner, outer) <= 0:
+        inner, outer = (minus(p, center), minus(start, center)) if turn else (minus(q, p), minus(end, start))
+        if dot(inner, outer) <= 0:
             return None
         path += [] if path else [p]
         path.append(Arc(q, center=center, clockwise=turn < 0) if turn else q)
@@ -83,45 +84,32 @@ def _joint(one: Curve, other: Curve, by: Fraction) -> ExactPoint | None:
         return None
     if n == m:
         return p[0] + by * n[0], p[1] + by * n[1]
-    if one[3] or other[3] or not _cross(n, m):
+    if one[3] or other[3] or not cross(n, m):
         return None
-    share = by / (1 + _dot(n, m))
+    share = by / (1 + dot(n, m))
     return p[0] + share * (n[0] + m[0]), p[1] + share * (n[1] + m[1])
 
 
 def _normal(piece: Curve, at: ExactPoint) -> ExactPoint | None:
     """Return the unit vector to the left of a piece, if it is rational."""
-    x, y = _along(piece, at)
-    length = rational_root(x * x + y * y)
-    return None if length is None else (-y / length, x / length)
+    direction = unit(_along(piece, at))
+    return direction and (-direction[1], direction[0])
 
 
 def _along(piece: Curve, at: ExactPoint) -> ExactPoint:
     """Return a tangent of a piece, in its direction."""
     start, end, center, turn = piece
-    x, y = _minus(at, center)
-    return (-turn * y, turn * x) if turn else _minus(end, start)
+    x, y = minus(at, center)
+    return (-turn * y, turn * x) if turn else minus(end, start)
 
 
 def _area(ring: Sequence[Curve]) -> float:
     """Return about twice the signed area inside a ring."""
     area = 0.0
     for start, end, center, turn in ring:
-        area += float(_cross(start, end))
+        area += float(cross(start, end))
         if turn:
-            u, v = _minus(start, center), _minus(end, center)
-            sweep = math.atan2(turn * float(_cross(u, v)), float(_dot(u, v))) % math.tau
-            area += turn * float(_dot(u, u)) * (sweep - math.sin(sweep))
+            u, v = minus(start, center), minus(end, center)
+            sweep = math.atan2(turn * float(cross(u, v)), float(dot(u, v))) % math.tau
+            area += turn * float(dot(u, u)) * (sweep - math.sin(sweep))
     return area
-
-
-def _minus(p: ExactPoint, q: ExactPoint) -> ExactPoint:
-    return p[0] - q[0], p[1] - q[1]
-
-
-def _cross(p: ExactPoint, q: ExactPoint) -> Fraction:
-    return p[0] * q[1] - p[1] * q[0]
-
-
-def _dot(p: ExactPoint, q: ExactPoint) -> Fraction:
-    return p[0] * q[0] + p[1] * q[1]

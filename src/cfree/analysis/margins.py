@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from cfree.analysis.among_rounds import margin_bounds, miss_bounds, scale_bounds
+from cfree.analysis.among_rounds import FARTHEST, Progress, margin_bounds, miss_bounds, rounded, scale_bounds
 from cfree.analysis.bottleneck import Bottleneck, bottlenecks
 from cfree.arguments import checked
 from cfree.exact.number import ExactPoint
@@ -25,10 +25,8 @@ from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, grown
 from cfree.scene.scene import Scene, required, with_robot
 
-Progress = Callable[[float], object]
 BITS = 16  # bits of the numbers that are tried
 BITS_OF_INSET = 48
-FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
 
 
 @dataclass(frozen=True, repr=False)
@@ -325,17 +323,11 @@ def _bisected(
     while hi > lo * (1 + Fraction(tolerance)):
         if progress is not None:
             progress(1 - math.log2(1 + math.log(hi / lo) / tolerance) / math.log2(1 + whole / tolerance))
-        middle = _rounded(math.sqrt(lo) * math.sqrt(hi))
+        middle = rounded(math.sqrt(lo) * math.sqrt(hi), BITS)
         lo, hi = (middle, hi) if holds(middle) else (lo, middle)
     if progress is not None:
         progress(1.0)
     return lo, hi
-
-
-def _rounded(value: float) -> Fraction:
-    """Round to a number of few bits."""
-    grid = Fraction(2) ** (math.frexp(value)[1] - BITS)
-    return round(Fraction(value) / grid) * grid
 
 
 # --- robots ---

@@ -25,6 +25,7 @@ from cfree.curves.rings import Piece, Span
 from cfree.errors import UnsupportedError
 from cfree.exact.number import ExactPoint, IntPoint, angle, rational_root
 from cfree.exact.orientation import Location, Vector, locate_in_sector
+from cfree.exact.vectors import minus
 from cfree.polygons.polygon import Polygon
 
 
@@ -284,7 +285,7 @@ def _of_ring(ring: Sequence[_Side]) -> tuple[ArcFeature | EdgeFeature, ...]:
     for k, side in enumerate(ring):
         features += _corner(ring[k - 1], side)
         if side.centre is None:
-            features.append(EdgeFeature(side.start, _minus(side.end, side.start), Fraction(0)))
+            features.append(EdgeFeature(side.start, minus(side.end, side.start), Fraction(0)))
             continue
         start, end = (_integers(normal) for normal in (side.normals if side.sense > 0 else side.normals[::-1]))
         features.append(ArcFeature(side.centre, side.signed_square, start, end, side.sweep, side.sense > 0))
@@ -328,10 +329,6 @@ def _integers(direction: ExactPoint) -> IntPoint:
     a, b = int(x * d), int(y * d)
     divisor = math.gcd(a, b)
     return a // divisor, b // divisor
-
-
-def _minus(p: ExactPoint, q: ExactPoint) -> ExactPoint:
-    return p[0] - q[0], p[1] - q[1]
 
 
 def _cross(u: Sequence[Fraction | int], v: Sequence[Fraction | int]) -> int:

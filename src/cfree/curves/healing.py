@@ -17,7 +17,8 @@ from itertools import pairwise
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Arc, Bezier, Cubic, GivenRing, Piece, Segment, Span
 from cfree.curves.tangent_chains import Chain, Tangent, tangent_chain
-from cfree.exact.number import ExactPoint, rational_root, simplest_between
+from cfree.exact.number import ExactPoint, simplest_between
+from cfree.exact.vectors import along, cross, dot, minus, unit
 
 WIDEST_CORNER = 0.01  # angle of a corner that is still taken for rounding
 CORNER_SHARE = 8  # a corner is rounding if moving its pieces' ends by this many tolerances could make it
@@ -90,7 +91,7 @@ def _continues(run: list[Piece], piece: Piece, tolerance: float) -> bool:
         return False
     first, last = arcs[0], arcs[-1]
     return (
-        _cross(first.u, first.v) * _cross(last.u, last.v) > 0
+        cross(first.u, first.v) * cross(last.u, last.v) > 0
         and _distance(first.center, last.center) <= tolerance
         and abs(math.hypot(*map(float, first.u)) - math.hypot(*map(float, last.u))) <= tolerance
         and sum(arc.sweep for arc in arcs) <= math.pi + WIDEST_CORNER
@@ -128,7 +129,7 @@ def _movable(pieces: Sequence[Piece], smooth: set[int]) -> set[int]:
             for k in range(count)
             if isinstance(pieces[k], Line)
             and {k, (k + 1) % count} & smooth
-            and _exact_unit(_vector(pieces[k])) is None
+            and unit(_vector(pieces[k])) is None
             and any(j % count not in arcs and not isinstance(pieces[j % count], Line) for j in (k - 1, k + 1))
         }
         if not stuck:
@@ -147,7 +148,7 @@ def _places(
         for k, piece in enumerate(pieces)
         if isinstance(piece, Line)
     }
-    moved = {k for k in lines if _exact_unit(_vector(pieces[k])) is None}
+    moved = {k for k in lines if unit(_vector(pieces[k])) is None}
     ends: dict[int, ExactPoint] = {}
     centers: dict[int, ExactPoint] = {}
     bad: set[int] = set()
@@ -161,7 +162,7 @@ def _places(
     for k in range(count):
         j = (k + 1) % count
         if not {k, j} & arcs and {k, j} & moved:
-            if _cross(on[k][1], on[j][1]):
+            if cross(on[k][1], on[j][1]):
                 ends[k] = _meeting(on[k], on[j])
             else:
                 bad |= {k, j} & moved
@@ -202,7 +203,7 @@ def _chained(
     for k, joint in enumerate(joints):
         line = before if k == 0 else after if k == len(spans) else None
         if line:
-            joints[k] = _along(line[0], _dot(_minus(joint, line[0]), line[1]) / _dot(line[1], line[1]), line[1])
+            joints[k] = along(line[0], dot(minus(joint, line[0]), line[1]) / dot(line[1], line[1]), line[1])
         if line and (first if k == 0 else last) in smooth:
             normals.append((-line[1][1], line[1][0]))
         elif 0 < k < len(spans) or is_closed:
@@ -216,7 +217,7 @@ def _chained(
     if _is_tangent(spans, before if normals[0] else None, after if normals[-1] else None, is_closed=is_closed):
         return [_start(spans[0]), *(arc.end for arc in spans)], [arc.center for arc in spans]
     place = tangent_chain(Chain((*joints,), (*normals,)), Fraction(tolerance) / CHOICE_SHARE)
-    if place and all(_dot(arc.u, _minus(p, c)) > 0 for arc, p, c in zip(spans, *place, strict=False)):
+    if place and all(dot(arc.u, minus(p, c)) > 0 for arc, p, c in zip(spans, *place, strict=False)):
         return place
     return None  # a center is on the other side
 
@@ -231,8 +232,8 @@ def _is_tangent(
     """True if a chain of arcs is exactly tangent, also to lines before and after it."""
     follow = [*pairwise(arcs), *([(arcs[-1], arcs[0])] if is_closed else [])]
     touching = [(_start(arcs[0]), arcs[0], before), (arcs[-1].end, arcs[-1], after)]
-    return all(not _cross(_minus(one.end, one.center), _minus(one.end, other.center)) for one, other in follow) and all(
-        not (line and (_cross(_minus(p, line[0]), line[1]) or _dot(_minus(p, arc.center), line[1])))
+    return all(not cross(minus(one.end, one.center), minus(one.end, other.center)) for one, other in follow) and all(
+        not (line and (cross(minus(p, line[0]), line[1]) or dot(minus(p, arc.center), line[1])))
         for p, arc, line in touching
     )
 
@@ -246,7 +247,7 @@ def _entering(arc: Span) -> tuple[float, float]:
 
 def _leaving(arc: Span) -> tuple[float, float]:
     """Return the unit vector in which an arc ends."""
-    x, y = _float(_minus(arc.end, arc.center))
+    x, y = _float(minus(arc.end, arc.center))
     length = math.hypot(x, y) * arc.sense
     return -y / length, x / length
 
@@ -264,8 +265,8 @@ def _changes(
         start, end = ends.get(k - 1 if k else len(pieces) - 1, before), ends.get(k, after)
         moves = [_distance(start, before), _distance(end, after)]
         if k in centers and isinstance(piece, Span):
-            middle = _middle(piece.center, before, after, _cross(piece.u, piece.v) > 0)
-            moves.append(math.dist(middle, _middle(centers[k], start, end, _cross(piece.u, piece.v) > 0)))
+            middle = _middle(piece.center, before, after, cross(piece.u, piece.v) > 0)
+            moves.append(math.dist(middle, _middle(centers[k], start, end, cross(piece.u, piece.v) > 0)))
         if k in centers or any(moves):
             # doubles hide moves of less than a rounding; that of the center is about the same
             least = _distance(centers[k], piece.center) if k in centers and isinstance(piece, Span) else 0.0
@@ -279,7 +280,7 @@ def _is_new(arc: Piece, center: ExactPoint, end: ExactPoint) -> bool:
 
 def _middle(center: ExactPoint, start: ExactPoint, end: ExactPoint, left: bool) -> tuple[float, float]:
     """Return the middle of an arc of about half a turn or less, relative to the origin, in doubles."""
-    (x, y), (p, q) = _float(_minus(start, center)), _float(_minus(end, center))
+    (x, y), (p, q) = _float(minus(start, center)), _float(minus(end, center))
     sign = 1.0 if left else -1.0
     turn = math.atan2(sign * (x * q - y * p), x * p + y * q) % math.tau / 2
     c, s = math.cos(turn), sign * math.sin(turn)
@@ -296,7 +297,7 @@ def _path(
     for k, run in enumerate(runs):
         end, arc = ends.get(k, _end(run[-1])), pieces[k]
         if k in centers and isinstance(arc, Span):
-            path.append(Arc(end, center=centers[k], clockwise=_cross(arc.u, arc.v) < 0))
+            path.append(Arc(end, center=centers[k], clockwise=cross(arc.u, arc.v) < 0))
         elif isinstance(arc, Line):
             path.append(end)
         else:
@@ -308,7 +309,7 @@ def _segment(piece: Piece) -> Segment:
     if isinstance(piece, Cubic):
         return Bezier(piece.points[1:])
     assert isinstance(piece, Span)
-    return Arc(piece.end, center=piece.center, conjugate=piece.v, clockwise=_cross(piece.u, piece.v) < 0)
+    return Arc(piece.end, center=piece.center, conjugate=piece.v, clockwise=cross(piece.u, piece.v) < 0)
 
 
 def _is_smooth(pieces: Sequence[Piece], k: int, tolerance: float) -> bool:
@@ -337,24 +338,24 @@ def _tangent_arc(
     """Return start, end and center of an arc that is tangent to two lines with rational unit directions."""
     (a, d), (b, e) = before, after
     touching = ((_start(arc), a, d), (arc.end, b, e))
-    if not any(_cross(_minus(p, q), v) or _dot(_minus(p, arc.center), v) for p, q, v in touching):
+    if not any(cross(minus(p, q), v) or dot(minus(p, arc.center), v) for p, q, v in touching):
         return _start(arc), arc.end, arc.center
-    turn = 1 if _cross(arc.u, arc.v) > 0 else -1
+    turn = 1 if cross(arc.u, arc.v) > 0 else -1
     inward = (-turn * d[1], turn * d[0])
-    sine, cosine = turn * _cross(d, e), _dot(d, e)
+    sine, cosine = turn * cross(d, e), dot(d, e)
     if sine == 0:
-        start = _along(a, _dot(_minus(_start(arc), a), d), d)
-        radius = _dot(_minus(b, a), inward) / 2
+        start = along(a, dot(minus(_start(arc), a), d), d)
+        radius = dot(minus(b, a), inward) / 2
         if cosine > 0 or radius <= 0:
             return None
-        return start, _along(start, 2 * radius, inward), _along(start, radius, inward)
+        return start, along(start, 2 * radius, inward), along(start, radius, inward)
     if sine < 0:
         return None
     corner = _meeting(before, after)
     radius = _radius(arc, corner, (1 + cosine) / sine)
     length = radius * sine / (1 + cosine)
-    start = _along(corner, -length, d)
-    return start, _along(corner, length, e), _along(start, radius, inward)
+    start = along(corner, -length, d)
+    return start, along(corner, length, e), along(start, radius, inward)
 
 
 def _radius(arc: Span, corner: ExactPoint, ratio: Fraction) -> Fraction:
@@ -362,7 +363,7 @@ def _radius(arc: Span, corner: ExactPoint, ratio: Fraction) -> Fraction:
 
     The ends of a tangent arc are a radius divided by `ratio` away from the corner of its lines.
     """
-    radii = [Fraction(math.sqrt(_dot(arc.u, arc.u)))]
+    radii = [Fraction(math.sqrt(dot(arc.u, arc.u)))]
     radii += [Fraction(_distance(p, corner)) * ratio for p in (_start(arc), arc.end)]
     spread = min(2 * (max(radii) - min(radii)) + radii[0] * ROUNDING, radii[0] * Fraction(WIDEST_CORNER))
     return simplest_between(min(radii) - spread, max(radii) + spread)
@@ -372,8 +373,8 @@ def _line(piece: Piece, tolerance: float) -> tuple[ExactPoint, ExactPoint]:
     """Return a point of a line, and a rational unit vector along it, or nearly so."""
     assert isinstance(piece, Line)
     x, y = _vector(piece)
-    if (unit := _exact_unit((x, y))) is not None:
-        return piece.start, unit
+    if (direction := unit((x, y))) is not None:
+        return piece.start, direction
     by = Fraction(tolerance) / Fraction(math.hypot(x, y)) / CHOICE_SHARE
     (p, q), (r, s) = piece.start, piece.end
     return ((p + r) / 2, (q + s) / 2), _unit_near(x, y, by)
@@ -392,14 +393,9 @@ def _unit_near(x: Fraction, y: Fraction, by: Fraction) -> ExactPoint:
     return x, y
 
 
-def _exact_unit(vector: ExactPoint) -> ExactPoint | None:
-    length = rational_root(_dot(vector, vector))
-    return (vector[0] / length, vector[1] / length) if length else None
-
-
 def _meeting(one: tuple[ExactPoint, ExactPoint], other: tuple[ExactPoint, ExactPoint]) -> ExactPoint:
     (a, d), (b, e) = one, other
-    return _along(a, _cross(_minus(b, a), e) / _cross(d, e), d)
+    return along(a, cross(minus(b, a), e) / cross(d, e), d)
 
 
 def _start(arc: Span) -> ExactPoint:
@@ -412,28 +408,12 @@ def _end(piece: Piece) -> ExactPoint:
 
 def _vector(piece: Piece) -> ExactPoint:
     assert isinstance(piece, Line)
-    return _minus(piece.end, piece.start)
+    return minus(piece.end, piece.start)
 
 
 def _distance(a: ExactPoint, b: ExactPoint) -> float:
-    return math.hypot(*_float(_minus(a, b)))
+    return math.hypot(*_float(minus(a, b)))
 
 
 def _float(vector: ExactPoint) -> tuple[float, float]:
     return float(vector[0]), float(vector[1])
-
-
-def _minus(a: ExactPoint, b: ExactPoint) -> ExactPoint:
-    return a[0] - b[0], a[1] - b[1]
-
-
-def _along(a: ExactPoint, t: Fraction, d: ExactPoint) -> ExactPoint:
-    return a[0] + t * d[0], a[1] + t * d[1]
-
-
-def _cross(a: ExactPoint, b: ExactPoint) -> Fraction:
-    return a[0] * b[1] - a[1] * b[0]
-
-
-def _dot(a: ExactPoint, b: ExactPoint) -> Fraction:
-    return a[0] * b[0] + a[1] * b[1]

@@ -13,6 +13,7 @@ from fractions import Fraction
 from itertools import combinations, pairwise
 
 from cfree.exact.number import ExactPoint, simplest_between
+from cfree.exact.vectors import along, cross, dot, minus
 
 
 @dataclass(frozen=True)
@@ -49,30 +50,30 @@ def tangent_chain(chain: Chain, rounding: Fraction) -> Tangent | None:
         return _to_corners(chain, rounding)
     if chain.is_closed and len(joints) == 3:  # two arcs of one circle
         radius = _radius_to(joints[0], normals[0], joints[1])
-        return None if radius is None else ([*joints], [_along(joints[0], radius, normals[0])] * 2)
-    steps, radii, place = [_minus(n, m) for n, m in pairwise(normals)], list[Fraction](), joints[0]
+        return None if radius is None else ([*joints], [along(joints[0], radius, normals[0])] * 2)
+    steps, radii, place = [minus(n, m) for n, m in pairwise(normals)], list[Fraction](), joints[0]
     for target, step in zip(joints[1:], steps, strict=True):
         radius = _radius(place, target, step, rounding)
         if radius is None:
             return None
         radii.append(radius)
-        place = _along(place, radius, step)
+        place = along(place, radius, step)
     ways = [*steps] if chain.is_closed else [*steps, _turned(normals[0]), _turned(normals[-1])]
-    gap = _minus(joints[-1], place)
-    i, j = max(combinations(range(len(ways)), 2), key=lambda pair: abs(_cross(ways[pair[0]], ways[pair[1]])))
-    across = _cross(ways[i], ways[j])
+    gap = minus(joints[-1], place)
+    i, j = max(combinations(range(len(ways)), 2), key=lambda pair: abs(cross(ways[pair[0]], ways[pair[1]])))
+    across = cross(ways[i], ways[j])
     if not across:
         return None
     start = joints[0]
-    for k, share in ((i, _cross(gap, ways[j]) / across), (j, _cross(ways[i], gap) / across)):
+    for k, share in ((i, cross(gap, ways[j]) / across), (j, cross(ways[i], gap) / across)):
         if k < len(steps):
             radii[k] += share
         elif k == len(steps):
-            start = _along(start, share, ways[k])
+            start = along(start, share, ways[k])
     places = [start]
     for radius, step in zip(radii, steps, strict=True):
-        places.append(_along(places[-1], radius, step))
-    return places, [_along(p, r, n) for p, r, n in zip(places, radii, normals, strict=False)]
+        places.append(along(places[-1], radius, step))
+    return places, [along(p, r, n) for p, r, n in zip(places, radii, normals, strict=False)]
 
 
 def _to_corners(chain: Chain, rounding: Fraction) -> Tangent | None:
@@ -87,12 +88,12 @@ def _to_corners(chain: Chain, rounding: Fraction) -> Tangent | None:
     places, centers = [joints[0]], list[ExactPoint]()
     for target, n, m in zip(joints[1:], normals, normals[1:], strict=False):
         assert n is not None
-        place, step = places[-1], None if m is None else _minus(n, m)
+        place, step = places[-1], None if m is None else minus(n, m)
         radius = _radius_to(place, n, target) if step is None else _radius(place, target, step, rounding)
         if radius is None:
             return None
-        centers.append(_along(place, radius, n))
-        places.append(target if step is None else _along(place, radius, step))
+        centers.append(along(place, radius, n))
+        places.append(target if step is None else along(place, radius, step))
     return places, centers
 
 
@@ -106,35 +107,19 @@ def _opposite(n: ExactPoint | None) -> ExactPoint | None:
 
 def _radius(start: ExactPoint, target: ExactPoint, step: ExactPoint, rounding: Fraction) -> Fraction | None:
     """Return the simplest radius about the one by which the end, start + radius step, is nearest to a target."""
-    square = _dot(step, step)
+    square = dot(step, step)
     if not square:
         return None
-    best = _dot(_minus(target, start), step) / square
+    best = dot(minus(target, start), step) / square
     return simplest_between(best - rounding, best + rounding) or None
 
 
 def _radius_to(start: ExactPoint, n: ExactPoint, end: ExactPoint) -> Fraction | None:
     """Return the radius of the arc that begins with the normal n and ends at a point."""
-    chord = _minus(end, start)
-    across = 2 * _dot(n, chord)
-    return _dot(chord, chord) / across if across else None
+    chord = minus(end, start)
+    across = 2 * dot(n, chord)
+    return dot(chord, chord) / across if across else None
 
 
 def _turned(n: ExactPoint) -> ExactPoint:
     return n[1], -n[0]
-
-
-def _along(p: ExactPoint, t: Fraction, d: ExactPoint) -> ExactPoint:
-    return p[0] + t * d[0], p[1] + t * d[1]
-
-
-def _minus(p: ExactPoint, q: ExactPoint) -> ExactPoint:
-    return p[0] - q[0], p[1] - q[1]
-
-
-def _cross(p: ExactPoint, q: ExactPoint) -> Fraction:
-    return p[0] * q[1] - p[1] * q[0]
-
-
-def _dot(p: ExactPoint, q: ExactPoint) -> Fraction:
-    return p[0] * q[0] + p[1] * q[1]

@@ -26,6 +26,7 @@ from typing import TypeVar
 from cfree.arguments import checked
 from cfree.contact.contact import EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
 from cfree.exact.number import ExactPoint
+from cfree.exact.vectors import dot
 from cfree.polygons.polygon import Polygon
 
 Key = tuple[object, ...]
@@ -130,7 +131,7 @@ def _patch_key(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVert
     # 2 beta: from the product of both edges, reversed, to the square of a_i, all as complex numbers
     i, a = contact.i, robot.exact_vertices[contact.i]
     u, v = robot.exact_edge(i), robot.exact_edge(int(robot.previous[i]))
-    return *key, _signed_square(-_dot(_product(a, a), _product(u, v)), _square(u) * _square(v))
+    return *key, _signed_square(-dot(_product(a, a), _product(u, v)), _square(u) * _square(v))
 
 
 def _width_key(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex | VertexVertex) -> Key:
@@ -147,11 +148,7 @@ def _signed_square(value: Fraction, squares: Fraction) -> Fraction:
 
 
 def _square(u: ExactPoint) -> Fraction:
-    return _dot(u, u)
-
-
-def _dot(u: ExactPoint, v: ExactPoint) -> Fraction:
-    return u[0] * v[0] + u[1] * v[1]
+    return dot(u, u)
 
 
 def _product(u: ExactPoint, v: ExactPoint) -> ExactPoint:

@@ -1,0 +1,33 @@
+"""Exact vectors of the plane: differences, products, unit vectors."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from cfree.exact.number import ExactPoint, rational_root
+
+
+def minus(p: ExactPoint, q: ExactPoint) -> ExactPoint:
+    """Return the vector to a point from another one."""
+    return p[0] - q[0], p[1] - q[1]
+
+
+def along(p: ExactPoint, t: Fraction, d: ExactPoint) -> ExactPoint:
+    """Return p + t d."""
+    return p[0] + t * d[0], p[1] + t * d[1]
+
+
+def cross(u: ExactPoint, v: ExactPoint) -> Fraction:
+    """Return the cross product, positive if `v` is to the left of `u`."""
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def dot(u: ExactPoint, v: ExactPoint) -> Fraction:
+    """Return the scalar product."""
+    return u[0] * v[0] + u[1] * v[1]
+
+
+def unit(v: ExactPoint) -> ExactPoint | None:
+    """Return the unit vector in a direction, None if it is irrational or the vector is zero."""
+    length = rational_root(dot(v, v))
+    return (v[0] / length, v[1] / length) if length else None
