@@ -238,35 +238,44 @@ int RoundTrimmer::cross_with_line(const Feature& line, const Sample& at) {
     return on_edge ? sign : -sign;
 }
 
+std::vector<int> RoundTrimmer::joint_signs(const Pillar& pillar, const Sample& at) {
+    std::vector<int> signs;
+    for (int k = 0; k < 2 * pillar.count(); ++k) signs.push_back(joint_sign(pillar, k, at));
+    return signs;
+}
+
+// Curves by which the surface enters and leaves, each between a joint on one side and the next one on the other: it enters after
+// a joint of the sign `before`. Nothing if no joint is on one of the sides.
+std::optional<std::array<Feature, 2>> RoundTrimmer::crossed_once(const Pillar& pillar, const std::vector<int>& sign, int before,
+                                                                 Cover& out) const {
+    for (const int side : {1, -1})
+        if (std::count(sign.begin(), sign.end(), side) == 0) return {};
+    const auto of = [&](int k) { return sign[static_cast<std::size_t>(k) % sign.size()]; };
+    std::array<Feature, 2> curves_of_band;
+    for (const int branch : {-1, 1}) {
+        const int side = -branch * before;
+        int k = 0;
+        while (of(k) != side) ++k;
+        while (of(k + 1) != -side) ++k;
+        curves_of_band[branch < 0 ? 0 : 1] = feature_after(pillar, k, branch);
+        watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
+        watch_edge(pillar.edge(joint(pillar, k).edge), out), watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
+    }
+    return curves_of_band;
+}
+
 // Counter-clockwise around the pillar, the line enters where joints on its left are followed by one on its right, and leaves
 // where they come back. If no joint is on one side, an arc may still be.
 RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at) {
     Cover out;
     const Feature& x = surface.contact;
-    const int n = 2 * pillar.count();
-    std::vector<int> sign(static_cast<std::size_t>(n));
-    bool left = false, right = false;
-    for (int k = 0; k < n; ++k) {
-        const int s = sign[static_cast<std::size_t>(k)] = joint_sign(pillar, k, at);
-        left |= s > 0, right |= s < 0;
-    }
-    const auto of = [&](int k) { return sign[static_cast<std::size_t>(k % n)]; };
-    if (left && right) {
-        Feature ends_of_band[2];
-        for (const int side : {1, -1}) {  // down: the line enters; up: it leaves
-            int k = 0;
-            while (of(k) != side) ++k;
-            while (of(k + 1) != -side) ++k;
-            ends_of_band[side > 0 ? 0 : 1] = feature_after(pillar, k % n, -side);
-            watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
-            watch_edge(pillar.edge(joint(pillar, k).edge), out), watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
-        }
-        out.bands.push_back({ends_of_band[0], ends_of_band[1]});
+    const std::vector<int> sign = joint_signs(pillar, at);
+    if (const auto curves_of_band = crossed_once(pillar, sign, 1, out)) {
+        out.bands.push_back(*curves_of_band);
         return out;
     }
     // the arc farthest on the side where no joint is
-    const int side = left ? -1 : 1;
-    const int count = pillar.count();
+    const int side = std::count(sign.begin(), sign.end(), 1) > 0 ? -1 : 1, count = pillar.count();
     int far = 0;
     for (int k = 0; k < count; ++k) {
         const int before = side * cross_with_line(pillar.edge(k - 1).line, at);
@@ -309,32 +318,17 @@ int RoundTrimmer::foot_sign(const Pillar& pillar, int edge, int arc, const Sampl
 RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& at) {
     Cover out;
     const Feature& x = surface.contact;
-    const int count = pillar.count(), n = 2 * count;
+    const int count = pillar.count();
     for (int k = 0; k < count; ++k)  // the circle is one of its own: all but that arc is inside
         if (code(scene, with_branch(pillar.circle(k), x.branch)) == code(scene, x)) {
             watch_arc(pillar, k, out);
             clip({{with_branch(pillar.edge(k).line, 0), true}, {with_branch(pillar.edge(k - 1).line, 0), false}}, at, out);
             return out;
         }
-    std::vector<int> sign(static_cast<std::size_t>(n));
-    bool outside = false, inside = false;
-    for (int k = 0; k < n; ++k) {
-        const int s = sign[static_cast<std::size_t>(k)] = joint_sign(pillar, k, at);
-        outside |= s > 0, inside |= s < 0;
-    }
+    const std::vector<int> sign = joint_signs(pillar, at);
     if (orders.compare_radius(pillar.circle(0)) != 0) return on_any_circle(pillar, sign, at);
-    const auto of = [&](int k) { return sign[static_cast<std::size_t>(k % n)]; };
-    if (inside && outside) {
-        Feature ends_of_band[2];
-        for (const int side : {-1, 1}) {  // -1: out of the circle, which enters; 1: into it, and it leaves
-            int k = 0;
-            while (of(k) != side) ++k;
-            while (of(k + 1) != -side) ++k;
-            ends_of_band[side < 0 ? 0 : 1] = feature_after(pillar, k % n, side);
-            watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
-            watch_edge(pillar.edge(joint(pillar, k).edge), out), watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
-        }
-        clip({{ends_of_band[0], true}, {ends_of_band[1], false}}, at, out);
+    if (const auto curves_of_band = crossed_once(pillar, sign, -1, out)) {
+        clip({{(*curves_of_band)[0], true}, {(*curves_of_band)[1], false}}, at, out);
         return out;
     }
     // nearest feature to the centre: an edge beyond which it is, between its ends; an arc in whose cone it is; or none, inside
@@ -536,8 +530,7 @@ int RoundTrimmer::order_at(Index event, Index p, Index q) {
         const Code first = code(scene, e.first), second = code(scene, e.second);
         if ((first == x.code && second == y.code) || (first == y.code && second == x.code)) return 0;
     }
-    if (orders.is_below(x.feature, y.feature, e.lo, e.hi)) return -1;
-    if (orders.is_below(y.feature, x.feature, e.lo, e.hi)) return 1;
+    if (const int sign = orders.order_on(x.feature, y.feature, e.lo, e.hi); sign != 0) return sign;
     LongRoot root = decide.long_root_of(e);
     return orders.order_at(x.feature, y.feature, root);
 }

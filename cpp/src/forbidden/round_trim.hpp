@@ -62,6 +62,8 @@ private:
     void watch_arc(const Pillar& pillar, int k, Cover& out) const;
     void watch_direction(const Feature& line, int sign, Cover& out) const;
     Feature feature_after(const Pillar& pillar, int joint, int branch) const;
+    std::vector<int> joint_signs(const Pillar& pillar, const Sample& at);
+    std::optional<std::array<Feature, 2>> crossed_once(const Pillar& pillar, const std::vector<int>& sign, int before, Cover& out) const;
     Cover on_line(const Pillar& pillar, const Sample& at);
     Cover on_circle(const Pillar& pillar, const Sample& at);
     Cover on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at);

@@ -57,6 +57,13 @@ Terms<Q> terms(Constants first, const Q& N1, const Q& D1, Constants second, cons
     return {4, N1, D2, N2, D1};
 }
 
+// Coefficients of a + b cos + c sin in tau, times 1 + tau^2.
+template <class T>
+std::array<T, 3> quadratic(const Trig<T>& f, double kappa) {
+    if (kappa > 0) return {f.a + f.b, f.c + f.c, f.a - f.b};
+    return {f.a - f.b, -(f.c + f.c), f.a + f.b};
+}
+
 // Coefficients of a quadratic.
 template <class T>
 Coefficients<T> derivative(const Coefficients<T>& p) {

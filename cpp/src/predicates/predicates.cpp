@@ -87,8 +87,8 @@ bool Predicates::turns_parallel(bool robot, Index v, Index w, Index e, double lo
 
 template <class T>
 Coefficients<T> Predicates::coefficients(const Trig<T>& f) const {
-    if (kappa > 0) return {{f.a + f.b, f.c + f.c, f.a - f.b}, 3};
-    return {{f.a - f.b, -(f.c + f.c), f.a + f.b}, 3};
+    const auto [x, y, z] = quadratic(f, kappa);
+    return {{x, y, z}, 3};
 }
 
 template <class T>

@@ -74,12 +74,6 @@ BallPoly operator*(const BallPoly& p, const BallPoly& q) {
     return result;
 }
 
-// Coefficients of a + b cos + c sin, times 1 + tau^2.
-template <class K>
-std::array<K, 3> quadratic(const Trig<K>& f, double kappa) {
-    if (kappa > 0) return {f.a + f.b, f.c + f.c, f.a - f.b};
-    return {f.a - f.b, -(f.c + f.c), f.a + f.b};
-}
 struct AsBallPoly {
     double kappa;
     BallPoly operator()(const Trig<Ball>& f) const {
@@ -162,13 +156,14 @@ std::array<double, 2> RoundOrders::range(const Feature& f, double lo, double hi)
     return found ? std::array{found->lo, found->hi} : std::array{-infinity, infinity};
 }
 
-bool RoundOrders::is_below(const Feature& p, const Feature& q, double lo, double hi) const {
+int RoundOrders::order_on(const Feature& p, const Feature& q, double lo, double hi) const {
     const Between in{lo, hi, kappa};
     for (int axis = 0; axis < (is_line(surface.contact) ? 1 : 2); ++axis) {
         const auto first = range_of(place<Ball>(p, axis, in)), second = range_of(place<Ball>(q, axis, in));
-        if (first && second && first->hi < second->lo) return true;
+        if (first && second && first->hi < second->lo) return -1;
+        if (first && second && second->hi < first->lo) return 1;
     }
-    return false;
+    return 0;
 }
 
 std::optional<int> RoundOrders::order_in_balls(const Feature& p, const Feature& q, const Ball& tau) const {
@@ -183,18 +178,20 @@ std::optional<int> RoundOrders::order_in_balls(const Feature& p, const Feature& 
     return {};
 }
 
-int RoundOrders::order_at(const Feature& p, const Feature& q, const Dyadic& tau) const {
+RoundOrders::Difference RoundOrders::difference(const Feature& p, const Feature& q) const {
     const AsSurdPoly in{kappa};
     const auto x = place<RootSum>(p, 0, in), y = place<RootSum>(q, 0, in);
-    const Radicals difference{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}};
-    return sign_at(difference, tau) * sign_at(x.c, tau) * sign_at(y.c, tau);
+    return {{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}}, x.c, y.c};
+}
+
+int RoundOrders::order_at(const Feature& p, const Feature& q, const Dyadic& tau) const {
+    const Difference d = difference(p, q);
+    return sign_at(d.value, tau) * sign_at(d.first, tau) * sign_at(d.second, tau);
 }
 
 int RoundOrders::order_at(const Feature& p, const Feature& q, LongRoot& root) const {
-    const AsSurdPoly in{kappa};
-    const auto x = place<RootSum>(p, 0, in), y = place<RootSum>(q, 0, in);
-    const Radicals difference{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}};
-    return sign_at(difference, root) * sign_at(x.c, root) * sign_at(y.c, root);
+    const Difference d = difference(p, q);
+    return sign_at(d.value, root) * sign_at(d.first, root) * sign_at(d.second, root);
 }
 
 int RoundOrders::turn(const Feature& f, const Feature& g, const Dyadic& tau) const {
@@ -213,9 +210,7 @@ int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Dyadic& t
 }
 
 bool RoundOrders::meet_at(const Feature& p, const Feature& q, LongRoot& root) const {
-    const AsSurdPoly in{kappa};
-    const auto x = place<RootSum>(p, 0, in), y = place<RootSum>(q, 0, in);
-    return sign_at(Radicals{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}}, root) == 0;
+    return sign_at(difference(p, q).value, root) == 0;
 }
 
 // On a line the circle is entered at its joint where nu . U < 0, nu the outward normal of the other line; on a circle where that
@@ -237,11 +232,8 @@ int RoundOrders::joint_branch(const Feature& line, const Feature& circle, LongRo
 template <class K, class Ring>
 auto RoundOrders::event(const Feature& first, const Feature& second, const Ring& in) const {
     const RoundSurfaces<K> of(scene);
-    if (first.kind == Kind::edge_edge) {
-        const MovingVector<K> F{edge<K>(scene.obstacles, first.obstacle), {K(0), K(0)}};
-        const MovingVector<K> G{{K(0), K(0)}, edge<K>(scene.robot, first.robot)};
-        return in(cross(F, G));
-    }
+    if (first.kind == Kind::edge_edge)
+        return in(Predicates::parallel_trig(edge<K>(scene.robot, first.robot), edge<K>(scene.obstacles, first.obstacle)));
     if (second.kind == Kind::none) return in(of.tangency(surface.contact, first, first.branch));
     if (second.branch == 2 && is_circle(second)) return in(dot(of.along(first), of.between(surface.contact, second)));  // see Event
     if (second.kind == Kind::seam) return in(of.end_of_quadrant(surface.contact, second.branch, first));

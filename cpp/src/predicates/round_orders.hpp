@@ -12,8 +12,8 @@ class RoundOrders {
 public:
     RoundOrders(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
 
-    // True if two curves are certainly in this order everywhere between two angles.
-    bool is_below(const Feature& p, const Feature& q, double lo, double hi) const;
+    // Sign of p - q if it is certainly the same everywhere between two angles, else 0.
+    int order_on(const Feature& p, const Feature& q, double lo, double hi) const;
     // Sign of the radius of the surface, a circle, minus that of another one.
     int compare_radius(const Feature& circle) const;
     // Bounds of a curve's place between two angles, or of all.
@@ -40,6 +40,12 @@ public:
     SurdPoly exactly(const Feature& first, const Feature& second) const;
 
 private:
+    // p - q is the value over the product of the two denominators.
+    struct Difference {
+        Radicals value;
+        SurdPoly first, second;
+    };
+    Difference difference(const Feature& p, const Feature& q) const;
     template <class K, class Ring>
     auto event(const Feature& first, const Feature& second, const Ring& in) const;
     template <class V>

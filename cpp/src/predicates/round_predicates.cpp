@@ -60,7 +60,7 @@ bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) con
         }
         return circle.branch == *branch && (is_line(surface.contact) || line.branch == *branch);
     }
-    if (x.fine < 0 && (orders.is_below(p, q, x.lo, x.hi) || orders.is_below(q, p, x.lo, x.hi))) return false;
+    if (x.fine < 0 && orders.order_on(p, q, x.lo, x.hi) != 0) return false;
     LongRoot root = long_root_of(x);
     return orders.meet_at(p, q, root);
 }
@@ -68,11 +68,10 @@ bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) con
 Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, const Event& from, const Event& to) {
     const RoundOrders orders(scene, surface);
     Order result;
-    for (const int sign : {-1, 1})
-        if (orders.is_below(sign < 0 ? p : q, sign < 0 ? q : p, from.lo, to.hi)) {
-            result.sign[0] = sign, result.strict = true;
-            return ++counters.filter, result;
-        }
+    if (const int sign = orders.order_on(p, q, from.lo, to.hi); sign != 0) {
+        result.sign[0] = sign, result.strict = true;
+        return ++counters.filter, result;
+    }
     const Roots all = roots({}, p, q, from, to);
     const auto sign_at_sample = [&](const Sample& at) {
         if (const auto sign = orders.order_in_balls(p, q, at.ball())) return ++counters.interval, *sign;

@@ -194,6 +194,7 @@ public:
 private:
     friend class Junction;  // the same polynomials, at critical angles
     friend class PointLocation;  // the same at rational angles
+    friend class RoundOrders;    // the same where shapes are grown
     template <class T>
     Trig<T> offset_trig(Index s, Index v) const;
     template <class T>
