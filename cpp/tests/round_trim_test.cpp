@@ -1,4 +1,5 @@
 // Trimmed patches of grown shapes: at random places live where no pillar is, by distances in long doubles.
+#include "forbidden/coincident_surfaces.hpp"
 #include "forbidden/round_trim.hpp"
 
 #include <cstdlib>
@@ -44,7 +45,8 @@ struct Counts {
 
 static void check_patch(const Scene& s, const Feature& x, int chart, const Event& from, const Event& to, Counts& counts) {
     const Shape &A = s.robot, &O = s.obstacles;
-    RoundTrimmer trimmer(s, {x, chart}, from, to);
+    const std::vector<Index> edges = CoincidentSurfaces(s, false).edges_at(x.obstacle);
+    RoundTrimmer trimmer(s, {x, chart}, from, to, edges);
     for (Index p = 0; p < A.pieces(); ++p)
         for (Index k = 0; k < O.pieces(); ++k) trimmer.cover(p, k);
     std::vector<Trapezoid> live, thin;

@@ -101,10 +101,14 @@ void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector
 
 Sample AngleTable::between(Index first, Index second, int chart) const {
     if (hi(first, chart) < lo(second, chart)) return Predicates::within(hi(first, chart), lo(second, chart));
-    RealRoot p = critical(first, chart).exact(scene), q = critical(second, chart).exact(scene);
-    while (compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
-    const Dyadic at = Dyadic::middle(p.hi, q.lo);
-    return {at.rounded_down(), at};
+    const auto middle_of = [](auto p, auto q) -> Sample {
+        while (compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+        const Dyadic at = Dyadic::middle(p.hi, q.lo);
+        return {at.rounded_down(), at};
+    };
+    const CriticalAngle x = critical(first, chart), y = critical(second, chart);
+    if (scene.is_round) return middle_of(x.exact_among_grown(scene), y.exact_among_grown(scene));
+    return middle_of(x.exact(scene), y.exact(scene));
 }
 
 }  // namespace cfree

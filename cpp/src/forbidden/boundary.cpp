@@ -141,7 +141,7 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
     gather(work.found, trapezoids), gather(work.found_thin, thin);
     tally.collect_seconds = lap();
     IsolatedParts isolated;
-    if (work.is_complete() && !task.regularized && !task.features)
+    if (work.is_complete() && !task.regularized && !task.features && !scene.is_round)  // not there yet for grown shapes
         isolated = isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
     heed_stop();
     if (!task.features) {

@@ -12,7 +12,8 @@ Range range_of(const Scene& scene, const Feature& contact, Counters& counters) {
     const Index i = contact.robot, j = contact.obstacle;
     const Event first_end{{}, {}, -1, -1}, last_end{{}, {}, 1, 1};
     const bool on_edge = contact.kind == Kind::vertex_edge;
-    if (on_edge ? A.previous[i] == i : O.previous[j] == j)  // a point touches at every orientation
+    // a circle, and a point, touch at every orientation; the cones of a circle's vertices are not heeded here
+    if (contact.kind == Kind::vertex_vertex || (on_edge ? A.previous[i] == i : O.previous[j] == j))
         return {2, {0, 1}, {first_end, first_end}, {last_end, last_end}};
     const auto start = on_edge ? Predicates::range_end(scene, i, j, true, counters)
                                : Predicates::range_end(scene, i, O.previous[j], true, counters);
@@ -42,6 +43,7 @@ std::array<Index, 2> CoincidentSurfaces::rank(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
     if (contact.kind == Kind::vertex_edge) return {A.vertex_rank[i], O.edge_rank[j]};
+    if (contact.kind == Kind::vertex_vertex) return {A.vertex_rank[i], O.vertex_rank[j]};
     return {A.edge_rank[i], O.vertex_rank[j]};
 }
 
@@ -49,23 +51,34 @@ bool CoincidentSurfaces::is_patch(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
     if (!O.emit[j] || A.layer[i] != O.layer[j]) return false;
-    return contact.kind == Kind::vertex_edge ? A.convex[i] : O.convex[j] && A.has_extent(i);
+    if (contact.kind == Kind::vertex_vertex) return A.convex[i] && O.convex[j];
+    return contact.kind == Kind::vertex_edge ? A.convex[i] && O.has_extent(j) : O.convex[j] && A.has_extent(i);
 }
 
 std::vector<Feature> CoincidentSurfaces::before(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
-    const bool on_edge = contact.kind == Kind::vertex_edge;
-    const Groups &robots = on_edge ? robot_points : robot_lines, &others = on_edge ? obstacle_lines : obstacle_points;
-    const Index r = on_edge ? A.point[contact.robot] : A.line[contact.robot];
+    const bool on_edge = contact.kind == Kind::vertex_edge, of_vertex = contact.kind != Kind::edge_vertex;
+    const Groups &robots = of_vertex ? robot_points : robot_lines, &others = on_edge ? obstacle_lines : obstacle_points;
+    const Index r = of_vertex ? A.point[contact.robot] : A.line[contact.robot];
     const Index o = on_edge ? O.line[contact.obstacle] : O.point[contact.obstacle];
     std::vector<Feature> result;
     for (Index x = robots.start[r]; x < robots.start[r + 1]; ++x)
         for (Index y = others.start[o]; y < others.start[o + 1]; ++y) {
-            const Feature other{contact.kind, robots.member[x], others.member[y]};
+            const Feature other{contact.kind, robots.member[x], others.member[y], contact.branch};
             if (is_patch(other) && rank(other) < rank(contact)) result.push_back(other);
         }
     if (regularized && on_edge) add_opposite(contact, result);
     return result;
+}
+
+std::vector<Index> CoincidentSurfaces::edges_at(Index vertex) const {
+    const Shape& O = scene.obstacles;
+    std::vector<Index> edges;
+    for (Index k = obstacle_points.start[O.point[vertex]]; k < obstacle_points.start[O.point[vertex] + 1]; ++k) {
+        const Index j = obstacle_points.member[k];
+        if (O.has_extent(j)) edges.insert(edges.end(), {O.previous[j], j});
+    }
+    return edges;
 }
 
 // True if the second edge of obstacles is on the line of the first, and runs the other way.

@@ -19,6 +19,8 @@ public:
 
     // Contacts that own the parts they share with this one: same surface, lower rank, for any order of input.
     std::vector<Feature> before(const Feature& contact) const;
+    // Edges of obstacles that begin or end in the point of a vertex.
+    std::vector<Index> edges_at(Index vertex) const;
 
 private:
     // Ring features by class.

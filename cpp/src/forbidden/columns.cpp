@@ -31,7 +31,7 @@ void Trapezoids::push_row(const Trapezoids& of, Index k) {
 
 std::uint64_t named(const Representatives& names, std::uint64_t feature) {
     Feature f = unpacked(feature);
-    const bool helix = f.kind == Kind::vertex_vertex;
+    const bool helix = f.kind == Kind::vertex_vertex || f.kind == Kind::seam;
     if (f.kind == Kind::none) return feature;
     f.robot = helix || f.kind == Kind::vertex_edge ? names.vertex(true, f.robot) : names.edge(true, f.robot);
     f.obstacle = helix || f.kind == Kind::edge_vertex ? names.vertex(false, f.obstacle) : names.edge(false, f.obstacle);

@@ -8,11 +8,25 @@ namespace cfree {
 
 CriticalAngle::Name CriticalAngle::name(const Scene& scene) const {
     if (is_chart_end()) return {0, 0, lo < 0 ? 0u : 1u};
+    if (scene.is_round) return name_among_grown(scene);
     const Code a = code(scene, first), b = code(scene, second), own = code(scene, surface.contact);
     Name names{own, a, b};
     if (first.kind == Kind::edge_edge) names = {a, 0, 0};
     else if (second.kind == Kind::none) names = {own, a, 0};
     else if (first.kind == Kind::vertex_vertex || second.kind == Kind::vertex_vertex) names = {a, b, 0};  // a helix on it
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// The polynomial of three surfaces is the same for all their branches and quadrants.
+CriticalAngle::Name CriticalAngle::name_among_grown(const Scene& scene) const {
+    if (first.kind == Kind::edge_edge) return {0, 0, code(scene, first)};
+    const auto surface_of = [&](Feature f) {
+        if (f.kind != Kind::seam) f.branch = 0;
+        return code(scene, f);
+    };
+    Name names{surface_of(surface.contact), surface_of(first), surface_of(second)};
+    if (second.kind == Kind::none) names[1] = code(scene, first);  // a touch on one side
     std::sort(names.begin(), names.end());
     return names;
 }
@@ -49,6 +63,7 @@ std::optional<CriticalAngle::Name> CriticalAngle::chord(const Scene& scene, cons
 std::optional<CriticalAngle::Name> CriticalAngle::chord(const Scene& scene) const {
     if (place != 0 || !(-1 < lo && hi < 1)) return {};
     if (first.kind == Kind::edge_edge) return Name{0, 0, code(scene, first)};
+    if (scene.is_round) return {};
     std::optional<Name> found;
     const auto look = [&](const Feature& x, const Feature& y) {
         const auto name = x.kind == Kind::vertex_vertex ? chord(scene, y, x) : chord(scene, x, y);
@@ -91,6 +106,13 @@ const RealRoot& CriticalAngle::exact(const Scene& scene) const {
     return *root;
 }
 
+LongRoot& CriticalAngle::exact_among_grown(const Scene& scene) const {
+    if (long_root) return *long_root;
+    Predicates predicates(scene, surface);
+    long_root = std::make_shared<LongRoot>(predicates.long_root_of(event(predicates)));
+    return *long_root;
+}
+
 const std::optional<Predicates::Bracket>& CriticalAngle::bracket(const Scene& scene) const {
     if (!narrow && (is_chart_end() || place != 0)) narrow.emplace();
     if (!narrow) narrow = Predicates(scene, surface).bracket({first, second, lo, hi});
@@ -105,6 +127,7 @@ void know(Junction& at, const Scene& scene, const CriticalAngle& angle) {
 int CriticalAngle::narrowing_order(const Scene& scene, CriticalAngle& other) {
     if (hi < other.lo) return -1;
     if (lo > other.hi) return 1;
+    if (scene.is_round) return compare(exact_among_grown(scene), other.exact_among_grown(scene));
     exact(scene), other.exact(scene);
     return compare(*root, *other.root);
 }
@@ -124,6 +147,7 @@ int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
         if (is_below((*p)[1], (*q)[0])) return -1;
         if (is_below((*q)[1], (*p)[0])) return 1;
     }
+    if (scene.is_round) return compare(x.exact_among_grown(scene), y.exact_among_grown(scene));
     RealRoot p = x.exact(scene), q = y.exact(scene);
     return compare(p, q);
 }

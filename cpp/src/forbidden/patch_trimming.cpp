@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include "forbidden/round_trim.hpp"
+
 namespace cfree {
 
 std::vector<Index> first_patches(const Scene& scene, const Patches& patches) {
@@ -20,10 +22,16 @@ Patches list_patches(const Scene& scene) {
     };
     for (Index j = 0; j < O.ring_vertices; ++j) {
         if (!O.emit[j]) continue;
-        for (Index i = 0; i < A.ring_vertices; ++i)
+        for (Index i = 0; O.has_extent(j) && i < A.ring_vertices; ++i)
             if (A.layer[i] == O.layer[j] && A.convex[i]) add(Kind::vertex_edge, i, j);
         for (Index i = 0; O.convex[j] && i < A.ring_vertices; ++i)
             if (A.layer[i] == O.layer[j] && A.has_extent(i)) add(Kind::edge_vertex, i, j);
+        for (Index i = 0; scene.is_round && O.convex[j] && i < A.ring_vertices; ++i)
+            if (A.layer[i] == O.layer[j] && A.convex[i] && (A.vertex_radius[i] != 0 || O.vertex_radius[j] != 0))
+                for (const int quadrant : {0, 1, 2, 3}) {
+                    add(Kind::vertex_vertex, i, j);
+                    list.kind.back() = static_cast<std::uint8_t>(list.kind.back() | quadrant << 4);
+                }
     }
     return list;
 }
@@ -65,6 +73,7 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
                          Tally& tally) const {
     const Feature contact = patches.contact(patch);
     const std::vector<Feature> before_it = owners.before(contact);
+    if (scene.is_round) return trim_round(patch, near, before_it, out, thin, tally);
     const Range range = range_of(scene, contact, tally.decisions);
     std::vector<Feature> touching;
     seams(contact, touching);
@@ -91,6 +100,36 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
             trimmer.cover(pillar.p, pillar.k, near.slices, part);
         }
         for (const Feature& helix : touching) trimmer.split(helix);
+        trimmer.finish(patch, out, thin);
+        tally.decisions += trimmer.decide.counters;
+    }
+    tally.live_patches += out.size() > before;
+}
+
+// The same among grown shapes, by all pillars near the patch.
+void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vector<Feature>& before_it, std::vector<Trapezoid>& out,
+                               std::vector<Trapezoid>& thin, Tally& tally) const {
+    const Feature contact = patches.contact(patch);
+    const Range range = range_of(scene, contact, tally.decisions);
+    const std::size_t before = out.size();
+    const std::vector<Index> edges = owners.edges_at(contact.obstacle);
+    for (int r = 0; r < range.count; ++r) {
+        RoundTrimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r], edges);
+        for (const Feature& owner : before_it) {
+            const Range shared = range_of(scene, owner, tally.decisions);
+            for (int s = 0; s < shared.count; ++s) {
+                if (shared.chart[s] != range.chart[r]) continue;
+                if (is_circle(owner)) trimmer.cede_circle(owner);
+                else trimmer.cede(owner, shared.from[s], shared.to[s]);
+            }
+        }
+        for (const Index k : near.pieces())
+            for (Index p = 0; p < scene.robot.pieces() && !trimmer.empty(); ++p) {
+                if (scene.robot.piece_layer[p] != scene.obstacles.piece_layer[k]) continue;
+                ++tally.pairs;
+                heed_stop();
+                trimmer.cover(p, k);
+            }
         trimmer.finish(patch, out, thin);
         tally.decisions += trimmer.decide.counters;
     }

@@ -26,6 +26,8 @@ public:
     void trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin, Tally& tally) const;
 
 private:
+    void trim_round(Index patch, const Shadows& near, const std::vector<Feature>& before_it, std::vector<Trapezoid>& out,
+                    std::vector<Trapezoid>& thin, Tally& tally) const;
     // Helices inside a bound's patch along which pillars may touch it, free space on both sides; theory, "The trimmed boundary".
     void seams(const Feature& contact, std::vector<Feature>& out) const;
 

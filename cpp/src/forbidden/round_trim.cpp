@@ -6,11 +6,11 @@
 
 namespace cfree {
 
-RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to)
-    : Trimmer(s, on), orders(s, on) {
+RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to, const std::vector<Index>& edges)
+    : Trimmer(s, on), orders(s, on), edges_at_centre(edges) {
     events = {from, to};
     if (is_circle(on.contact)) {
-        begin_quadrant();
+        live = in_cones(on.contact);
         return;
     }
     ends[0] = end_helix(s, on.contact, 0), ends[1] = end_helix(s, on.contact, 1);
@@ -29,12 +29,24 @@ std::array<Feature, 2> RoundTrimmer::quadrant() const {
     return {Feature{Kind::seam, x.robot, x.obstacle, x.branch}, Feature{Kind::seam, x.robot, x.obstacle, (x.branch + 1) & 3}};
 }
 
+// The same, or the joints that are in them at every angle.
+std::array<Feature, 2> RoundTrimmer::ends_of_quadrant(const Dyadic& at) const {
+    const auto seams = quadrant();
+    auto ends = seams;
+    for (const int end : {0, 1})
+        for (const Index e : edges_at_centre) {
+            const Feature joint{Kind::vertex_edge, surface.contact.robot, e};
+            if (orders.turn(seams[end], joint, at) == 0 && orders.turn(seams[1 - end], joint, at) == (end ? 1 : -1)) ends[end] = joint;
+        }
+    return ends;
+}
+
 // The directions of a quadrant in the cones of both vertices, between joints with the edges beside them and ends of the quadrant,
 // change only where two of these are parallel.
-void RoundTrimmer::begin_quadrant() {
+std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     const Shape &A = scene.robot, &O = scene.obstacles;
-    const Feature& x = surface.contact;
-    const Index i = x.robot, j = x.obstacle;
+    const Index i = contact.robot, j = contact.obstacle;
+    std::vector<Area> areas;
     const auto seams = quadrant();
     std::vector<std::array<Feature, 2>> cones;  // first and last direction
     if (O.has_extent(j)) cones.push_back({Feature{Kind::vertex_edge, i, O.previous[j]}, Feature{Kind::vertex_edge, i, j}});
@@ -62,16 +74,22 @@ void RoundTrimmer::begin_quadrant() {
             });
         };
         std::optional<Feature> limits[2];
+        const auto ends_here = ends_of_quadrant(at);
         for (const int end : {0, 1}) {  // a joint in an end of the quadrant bounds
-            if (is_inside(seams[end])) limits[end] = seams[end];
+            if (is_inside(seams[end])) limits[end] = ends_here[end];
             for (const auto& cone : cones)
                 if (is_inside(cone[end])) limits[end] = cone[end];
         }
         if (limits[0] && limits[1] && orders.turn(*limits[0], *limits[1], at) > 0)
-            live.push_back({from, to, curve_of(*limits[0], false), curve_of(*limits[1], false), 0, 1});
+            areas.push_back({from, to, curve_of(*limits[0], false), curve_of(*limits[1], false), 0, 1});
         from = to;
     }
-    for (Area& area : live) bounds(area);
+    for (Area& area : areas) bounds(area);
+    return areas;
+}
+
+void RoundTrimmer::cede_circle(const Feature& owner) {
+    for (const Area& area : in_cones(owner)) take({area, -1, -1, nullptr});
 }
 
 void RoundTrimmer::cover(Index p, Index k) {

@@ -12,10 +12,12 @@ namespace cfree {
 class RoundTrimmer final : public Trimmer {
 public:
     // The part of a patch between two angles of one chart. A quadrant starts with the parts of it that are in the cones of its
-    // two vertices.
-    RoundTrimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to);
+    // two vertices; a joint with an edge of obstacles at its centre bounds it also if it is in an end of the quadrant.
+    RoundTrimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to, const std::vector<Index>& edges_at_centre);
     // Subtract the pillar of robot piece p and obstacle piece k.
     void cover(Index p, Index k);
+    // Subtract what another pair of vertices with the same circle owns of the quadrant.
+    void cede_circle(const Feature& owner);
 
 private:
     // A pillar at a sample: arcs[k] is followed counter-clockwise by edges[k]. A point has one arc and no edge.
@@ -73,7 +75,8 @@ private:
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);
     std::array<Feature, 2> quadrant() const;
-    void begin_quadrant();
+    std::array<Feature, 2> ends_of_quadrant(const Dyadic& at) const;
+    std::vector<Area> in_cones(const Feature& contact);
     bool crosses_at(const Band& band, Index event) override;
     int order_at(Index event, Index p, Index q) override;
     double extreme(const Curve& curve, double lo, double hi, bool want_max) const override;
@@ -81,6 +84,7 @@ private:
     int sign_of(const Feature& first, const Feature& second, const Sample& at);
 
     RoundOrders orders;
+    const std::vector<Index>& edges_at_centre;
     bool is_critical = false;  // true if the sample is itself a critical angle
 };
 

@@ -21,6 +21,7 @@ public:
     // Prepare for the patches of obstacle ring vertex j and the edge from it, with the pieces near it; no two points of the
     // robot are farther apart than `reach`.
     void around(Index j, const std::vector<Index>& near, double reach);
+    const std::vector<Index>& pieces() const { return near; }
     struct Pillar {
         Index p, k;
         Index turning, still;  // places of its two pieces

@@ -105,11 +105,13 @@ RealRoot Predicates::root_of(const Event& x) const {
 
 int Predicates::place(const Event& x) const {
     if (x.fine < 0) return 0;
+    if (scene.is_round) return place_round(x);
     return Sturm(squarefree(polynomial(x.first, x.second))).roots_in(Dyadic::from(x.lo), fine[x.fine][1]);
 }
 
 Event Predicates::restored(const Event& x, int place) {
     if (place == 0) return x;
+    if (scene.is_round) return restored_round(x, place);
     const Sturm sturm(squarefree(polynomial(x.first, x.second)));
     const Dyadic first = Dyadic::from(x.lo);
     Dyadic below = first, above = Dyadic::from(x.hi);

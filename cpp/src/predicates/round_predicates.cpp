@@ -48,6 +48,27 @@ LongRoot Predicates::long_root_of(const Event& x) const {
     return roots[0].at;
 }
 
+// All roots of an event's polynomial in its interval of doubles, ends included.
+std::vector<SurdRoot> Predicates::roots_around(const Event& x) const {
+    return roots_between(RoundOrders(scene, surface).exactly(x.first, x.second), Dyadic::from(std::nextafter(x.lo, -2)),
+                         Dyadic::from(std::nextafter(x.hi, 2)));
+}
+int Predicates::place_round(const Event& x) const {
+    const auto roots = roots_around(x);
+    const auto& [lo, hi] = fine[x.fine];
+    for (std::size_t k = 0; k < roots.size(); ++k)
+        if (cfree::compare(roots[k].at.lo, hi) <= 0 && cfree::compare(lo, roots[k].at.hi) <= 0) return static_cast<int>(k) + 1;
+    throw std::logic_error("an angle is not among the roots of its polynomial");
+}
+Event Predicates::restored_round(Event x, int place) {
+    const auto roots = roots_around(x);
+    if (place > static_cast<int>(roots.size())) throw std::logic_error("an angle has a place among fewer roots");
+    const LongRoot& root = roots[static_cast<std::size_t>(place - 1)].at;
+    x.fine = static_cast<Index>(fine.size());
+    fine.push_back({root.lo, root.hi});
+    return x;
+}
+
 // True if two curves meet at a root of the polynomial of the three surfaces: if another branch does, they do not.
 bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) const {
     const RoundOrders orders(scene, surface);

@@ -8,19 +8,22 @@
 namespace cfree {
 
 struct Patches {
-    std::vector<std::uint8_t> kind;
+    std::vector<std::uint8_t> kind;  // and 16 times the quadrant of a circle
     std::vector<Index> robot, obstacle;
     std::size_t size() const { return kind.size(); }
-    Feature contact(Index k) const { return {static_cast<Kind>(kind[k]), robot[k], obstacle[k]}; }
+    Feature contact(Index k) const { return {static_cast<Kind>(kind[k] & 15), robot[k], obstacle[k], kind[k] >> 4}; }
 };
 
+// Branches and ends of quadrants take two bits: 3 is branch -1.
 inline std::uint64_t packed(const Feature& f) {
-    return static_cast<std::uint64_t>(f.kind) << 61 | static_cast<std::uint64_t>(f.robot) << 31 |
-           static_cast<std::uint64_t>(f.obstacle);
+    return static_cast<std::uint64_t>(f.kind) << 61 | static_cast<std::uint64_t>(f.branch & 3) << 59 |
+           static_cast<std::uint64_t>(f.robot) << 31 | static_cast<std::uint64_t>(f.obstacle);
 }
 inline Feature unpacked(std::uint64_t code) {
-    return {static_cast<Kind>(code >> 61), static_cast<Index>(code >> 31 & 0x3fffffff),
-            static_cast<Index>(code & 0x7fffffff)};
+    const auto kind = static_cast<Kind>(code >> 61);
+    const int bits = static_cast<int>(code >> 59 & 3);
+    return {kind, static_cast<Index>(code >> 31 & 0xfffffff), static_cast<Index>(code & 0x7fffffff),
+            bits == 3 && kind != Kind::seam ? -1 : bits};
 }
 
 // Structure of arrays; features packed.

@@ -30,6 +30,7 @@ public:
     // True if angles with one short name are proved equal. Each is the only root of one polynomial in its interval.
     static bool are_one(const Scene& scene, const ShortName& name, const std::vector<CriticalAngle>& same);
     const RealRoot& exact(const Scene& scene) const;
+    LongRoot& exact_among_grown(const Scene& scene) const;  // where shapes are grown; comparisons narrow it
     const std::optional<Predicates::Bracket>& bracket(const Scene& scene) const;
     // Sign of this angle minus another of its chart; narrows both.
     int narrowing_order(const Scene& scene, CriticalAngle& other);
@@ -39,8 +40,10 @@ public:
 private:
     std::optional<Name> chord(const Scene& scene, const Feature& x, const Feature& y) const;
     std::optional<Name> chord(const Scene& scene) const;
+    Name name_among_grown(const Scene& scene) const;
     Surface surface;
     mutable std::shared_ptr<RealRoot> root;  // computed when needed
+    mutable std::shared_ptr<LongRoot> long_root;
     mutable std::optional<std::optional<Predicates::Bracket>> narrow;
 };
 

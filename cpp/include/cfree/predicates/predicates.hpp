@@ -225,6 +225,9 @@ private:
     Order compare_round(const Feature& p, const Feature& q, const Event& from, const Event& to);
     Candidates roots_exactly_round(const Feature& first, const Feature& second, double lo, double hi);
     bool meet_at(const Feature& p, const Feature& q, const Event& x) const;
+    std::vector<SurdRoot> roots_around(const Event& x) const;
+    int place_round(const Event& x) const;
+    Event restored_round(Event x, int place);
     int sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at);
     bool is_touch_of_quadratic(const Event& x) const;
     std::optional<Coefficients<Ball>> simple(const Event& x) const;
