@@ -24,7 +24,7 @@ static int check_pairs(const Boundary& b) {
 
 static void angles_have_one_order_on_all_surfaces() {
     int trapezoids = 0, ranks = 0, alone = 0;
-    for (unsigned seed = 0; seed < 12; ++seed) {
+    for (unsigned seed = 0; seed < 4; ++seed) {
         random_numbers.seed(seed);
         const SceneFeatures made = random_scene(seed % 2 == 0);
         const SharedBoundary b = compute_boundary(made.scene);
@@ -45,7 +45,7 @@ static void shared_circles_have_one_owner() {
     const long a = 36, b = 60;
     const std::vector<std::vector<std::pair<long, long>>> frame{{{-b, -b}, {b, -b}, {a, -a}, {-a, -a}}, {{b, -b}, {b, b}, {a, a}, {a, -a}},
                                                                {{b, b}, {-b, b}, {-a, a}, {a, a}}, {{-b, b}, {-b, -b}, {-a, -a}, {-a, a}}};
-    for (const long w : {20L, 30L}) {
+    for (const long w : {20L}) {
         std::vector<Polygon> obstacles;
         for (const auto& points : frame) obstacles.push_back(polygon(points));
         const SceneFeatures made = scene_of(polygon({{-w, -12}, {w, -12}, {w, 12}, {-w, 12}}), {6, 1}, std::move(obstacles), {{0, 1}, {0, 1}, {0, 1}, {0, 1}});

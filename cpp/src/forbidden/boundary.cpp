@@ -144,7 +144,7 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
     if (work.is_complete() && !task.regularized && !task.features && !scene.is_round)  // not there yet for grown shapes
         isolated = isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
     heed_stop();
-    if (!task.features) {
+    if (!task.features && !scene.is_round) {  // a grown edge is smooth with its own end only
         use_names(scene, trapezoids.features());
         use_names(scene, isolated.parts.features());
     }

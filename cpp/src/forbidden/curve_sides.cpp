@@ -131,6 +131,11 @@ void CurveGluer::pair_around_point(Index from, Index to, const std::vector<Index
 }  // namespace
 
 std::vector<Parts> glue_curves(const Boundary& b, const Whole& whole, Around around, int threads) {
+    if (b.scene->near().is_round) {
+        std::vector<Parts> lists;
+        lists.push_back(glue_round_curves(b, whole, around));
+        return lists;
+    }
     const Trapezoids& t = b.trapezoids;
     const AngleTable& angles = b.angles();
     const std::size_t count = 2 * t.size();

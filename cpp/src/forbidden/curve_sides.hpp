@@ -6,5 +6,7 @@ namespace cfree {
 
 // Match one list after another, by any number of threads; only for whole trapezoids.
 std::vector<Parts> glue_curves(const Boundary& boundary, const Whole& whole, Around around, int threads);
+// The same where shapes are grown.
+Parts glue_round_curves(const Boundary& boundary, const Whole& whole, Around around);
 
 }  // namespace cfree

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "predicates/round_junction.hpp"
 #include "support/parallel.hpp"
 #include "support/union_find.hpp"
 
@@ -12,7 +13,8 @@ namespace cfree {
 
 namespace {
 
-// Place at which curves arrive on a line, each once; t on that line.
+// Place at which curves arrive on a line or a circle, each once; t on that line.
+template <class Spot>
 struct Place {
     Spot spot;
     Interval t;
@@ -38,7 +40,12 @@ struct Sheet {
     Interval offset;            // offset from that sheet; only for the first on a line
 };
 
+// At is Junction, or RoundJunction where shapes are grown.
+template <class At>
 class LevelGluer {
+    using Spot = typename At::Spot;
+    static constexpr bool is_round = std::is_same_v<At, RoundJunction>;
+
 public:
     LevelGluer(const Boundary& b, const Whole& w, Around a)
         : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), whole(w), around(a) {}
@@ -49,13 +56,14 @@ public:
 
 private:
     std::vector<Sheet> sheets_of(std::vector<Index>&& chosen) const;
-    void find_places(Sheet& sheet, Junction& at);
-    std::vector<std::vector<Sheet*>> parallels(std::vector<Sheet>& sheets, Junction& at) const;
+    void find_places(Sheet& sheet, At& at);
+    std::vector<std::vector<Sheet*>> parallels(std::vector<Sheet>& sheets, At& at) const;
     std::vector<std::vector<Sheet*>> lines_of(const std::vector<Sheet*>& parallel) const;
-    void glue_parallels(const std::vector<Sheet*>& sheets, Junction& at);
-    void glue_line(std::span<Sheet* const> sheets, Junction& at);
-    void number_places(const Feature& line, std::vector<Index>& on_it, Junction& at);
-    void pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q, Junction& at);
+    std::vector<std::vector<Sheet*>> circles(std::vector<Sheet>& sheets, At& at) const;
+    void glue_parallels(const std::vector<Sheet*>& sheets, At& at);
+    void glue_line(std::span<Sheet* const> sheets, At& at);
+    void number_places(const Feature& line, std::vector<Index>& on_it, At& at);
+    void pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q, At& at);
 
     const Scene& scene;
     const Patches& patches;
@@ -64,21 +72,29 @@ private:
     const Whole& whole;
     const Around around;
     std::vector<Level> levels;
-    std::vector<Place> places;
+    std::vector<Place<Spot>> places;
 };
 
-void LevelGluer::glue(Index rank, std::span<const Index> sides) {
+template <class At>
+void LevelGluer<At>::glue(Index rank, std::span<const Index> sides) {
     if (std::none_of(sides.begin(), sides.end(), [&](Index s) { return whole[s / 2]; })) return;
     const int chart = rank > angles.middle ? 1 : 0;
-    Junction at(scene, chart, angles.lo(rank, chart), angles.hi(rank, chart),
-                [&] { return angles.critical(rank, chart).exact(scene); },
-                [&] { return angles.critical(rank, chart).bracket(scene); });
+    At at = [&] {
+        const double lo = angles.lo(rank, chart), hi = angles.hi(rank, chart);
+        if constexpr (is_round)
+            return At(scene, chart, lo, hi, [&] { return angles.critical(rank, chart).exact_among_grown(scene); });
+        else
+            return At(scene, chart, lo, hi, [&] { return angles.critical(rank, chart).exact(scene); },
+                      [&] { return angles.critical(rank, chart).bracket(scene); });
+    }();
     levels.clear(), places.clear();
     for (const Index s : sides) {
         const Index k = s / 2;
         const bool is_above = s % 2 == 0;
         const Surface on = surface_of(patches, trapezoids, k);
-        know(at, scene, is_above ? angle_from(on, trapezoids, k) : angle_to(on, trapezoids, k));
+        const CriticalAngle angle = is_above ? angle_from(on, trapezoids, k) : angle_to(on, trapezoids, k);
+        if constexpr (!is_round) know(at, scene, angle);
+        else if (angle.first.kind == Kind::edge_edge) at.know_parallel(angle.first.robot, angle.first.obstacle);
         const Code low = code(scene, unpacked(trapezoids.lower[k])), high = code(scene, unpacked(trapezoids.upper[k]));
         levels.push_back({k, is_above, on.contact, low, high, 0, 0, 1, 0, 0});
     }
@@ -89,9 +105,12 @@ void LevelGluer::glue(Index rank, std::span<const Index> sides) {
     std::erase_if(sheets, [](const Sheet& s) { return s.levels.empty(); });
     std::sort(sheets.begin(), sheets.end(), [](const Sheet& x, const Sheet& y) { return x.levels[0] < y.levels[0]; });
     for (const auto& direction : parallels(sheets, at)) glue_parallels(direction, at);
+    if constexpr (is_round)
+        for (const auto& circle : circles(sheets, at)) glue_line(circle, at);
 }
 
-std::vector<Sheet> LevelGluer::sheets_of(std::vector<Index>&& chosen) const {
+template <class At>
+std::vector<Sheet> LevelGluer<At>::sheets_of(std::vector<Index>&& chosen) const {
     std::vector<std::pair<Code, Index>> by_code;
     for (const Index k : chosen) by_code.push_back({code(scene, levels[k].contact), k});
     std::sort(by_code.begin(), by_code.end());
@@ -104,38 +123,50 @@ std::vector<Sheet> LevelGluer::sheets_of(std::vector<Index>&& chosen) const {
 }
 
 // Find the ends of a sheet's levels; levels without width are left out.
-void LevelGluer::find_places(Sheet& sheet, Junction& at) {
+template <class At>
+void LevelGluer<At>::find_places(Sheet& sheet, At& at) {
     struct LevelEnd {
         Code curve;
+        bool is_above;  // of two places, where the curve jumps at this angle
         Index level;
         bool is_high;
         auto operator<=>(const LevelEnd&) const = default;
     };
+    const auto spot_of = [&](Index k, bool is_high) {
+        const Index trapezoid = levels[k].trapezoid;
+        const Feature named = unpacked((is_high ? trapezoids.upper : trapezoids.lower)[trapezoid]);
+        if constexpr (is_round) return at.spot(levels[k].contact, named, levels[k].is_above);
+        else return at.spot(levels[k].contact, named);
+    };
     std::vector<LevelEnd> ends;
-    for (const Index k : sheet.levels)
-        if (levels[k].low_code != levels[k].high_code)
-            ends.push_back({levels[k].low_code, k, false}), ends.push_back({levels[k].high_code, k, true});
+    for (const Index k : sheet.levels) {
+        if (levels[k].low_code == levels[k].high_code) continue;
+        for (const bool is_high : {false, true}) {
+            bool jumps_after = false;
+            if constexpr (is_round) jumps_after = levels[k].is_above && spot_of(k, is_high).jumps;
+            ends.push_back({is_high ? levels[k].high_code : levels[k].low_code, jumps_after, k, is_high});
+        }
+    }
     std::sort(ends.begin(), ends.end());
     for (std::size_t k = 0; k < ends.size(); ++k) {
-        const auto& [curve, of, is_high] = ends[k];
-        if (k == 0 || ends[k - 1].curve != curve) {
-            const Index trapezoid = levels[of].trapezoid;
-            const Feature named = unpacked((is_high ? trapezoids.upper : trapezoids.lower)[trapezoid]);
-            const Spot spot = at.spot(levels[of].contact, named);
+        const auto& [curve, is_above, of, is_high] = ends[k];
+        if (k == 0 || ends[k - 1].curve != curve || ends[k - 1].is_above != is_above) {
+            const Spot spot = spot_of(of, is_high);
             places.push_back({spot, at.range(sheet.contact, spot), 0});
         }
         (is_high ? levels[of].high : levels[of].low) = static_cast<Index>(places.size()) - 1;
     }
     std::erase_if(sheet.levels, [&](Index k) {
         if (levels[k].low_code == levels[k].high_code) return true;
-        const Place &low = places[levels[k].low], &high = places[levels[k].high];
+        const auto &low = places[levels[k].low], &high = places[levels[k].high];
         return !(low.t.hi < high.t.lo) && at.order(sheet.contact, low.spot, high.spot) == 0;
     });
 }
 
 // Group sheets by the direction of their lines. Sheets of one kind are parallel if their edges are. At most one direction of
 // the obstacles' edges is also that of a turned edge of the robot: halving finds it.
-std::vector<std::vector<Sheet*>> LevelGluer::parallels(std::vector<Sheet>& sheets, Junction& at) const {
+template <class At>
+std::vector<std::vector<Sheet*>> LevelGluer<At>::parallels(std::vector<Sheet>& sheets, At& at) const {
     struct Direction {
         Index number;
         std::vector<Sheet*> sheets;
@@ -188,16 +219,36 @@ std::vector<std::vector<Sheet*>> LevelGluer::parallels(std::vector<Sheet>& sheet
     return result;
 }
 
-// Parallel sheets with a helix in common are on one line.
-std::vector<std::vector<Sheet*>> LevelGluer::lines_of(const std::vector<Sheet*>& parallel) const {
-    std::vector<std::pair<Code, Index>> helices;
+// Sheets on one circle.
+template <class At>
+std::vector<std::vector<Sheet*>> LevelGluer<At>::circles(std::vector<Sheet>& sheets, At& at) const {
+    std::vector<std::vector<Sheet*>> result;
+    for (Sheet& s : sheets) {
+        if (!is_circle(s.contact)) continue;
+        const auto same = std::find_if(result.begin(), result.end(), [&](const auto& circle) { return at.are_one_circle(circle[0]->contact, s.contact); });
+        if (same != result.end()) same->push_back(&s);
+        else result.push_back({&s});
+    }
+    return result;
+}
+
+// Parallel sheets with a helix in common, on the same side of it, are on one line.
+template <class At>
+std::vector<std::vector<Sheet*>> LevelGluer<At>::lines_of(const std::vector<Sheet*>& parallel) const {
+    struct End {
+        Code helix;
+        int along;  // opposite lines are on both sides of a helix that is grown
+        Index sheet;
+        auto operator<=>(const End&) const = default;
+    };
+    std::vector<End> ends;
     for (std::size_t k = 0; k < parallel.size(); ++k)
         for (const int end : {0, 1})
-            helices.push_back({code(scene, end_helix(scene, parallel[k]->contact, end)), static_cast<Index>(k)});
-    std::sort(helices.begin(), helices.end());
+            ends.push_back({code(scene, end_helix(scene, parallel[k]->contact, end)), is_round ? parallel[k]->along : 1, static_cast<Index>(k)});
+    std::sort(ends.begin(), ends.end());
     UnionFind joined(parallel.size());
-    for (std::size_t k = 1; k < helices.size(); ++k)
-        if (helices[k - 1].first == helices[k].first) joined.unite(helices[k - 1].second, helices[k].second);
+    for (std::size_t k = 1; k < ends.size(); ++k)
+        if (ends[k - 1].helix == ends[k].helix && ends[k - 1].along == ends[k].along) joined.unite(ends[k - 1].sheet, ends[k].sheet);
     std::vector<Index> line;
     std::vector<std::vector<Sheet*>> lines(static_cast<std::size_t>(joined.number(line)));
     for (std::size_t k = 0; k < parallel.size(); ++k) lines[line[k]].push_back(parallel[k]);
@@ -205,7 +256,8 @@ std::vector<std::vector<Sheet*>> LevelGluer::lines_of(const std::vector<Sheet*>&
 }
 
 // Glue line after line, from right to left of the first.
-void LevelGluer::glue_parallels(const std::vector<Sheet*>& sheets, Junction& at) {
+template <class At>
+void LevelGluer<At>::glue_parallels(const std::vector<Sheet*>& sheets, At& at) {
     const Feature& front = sheets[0]->contact;
     for (Sheet* s : sheets) s->along = s == sheets[0] ? 1 : at.parallel(front, s->contact);
     std::vector<std::vector<Sheet*>> lines = lines_of(sheets);
@@ -224,7 +276,8 @@ void LevelGluer::glue_parallels(const std::vector<Sheet*>& sheets, Junction& at)
     }
 }
 
-void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
+template <class At>
+void LevelGluer<At>::glue_line(std::span<Sheet* const> sheets, At& at) {
     std::vector<Index> chosen;
     for (const Sheet* s : sheets)
         for (const Index k : s->levels) chosen.push_back(k), levels[k].along = s->along;
@@ -270,11 +323,12 @@ void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
 }
 
 // Order places along a line, one for equal places, and number all of them.
-void LevelGluer::number_places(const Feature& line, std::vector<Index>& on_it, Junction& at) {
+template <class At>
+void LevelGluer<At>::number_places(const Feature& line, std::vector<Index>& on_it, At& at) {
     std::vector<Index> first;  // one per place
     const auto is_before = [&](Index p, Index q) {
         if (p == q) return false;
-        const Place &x = places[p], &y = places[q];
+        const auto &x = places[p], &y = places[q];
         if (x.t.hi < y.t.lo || y.t.hi < x.t.lo) return x.t.hi < y.t.lo;
         return at.order(line, x.spot, y.spot) < 0;
     };
@@ -288,9 +342,14 @@ void LevelGluer::number_places(const Feature& line, std::vector<Index>& on_it, J
 }
 
 // Pair levels around the line, viewed along it: theta upwards, the line's left to the right. Counter-clockwise from there.
-void LevelGluer::pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q,
-                                  Junction& at) {
+template <class At>
+void LevelGluer<At>::pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q,
+                                      At& at) {
     if (around == Around::all && live.size() <= 2) return parts.pair(live.front().second, live.back().second);
+    if (is_circle(live[0].first->contact)) {  // one surface before, and one after
+        if (live.size() == 2 && live[0].first->is_above != live[1].first->is_above) return parts.pair(live[0].second, live[1].second);
+        return fail_to_glue("a circle with " + std::to_string(live.size()) + " sides", live[0].first->trapezoid, whole);
+    }
     auto sorted = live;
     const auto is_left = [&](const Level* x, const Level* y) {  // x further left than y, of two above or two below
         const int s = at.across(x->contact, y->contact, p, q, x->is_above) * y->along;
@@ -336,8 +395,7 @@ std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, Around aro
     for (Index rank = 0; rank < ranks; ++rank)
         if (start[rank + 1] - start[first.back()] >= block || rank + 1 == ranks) first.push_back(rank + 1);
     std::vector<Parts> result(first.size() - 1);
-    for_each_in_parallel(threads, result.size(), [&](std::size_t k) {
-        LevelGluer gluer(b, whole, around);
+    const auto glue_all = [&]<class At>(std::size_t k, LevelGluer<At>&& gluer) {
         for (Index rank = first[k]; rank < first[k + 1]; ++rank) {
             heed_stop();
             if (start[rank] < start[rank + 1])
@@ -345,6 +403,10 @@ std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, Around aro
         }
         gluer.parts.finish();
         result[k] = std::move(gluer.parts);
+    };
+    for_each_in_parallel(threads, result.size(), [&](std::size_t k) {
+        if (b.scene->near().is_round) glue_all(k, LevelGluer<RoundJunction>(b, whole, around));
+        else glue_all(k, LevelGluer<Junction>(b, whole, around));
     });
     return result;
 }

@@ -7,6 +7,7 @@
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/predicates/junction.hpp"
 #include "cfree/support/elementary.hpp"
+#include "predicates/round_junction.hpp"
 #include "support/free_memory.hpp"
 
 namespace cfree {
@@ -77,18 +78,40 @@ PlacedPose place_of(const Boundary& boundary, Index k, Side side, double start) 
     const double lo = angles.lo(rank, chart), hi = angles.hi(rank, chart), tau = 0.5 * (lo + hi);
     double t = start;
     if (side == Side::upper || side == Side::lower) {
-        const Junction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact(scene); },
-                          [&, in = chart] { return angles.critical(rank, in).bracket(scene); });
-        t = at.value(contact, at.spot(contact, unpacked((side == Side::upper ? trapezoids.upper : trapezoids.lower)[k])));
+        const Feature curve = unpacked((side == Side::upper ? trapezoids.upper : trapezoids.lower)[k]);
+        if (scene.is_round) {
+            RoundJunction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact_among_grown(scene); });
+            t = at.value(contact, at.spot(contact, curve, rank == angles.from[k]));
+        } else {
+            const Junction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact(scene); },
+                              [&, in = chart] { return angles.critical(rank, in).bracket(scene); });
+            t = at.value(contact, at.spot(contact, curve));
+        }
     }
-    const auto R = rotation_by(chart, tau);
+    return {place_on(scene, {contact, chart}, tau, t), theta_of(chart, tau)};
+}
+
+Vec<double> place_on(const Scene& scene, const Surface& surface, double tau, double t) {
+    const auto R = rotation_by(surface.chart, tau);
     const Shape &A = scene.robot, &O = scene.obstacles;
     const auto placed = [&](const Feature& helix) {
         const Index a = helix.robot, b = helix.obstacle;
         return Vec<double>{O.x[b], O.y[b]} - R(Vec<double>{A.x[a], A.y[a]});
     };
-    const auto p = placed(end_helix(scene, contact, 0)), q = placed(end_helix(scene, contact, 1));
-    return {{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)}, theta_of(chart, tau)};
+    const Feature& contact = surface.contact;
+    const Feature helix = is_line(contact) ? end_helix(scene, contact, 0) : contact;
+    const double rho = scene.is_round ? A.radii[A.vertex_radius[helix.robot]].about.hi + O.radii[O.vertex_radius[helix.obstacle]].about.hi : 0;
+    auto p = placed(helix);
+    if (is_line(contact)) {
+        const auto U = placed(end_helix(scene, contact, 1)) - p;
+        p = {p.x + t * U.x, p.y + t * U.y};
+        if (rho == 0) return p;
+        const double scale = rho / std::hypot(U.x, U.y);
+        return {p.x + scale * U.y, p.y - scale * U.x};
+    }
+    Vec<double> unit{(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)};
+    for (int k = 0; k < contact.branch; ++k) unit = {-unit.y, unit.x};
+    return {p.x + rho * unit.x, p.y + rho * unit.y};
 }
 
 }  // namespace cfree

@@ -18,6 +18,8 @@ struct PlacedPose {
     Vec<double> xy;
     double theta;
 };
+// Point of a surface's line at t, or of a quadrant at its t: the tangent of half the angle from its beginning.
+Vec<double> place_on(const Scene& scene, const Surface& surface, double tau, double t);
 PlacedPose place_of(const Boundary& boundary, Index trapezoid, Side side, double start);
 
 }  // namespace cfree

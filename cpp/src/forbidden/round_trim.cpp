@@ -32,13 +32,13 @@ std::array<Feature, 2> RoundTrimmer::quadrant() const {
 // The same, or the joints that are in them at every angle.
 std::array<Feature, 2> RoundTrimmer::ends_of_quadrant(const Dyadic& at) const {
     const auto seams = quadrant();
-    auto ends = seams;
+    auto limits = seams;
     for (const int end : {0, 1})
         for (const Index e : edges_at_centre) {
             const Feature joint{Kind::vertex_edge, surface.contact.robot, e};
-            if (orders.turn(seams[end], joint, at) == 0 && orders.turn(seams[1 - end], joint, at) == (end ? 1 : -1)) ends[end] = joint;
+            if (orders.turn(seams[end], joint, at) == 0 && orders.turn(seams[1 - end], joint, at) == (end ? 1 : -1)) limits[end] = joint;
         }
-    return ends;
+    return limits;
 }
 
 // The directions of a quadrant in the cones of both vertices, between joints with the edges beside them and ends of the quadrant,
@@ -67,10 +67,10 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
         if (decide.order(events[from], cut) == 0) continue;
         const Index to = intern(cut);
         const Dyadic at = decide.between(events[from], events[to]).exact();
-        const auto is_inside = [&](const Feature& u) {
-            if (orders.turn(seams[0], u, at) < 0 || orders.turn(u, seams[1], at) < 0) return false;
+        const auto is_inside = [&](const Feature& line) {
+            if (orders.turn(seams[0], line, at) < 0 || orders.turn(line, seams[1], at) < 0) return false;
             return std::all_of(cones.begin(), cones.end(), [&](const auto& cone) {
-                return orders.turn(cone[0], u, at) >= 0 && orders.turn(u, cone[1], at) >= 0;
+                return orders.turn(cone[0], line, at) >= 0 && orders.turn(line, cone[1], at) >= 0;
             });
         };
         std::optional<Feature> limits[2];

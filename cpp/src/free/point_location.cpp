@@ -79,6 +79,7 @@ PointLocation::PointLocation(SharedBoundary b, std::vector<Index> of)
 
 // Extent of segments: their ends move on circles, and rise above their heights at both ends of an arc by at most its sagitta.
 PointLocation::Extent PointLocation::extent(Index k, double from, double to) const {
+    if (scene.is_round) return extent_among_grown(k, from, to);
     constexpr double rounding = 0x1p-40;
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Feature contact = surface_of(patches, trapezoids, k).contact;
@@ -113,28 +114,16 @@ double PointLocation::plant(Index begin, Index end) {
     return x.top = std::max({x.high, plant(begin, middle), plant(middle + 1, end)});
 }
 
-// Trapezoids that the ray from a pose towards -x may cross.
-template <class F>
-void PointLocation::stab(Index begin, Index end, const View& q, F&& report) const {
-    while (begin < end) {
-        const Index middle = begin + (end - begin) / 2;
-        const Extent& x = extents[middle];
-        if (x.top < q.place.y.v) return;
-        stab(begin, middle, q, report);
-        if (x.low > q.place.y.v) return;
-        if (x.high >= q.place.y.v && x.left <= q.place.x.v) report(x.trapezoid);
-        begin = middle + 1;
-    }
-}
-
 std::array<Dyadic, 2> PointLocation::angle(Index k, bool last, unsigned bits) const {
     const auto critical = last ? angle_to(patches, trapezoids, k) : angle_from(patches, trapezoids, k);
     if (critical.is_chart_end()) return {Dyadic::from(critical.lo), Dyadic::from(critical.lo)};
-    RealRoot x = critical.exact(scene);
-    const Dyadic widest{1, bits};
-    const auto width = [&] { return Dyadic{(x.hi.n << x.lo.k) - (x.lo.n << x.hi.k), x.lo.k + x.hi.k}; };
-    while (!x.is_dyadic() && cfree::compare(width(), widest) > 0) x.halve();
-    return {x.lo, x.hi};
+    const auto narrowed = [&](auto x) -> std::array<Dyadic, 2> {
+        const Dyadic widest{1, bits};
+        const auto width = [&] { return Dyadic{(x.hi.n << x.lo.k) - (x.lo.n << x.hi.k), x.lo.k + x.hi.k}; };
+        while (!x.is_dyadic() && cfree::compare(width(), widest) > 0) x.halve();
+        return {x.lo, x.hi};
+    };
+    return scene.is_round ? narrowed(critical.exact_among_grown(scene)) : narrowed(critical.exact(scene));
 }
 
 // Sign of an angle of a trapezoid minus that of the pose, of one chart.
@@ -188,7 +177,7 @@ Spread spread(Approx p, Approx q) {
 PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) const {
     Nearby seen;
     const Index part = index.part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
-    stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
+    stab(index.begin(part), index.begin(part + 1), q.place.x.v, q.place.y.v, [&](Index k) {
         heed_stop();
         if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) return;
         const Feature contact = surface_of(patches, trapezoids, k).contact;
@@ -226,7 +215,7 @@ PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) c
 // Find trapezoids that hold the pose, and end there.
 void PointLocation::look_on(const View& q, Nearby& seen) const {
     const Index part = index.part_of(q.pose->chart, 1);
-    stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
+    stab(index.begin(part), index.begin(part + 1), q.place.x.v, q.place.y.v, [&](Index k) {
         if (trapezoids.to_hi[k] < q.tau_lo || order(true, k, q) != 0) return;
         if (may_be_on(surface_of(patches, trapezoids, k).contact, q) && is_on(k, q, true))
             seen.on.push_back(k), seen.end.push_back(1);
@@ -282,6 +271,7 @@ std::optional<std::vector<PointLocation::Passage>> PointLocation::passages(const
 }
 
 std::vector<PointLocation::Ray> PointLocation::rays() const {
+    if (scene.is_round) return rays_among_grown();
     const auto n = static_cast<Index>(component.size());
     const Index components = n ? *std::max_element(component.begin(), component.end()) + 1 : 0;
     std::vector<Index> widest(components, -1);
@@ -360,6 +350,7 @@ std::vector<Index> PointLocation::surfaces(const std::vector<Index>& crossed) co
 PointLocation::Nearby PointLocation::nearby(const ExactPose& pose) const {
     ExactPose q = pose;
     if (q.p == q.r) q.chart = 1 - q.chart, q.p = -1, q.r = 1;
+    if (scene.is_round) return nearby_among_grown(q);
     Nearby seen = look(View(q, scene.shift), When::after, -1);
     if (q.p == -q.r) {
         const ExactPose before{q.X, q.Y, q.W, 1 - q.chart, 1, 1};
@@ -372,7 +363,7 @@ std::vector<Index> PointLocation::at_height_of(const ExactPose& pose) const {
     const View q(pose, scene.shift);
     const Index part = index.part_of(pose.chart, q.tau_lo);
     std::vector<Index> found;
-    stab(index.begin(part), index.begin(part + 1), q, [&](Index k) { found.push_back(k); });
+    stab(index.begin(part), index.begin(part + 1), q.place.x.v, q.place.y.v, [&](Index k) { found.push_back(k); });
     return found;
 }
 

@@ -1,59 +1,14 @@
-// Places of curves on lines and circles, in intervals, balls and exactly; theory, "Rounded shapes".
+// Orders of curves on lines and circles, in intervals, balls and exactly; theory, "Rounded shapes".
 #include "predicates/round_orders.hpp"
 
 #include <limits>
 
 #include "predicates/isolation.hpp"
+#include "predicates/round_places.hpp"
 
 namespace cfree {
 
 namespace {
-
-// Interval of doubles, rounded outwards.
-struct Bounds {
-    double lo, hi;
-};
-Bounds outwards(double lo, double hi) {
-    return {lo - (4 * u * std::abs(lo) + tiny), hi + (4 * u * std::abs(hi) + tiny)};
-}
-Bounds operator+(const Bounds& x, const Bounds& y) { return outwards(x.lo + y.lo, x.hi + y.hi); }
-Bounds operator-(const Bounds& x, const Bounds& y) { return outwards(x.lo - y.hi, x.hi - y.lo); }
-Bounds operator*(const Bounds& x, const Bounds& y) {
-    const auto [lo, hi] = std::minmax({x.lo * y.lo, x.lo * y.hi, x.hi * y.lo, x.hi * y.hi});
-    return outwards(lo, hi);
-}
-Bounds sqrt(const Bounds& x) { return outwards(std::sqrt(std::max(0.0, x.lo)), std::sqrt(std::max(0.0, x.hi))); }
-Bounds bounds(const Ball& x) {
-    const double err = std::abs(x.lo) + x.radius;
-    return outwards(x.hi - err, x.hi + err);
-}
-
-// Ring of intervals that hold the values at all angles between two.
-struct Between {
-    double lo, hi, kappa;
-    Bounds number(const Ball& k) const { return bounds(k); }
-    Bounds operator()(const Trig<Ball>& f) const {
-        // Bernstein coefficients, by the polar form
-        const Bounds a = bounds(f.a), b = bounds(f.b * Ball(kappa)), c = bounds(f.c * Ball(kappa));
-        const auto polar = [&](double p, double q) {
-            const Bounds one{1, 1}, x{p, p}, y{q, q}, product = x * y;
-            return a * (one + product) + b * (one - product) + c * (x + y);
-        };
-        const Bounds x = polar(lo, lo), y = polar(lo, hi), z = polar(hi, hi);
-        return {std::min({x.lo, y.lo, z.lo}), std::max({x.hi, y.hi, z.hi})};
-    }
-};
-
-// Ring of balls at an angle.
-struct InBalls {
-    Ball w, c, s;
-    InBalls(const Ball& tau, double kappa) {
-        const Ball square = tau * tau;
-        w = Ball(1.0) + square, c = Ball(kappa) * (Ball(1.0) - square), s = Ball(2 * kappa) * tau;
-    }
-    Ball number(const Ball& k) const { return k; }
-    Ball operator()(const Trig<Ball>& f) const { return f.a * w + f.b * c + f.c * s; }
-};
 
 // Ring of polynomials in tau with balls as coefficients.
 struct BallPoly : Coefficients<Ball> {};
@@ -81,11 +36,6 @@ struct AsBallPoly {
         return {{{c[0], c[1], c[2]}, 3}};
     }
 };
-struct AsSurdPoly {
-    double kappa;
-    SurdPoly number(const RootSum& k) const { return surd_polynomial({&k, 1}); }
-    SurdPoly operator()(const Trig<RootSum>& f) const { return surd_polynomial(quadratic(f, kappa)); }
-};
 
 // Sign of (A + b sqrt(d)) - (...), in balls, if certain: p - q of two places.
 std::optional<int> sign_of_difference(const Ball& a, const Ball& b, const Ball& d, const Ball& c, const Ball& e) {
@@ -96,54 +46,6 @@ std::optional<int> sign_of_difference(const Ball& a, const Ball& b, const Ball& 
 }
 
 }  // namespace
-
-// Place of a curve on the surface; on a circle a coordinate of u that grows counter-clockwise over the quadrant: along the
-// axis at its end (axis 0), or against that at its beginning (1).
-template <class K, class Ring>
-auto RoundOrders::place(const Feature& f, int axis, const Ring& in) const {
-    const RoundSurfaces<K> of(scene);
-    const auto constant = [&](const K& k) { return in(RoundSurfaces<K>::constant(k)); };
-    using V = decltype(constant(K(1)));
-    const V zero = in.number(K(0)), w = constant(K(1));
-    const Feature& x = surface.contact;
-    if (is_line(x)) {
-        const auto U = of.along(x);
-        const K square = of.square_of_length(x);
-        if (is_smooth(scene, x, f)) {
-            const bool at_end = x.kind == Kind::vertex_edge
-                                    ? scene.obstacles.point[f.obstacle] == scene.obstacles.point[scene.obstacles.w[x.obstacle]]
-                                    : scene.robot.point[f.robot] == scene.robot.point[scene.robot.w[x.robot]];
-            return Place<V>{constant(K(at_end ? 1 : 0)), zero, zero, w, false};
-        }
-        if (is_line(f)) {
-            const auto V_ = of.along(f);
-            const auto N = of.rho(x) * of.length(x) * dot(V_, U) - square * of.offset(f, x);
-            return Place<V>{in(N), zero, zero, in(square * cross(V_, U)), false};
-        }
-        const K sigma = of.rho(f);
-        const V M = in(of.offset(x, f));
-        return Place<V>{in(dot(of.between(f, x), U)), in.number(K(f.branch)), constant(sigma * sigma * square) * w - M * M,
-                        constant(square), true};
-    }
-    const MovingVector<K> e = axis == 0 ? of.axis(x.branch + 1) : of.axis(x.branch + 2);
-    if (f.kind == Kind::seam) return Place<V>{in(dot(of.axis(f.branch), e)), zero, zero, w, false};
-    if (is_smooth(scene, f, x))
-        return Place<V>{in(-dot(quarter_turn(of.along(f)), e)), zero, zero, constant(of.length(f)), false};
-    const auto seen = of.seen(x, f);
-    const K r = of.rho(x);
-    const V delta = in(seen.delta), square = in(seen.square);
-    return Place<V>{delta * in(dot(seen.n, e)), in.number(K(f.branch)) * in(dot(quarter_turn(seen.n), e)),
-                    constant(r * r) * square - delta * delta, constant(r) * square, true};
-}
-
-// Range of a place, if its denominator is certain.
-template <class Place>
-static std::optional<Bounds> range_of(Place x) {
-    if (x.has_root) x.a = x.a + x.b * sqrt(x.d);
-    if (x.c.hi < 0) x.a = Bounds{0, 0} - x.a, x.c = Bounds{0, 0} - x.c;
-    if (!(x.c.lo > 0)) return {};
-    return outwards(std::min(x.a.lo / x.c.lo, x.a.lo / x.c.hi), std::max(x.a.hi / x.c.lo, x.a.hi / x.c.hi));
-}
 
 int RoundOrders::compare_radius(const Feature& circle) const {
     const RoundSurfaces<RootSum> of(scene);

@@ -4,7 +4,7 @@
 // (a + b sqrt(d)) / c, with b = 0 for a joint, for the end of a quadrant and for a line on a line.
 #pragma once
 #include "cfree/exact/radicals.hpp"
-#include "predicates/round_surfaces.hpp"
+#include "predicates/round_places.hpp"
 
 namespace cfree {
 
@@ -48,15 +48,12 @@ private:
     Difference difference(const Feature& p, const Feature& q) const;
     template <class K, class Ring>
     auto event(const Feature& first, const Feature& second, const Ring& in) const;
-    template <class V>
-    struct Place {
-        V a, b, d, c;
-        bool has_root;
-    };
     template <class K>
     Trig<K> joint_direction(const Feature& line, const Feature& circle) const;
     template <class K, class Ring>
-    auto place(const Feature& curve, int axis, const Ring& in) const;
+    auto place(const Feature& curve, int axis, const Ring& in) const {
+        return place_of_curve<K>(scene, surface.contact, curve, axis, in);
+    }
 
     const Scene& scene;
     Surface surface;

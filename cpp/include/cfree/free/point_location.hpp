@@ -106,8 +106,24 @@ private:
     };
     Extent extent(Index k, double from, double to) const;
     double plant(Index begin, Index end);
+    // Trapezoids that the ray from a point towards -x may cross.
     template <class F>
-    void stab(Index begin, Index end, const View& q, F&& report) const;
+    void stab(Index begin, Index end, double x, double y, F&& report) const {
+        while (begin < end) {
+            const Index middle = begin + (end - begin) / 2;
+            const Extent& e = extents[middle];
+            if (e.top < y) return;
+            stab(begin, middle, x, y, report);
+            if (e.low > y) return;
+            if (e.high >= y && e.left <= x) report(e.trapezoid);
+            begin = middle + 1;
+        }
+    }
+    // The same where shapes are grown (round_location.cpp).
+    Nearby nearby_among_grown(const ExactPose& q) const;
+    Nearby look_among_grown(const ExactPose& q) const;
+    std::vector<Ray> rays_among_grown() const;
+    Extent extent_among_grown(Index k, double from, double to) const;
 
     SharedBoundary boundary;
     const Scene& scene;

@@ -26,6 +26,7 @@ struct Interval {
 
 class Junction {
 public:
+    using Spot = cfree::Spot;
     // Junction at an angle of a chart, in an interval; a narrow one, and the exact angle, are computed when needed.
     Junction(const Scene& scene, int chart, double lo, double hi, std::function<RealRoot()> exact,
              std::function<std::optional<Predicates::Bracket>()> bracket);

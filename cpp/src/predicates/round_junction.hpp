@@ -1,0 +1,65 @@
+// Lines and circles of grown shapes at one critical angle, and just before and after it: see Junction.
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "cfree/predicates/junction.hpp"
+#include "predicates/round_places.hpp"
+
+namespace cfree {
+
+// A place on a surface at the critical angle: the end of a curve of it, or t on its line.
+struct RoundSpot {
+    Feature on, curve;
+    Code code = 0;                        // of the curve
+    bool jumps = false, is_after = false; // if the curve jumps here: on which side it ends
+    bool is_limit = false;                // if the lines of both surfaces are parallel here: reached by continuity
+    std::optional<Ratio> given = {};
+};
+
+class RoundJunction {
+public:
+    using Spot = RoundSpot;
+    RoundJunction(const Scene& scene, int chart, double lo, double hi, std::function<LongRoot()> exact);
+
+    // Enter an edge of the robot and one of the obstacles that are parallel here.
+    void know_parallel(Index g, Index f);
+
+    // See Junction.
+    int turn(const Feature& x, const Feature& y);
+    int parallel(const Feature& x, const Feature& y);
+    int side(const Feature& x, const Feature& y);
+    Interval offset(const Feature& x, const Feature& y) const;
+    int across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after);
+
+    // End of a curve on a surface, of a trapezoid after this angle or before it.
+    Spot spot(const Feature& on, const Feature& curve, bool is_after);
+    // On a quadrant t is the tangent of half the angle from its beginning.
+    double value(const Feature& surface, const Spot& p);
+    Interval range(const Feature& surface, const Spot& p) const;
+    // Order along a line, or counter-clockwise on a circle, of two places that are on this surface or on one equal to it here.
+    int order(const Feature& surface, const Spot& p, const Spot& q);
+    // True if two circles, or quadrants of them, are equal here.
+    bool are_one_circle(const Feature& x, const Feature& y);
+
+    // The place, on a line that is that of its own surface here; in the ring of surd polynomials also where it is a limit.
+    CurvePlace<SurdPoly> place_exactly(const Feature& surface, const Spot& p, int axis) const;
+    LongRoot& here();
+
+private:
+    template <class K, class Ring>
+    auto place(const Feature& surface, const Spot& p, int axis, const Ring& in) const;
+    // Sign here of a form that is available in balls and exactly.
+    template <class F>
+    int sign(const F& form);
+
+    const Scene& scene;
+    int chart;
+    double lo, hi, kappa;
+    std::function<LongRoot()> exact;
+    std::optional<LongRoot> root;  // computed when needed
+    MeetingNames known;            // codes of parallel edges
+};
+
+}  // namespace cfree

@@ -1,0 +1,165 @@
+// Places of curves on lines and circles, in any ring of numbers or polynomials; theory, "Rounded shapes".
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "cfree/exact/surd_polynomial.hpp"
+#include "predicates/isolation.hpp"
+#include "predicates/round_surfaces.hpp"
+
+namespace cfree {
+
+// Interval of doubles, rounded outwards.
+struct Bounds {
+    double lo, hi;
+};
+inline Bounds outwards(double lo, double hi) {
+    return {lo - (4 * u * std::abs(lo) + tiny), hi + (4 * u * std::abs(hi) + tiny)};
+}
+inline Bounds operator+(const Bounds& x, const Bounds& y) { return outwards(x.lo + y.lo, x.hi + y.hi); }
+inline Bounds operator-(const Bounds& x, const Bounds& y) { return outwards(x.lo - y.hi, x.hi - y.lo); }
+inline Bounds operator*(const Bounds& x, const Bounds& y) {
+    const auto [lo, hi] = std::minmax({x.lo * y.lo, x.lo * y.hi, x.hi * y.lo, x.hi * y.hi});
+    return outwards(lo, hi);
+}
+inline Bounds sqrt(const Bounds& x) { return outwards(std::sqrt(std::max(0.0, x.lo)), std::sqrt(std::max(0.0, x.hi))); }
+inline Bounds bounds(const Ball& x) {
+    const double err = std::abs(x.lo) + x.radius;
+    return outwards(x.hi - err, x.hi + err);
+}
+
+// Ring of intervals that hold the values at all angles between two.
+struct Between {
+    double lo, hi, kappa;
+    Bounds number(const Ball& k) const { return bounds(k); }
+    Bounds operator()(const Trig<Ball>& f) const {
+        // Bernstein coefficients, by the polar form
+        const Bounds a = bounds(f.a), b = bounds(f.b * Ball(kappa)), c = bounds(f.c * Ball(kappa));
+        const auto polar = [&](double p, double q) {
+            const Bounds one{1, 1}, x{p, p}, y{q, q}, product = x * y;
+            return a * (one + product) + b * (one - product) + c * (x + y);
+        };
+        const Bounds x = polar(lo, lo), y = polar(lo, hi), z = polar(hi, hi);
+        return {std::min({x.lo, y.lo, z.lo}), std::max({x.hi, y.hi, z.hi})};
+    }
+};
+
+// Ring of balls at an angle.
+struct InBalls {
+    Ball w, c, s;
+    InBalls(const Ball& tau, double kappa) {
+        const Ball square = tau * tau;
+        w = Ball(1.0) + square, c = Ball(kappa) * (Ball(1.0) - square), s = Ball(2 * kappa) * tau;
+    }
+    Ball number(const Ball& k) const { return k; }
+    Ball operator()(const Trig<Ball>& f) const { return f.a * w + f.b * c + f.c * s; }
+};
+
+// Ring of polynomials in tau.
+struct AsSurdPoly {
+    double kappa;
+    SurdPoly number(const RootSum& k) const { return surd_polynomial({&k, 1}); }
+    SurdPoly operator()(const Trig<RootSum>& f) const { return surd_polynomial(quadratic(f, kappa)); }
+};
+
+// (a + b sqrt(d)) / c
+template <class V>
+struct CurvePlace {
+    V a, b, d, c;
+    bool has_root;
+};
+
+// Place of a curve f on a surface x: t on a line; on a circle a coordinate of u that grows counter-clockwise over the quadrant,
+// along the axis at its end (axis 0), or against that at its beginning (1).
+template <class K, class Ring>
+auto place_of_curve(const Scene& scene, const Feature& x, const Feature& f, int axis, const Ring& in) {
+    const RoundSurfaces<K> of(scene);
+    const auto constant = [&](const K& k) { return in(RoundSurfaces<K>::constant(k)); };
+    using V = decltype(constant(K(1)));
+    const V zero = in.number(K(0)), w = constant(K(1));
+    if (is_line(x)) {
+        const auto U = of.along(x);
+        const K square = of.square_of_length(x);
+        if (is_smooth(scene, x, f)) {
+            const bool at_end = x.kind == Kind::vertex_edge
+                                    ? scene.obstacles.point[f.obstacle] == scene.obstacles.point[scene.obstacles.w[x.obstacle]]
+                                    : scene.robot.point[f.robot] == scene.robot.point[scene.robot.w[x.robot]];
+            return CurvePlace<V>{constant(K(at_end ? 1 : 0)), zero, zero, w, false};
+        }
+        if (is_line(f)) {
+            const auto V_ = of.along(f);
+            const auto N = of.rho(x) * of.length(x) * dot(V_, U) - square * of.offset(f, x);
+            return CurvePlace<V>{in(N), zero, zero, in(square * cross(V_, U)), false};
+        }
+        const K sigma = of.rho(f);
+        const V M = in(of.offset(x, f));
+        return CurvePlace<V>{in(dot(of.between(f, x), U)), in.number(K(f.branch)), constant(sigma * sigma * square) * w - M * M,
+                        constant(square), true};
+    }
+    const MovingVector<K> e = axis == 0 ? of.axis(x.branch + 1) : of.axis(x.branch + 2);
+    if (f.kind == Kind::seam) return CurvePlace<V>{in(dot(of.axis(f.branch), e)), zero, zero, w, false};
+    if (is_smooth(scene, f, x))
+        return CurvePlace<V>{in(-dot(quarter_turn(of.along(f)), e)), zero, zero, constant(of.length(f)), false};
+    const auto seen = of.seen(x, f);
+    const K r = of.rho(x);
+    const V delta = in(seen.delta), square = in(seen.square);
+    return CurvePlace<V>{delta * in(dot(seen.n, e)), in.number(K(f.branch)) * in(dot(quarter_turn(seen.n), e)),
+                    constant(r * r) * square - delta * delta, constant(r) * square, true};
+}
+
+// Point ((x.a + x.b sqrt(d)) / c, (y.a + y.b sqrt(d)) / c) of the plane.
+template <class V>
+struct PlanePoint {
+    struct Coordinate {
+        V a, b;
+    } x, y;
+    V d, c;
+    bool has_root;
+};
+
+template <class K>
+MovingVector<K> position(const Scene& scene, const Site& at) {
+    const auto vertex = [](const Shape& s, Index v) -> Vec<K> {
+        if constexpr (std::is_same_v<K, Ball>) return {Ball(s.x[v], s.x_low[v], ball_error(s.x[v])), Ball(s.y[v], s.y_low[v], ball_error(s.y[v]))};
+        else return {K(s.X[v]), K(s.Y[v])};
+    };
+    return {vertex(scene.obstacles, at.obstacle), vertex(scene.robot, at.robot)};
+}
+
+// Point of a surface at a place: t on a line; both coordinates of u on a circle, which have one root and one denominator.
+template <class K, class V, class Ring>
+PlanePoint<V> plane_point(const Scene& scene, const Feature& x, const CurvePlace<V>& t, const CurvePlace<V>& from_start, const Ring& in) {
+    const RoundSurfaces<K> of(scene);
+    const auto constant = [&](const K& k) { return in(RoundSurfaces<K>::constant(k)); };
+    const MovingVector<K> start = position<K>(scene, of.site(x));
+    if (is_line(x)) {
+        const MovingVector<K> U = of.along(x), left = quarter_turn(U);
+        const V length = constant(of.length(x)), rho = constant(of.rho(x));
+        const auto coordinate = [&](int axis) -> typename PlanePoint<V>::Coordinate {
+            const auto e = of.axis(axis);
+            const V step = length * in(dot(U, e));
+            return {(length * in(dot(start, e)) - rho * in(dot(left, e))) * t.c + step * t.a, step * t.b};
+        };
+        return {coordinate(0), coordinate(1), t.d, length * constant(K(1)) * t.c, t.has_root};
+    }
+    const V rho = constant(of.rho(x));
+    const auto coordinate = [&](int axis) -> typename PlanePoint<V>::Coordinate {
+        const int turns = (axis - x.branch - 1) & 3;  // from the axis at the quadrant's end
+        const CurvePlace<V>& place = turns % 2 == 0 ? t : from_start;
+        const V a = rho * place.a, b = rho * place.b, centre = in(dot(start, of.axis(axis))) * t.c;
+        if (turns < 2) return {centre + a, b};
+        return {centre - a, in.number(K(0)) - b};
+    };
+    return {coordinate(0), coordinate(1), t.d, constant(K(1)) * t.c, t.has_root};
+}
+
+// Range of a place, if its denominator is certain.
+template <class Place>
+std::optional<Bounds> range_of(Place x) {
+    if (x.has_root) x.a = x.a + x.b * sqrt(x.d);
+    if (x.c.hi < 0) x.a = Bounds{0, 0} - x.a, x.c = Bounds{0, 0} - x.c;
+    if (!(x.c.lo > 0)) return {};
+    return outwards(std::min(x.a.lo / x.c.lo, x.a.lo / x.c.hi), std::max(x.a.hi / x.c.lo, x.a.hi / x.c.hi));
+}
+
+}  // namespace cfree
