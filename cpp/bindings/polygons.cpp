@@ -9,6 +9,7 @@
 #include "arrays.hpp"
 #include "cfree/curves/containment.hpp"
 #include "cfree/scene/coordinate_range.hpp"
+#include "given_poses.hpp"
 #include "integers.hpp"
 
 using namespace nb::literals;
@@ -160,6 +161,11 @@ void bind_polygons(nb::module_& m) {
     });
     nb::class_<Polygon>(m, "Polygon")
         .def_static("of", &polygon_of, "rings"_a, nb::sig("def of(rings: Sequence[typing.Any]) -> Polygon | None"))
+        .def_static("thin", [](const nb::object& points) -> std::shared_ptr<Polygon> {
+            cfree::RatioRing ring;
+            if (!read_ring(points.ptr(), ring)) return nullptr;
+            return std::make_shared<Polygon>(Polygon::thin(ring));
+        }, "points"_a, "A point, or a segment.", nb::sig("def thin(points: list[typing.Any]) -> Polygon | None"))
         .def_static("of_each", &polygons_of, "outers"_a, nb::sig("def of_each(outers: list[typing.Any]) -> list[Polygon | None]"))
         .def_prop_ro("numerators", [](const Polygon& p) { return integers(p.vertices.X, p.vertices.Y); },
                      nb::for_getter(nb::sig("def numerators(self) -> tuple[tuple[int, int], ...]")))
@@ -207,12 +213,20 @@ void bind_polygons(nb::module_& m) {
     nb::class_<cfree::SceneFeatures>(m, "SceneFeatures")
         .def("__init__", [](cfree::SceneFeatures* f, std::vector<std::shared_ptr<Polygon>> robot,
                             std::vector<std::shared_ptr<Polygon>> obstacles, std::shared_ptr<Polygon> workspace,
-                            std::optional<std::array<nb::object, 4>> bounds, const cfree::WholeScene* whole) {
-            new (f) cfree::SceneFeatures(cfree::scene_features(
-                shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds)), whole ? *whole : cfree::WholeScene{}));
+                            std::optional<std::array<nb::object, 4>> bounds, const cfree::WholeScene* whole,
+                            const std::optional<std::vector<nb::object>>& radii) {
+            cfree::SceneShapes shapes = shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds));
+            for (std::size_t k = 0; radii && k < radii->size(); ++k) {
+                const cfree::Ratio radius = ::ratio_of((*radii)[k]);
+                if (k == 0) shapes.robot_radius = radius;
+                else shapes.obstacle_radii.push_back(radius);
+            }
+            new (f) cfree::SceneFeatures(cfree::scene_features(shapes, whole ? *whole : cfree::WholeScene{}));
         }, "robot"_a, "obstacles"_a, "workspace"_a.none(), "bounds"_a.none(), "whole"_a.none() = nb::none(),
+             "radii"_a.none() = nb::none(), "Radii by which the robot and each obstacle are grown.",
              nb::sig("def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
-                     "bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None) -> None"))
+                     "bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, "
+                     "radii: Sequence[fractions.Fraction] | None = None) -> None"))
         .def_prop_ro("rounded", [](const cfree::SceneFeatures& f) {
             const auto &far = f.scene->obstacles, &near = f.scene->near().obstacles;
             return std::tuple(far.rounded, far.rounded_twice, near.rounded, near.rounded_twice);

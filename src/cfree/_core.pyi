@@ -89,6 +89,10 @@ class Polygon:
     def of(rings: Sequence[Any]) -> Polygon | None: ...
 
     @staticmethod
+    def thin(points: list[Any]) -> Polygon | None:
+        """A point, or a segment."""
+
+    @staticmethod
     def of_each(outers: list[Any]) -> list[Polygon | None]: ...
 
     @property
@@ -142,7 +146,8 @@ class WholeScene:
     def box(self) -> tuple[int, int, int, int] | None: ...
 
 class SceneFeatures:
-    def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None) -> None: ...
+    def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, radii: Sequence[fractions.Fraction] | None = None) -> None:
+        """Radii by which the robot and each obstacle are grown."""
 
     @property
     def rounded(self) -> tuple[bool, bool, bool, bool]:

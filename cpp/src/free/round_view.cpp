@@ -17,7 +17,7 @@ LongRoot root_at(const Int& p, const Int& r) {
     return {line, lo, hi};
 }
 
-Ball rounded(const Int& n, const Int& d) {
+Ball nearest_ball(const Int& n, const Int& d) {
     const double value = ratio(n, d);
     return {value, 0, std::abs(value) * 0x1p-52 + tiny};
 }
@@ -26,7 +26,7 @@ Ball rounded(const Int& n, const Int& d) {
 
 RoundView::RoundView(const Scene& s, const ExactPose& q, double lo, double hi)
     : scene(s), pose(q), near{lo, hi, q.chart ? -1.0 : 1.0},
-      place{rounded(q.X, q.W << static_cast<unsigned>(s.shift)), rounded(q.Y, q.W << static_cast<unsigned>(s.shift))},
+      place{nearest_ball(q.X, q.W << static_cast<unsigned>(s.shift)), nearest_ball(q.Y, q.W << static_cast<unsigned>(s.shift))},
       at(s, q.chart, lo, hi, [&q] { return root_at(q.p, q.r); }) {}
 
 template <class K>

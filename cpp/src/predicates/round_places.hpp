@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cfree/exact/surd_polynomial.hpp"
-#include "predicates/isolation.hpp"
+#include "predicates/form.hpp"
 #include "predicates/round_surfaces.hpp"
 
 namespace cfree {
