@@ -106,7 +106,7 @@ Vec<double> place_on(const Scene& scene, const Surface& surface, double tau, dou
         const auto U = placed(end_helix(scene, contact, 1)) - p;
         p = {p.x + t * U.x, p.y + t * U.y};
         if (rho == 0) return p;
-        const double scale = rho / std::hypot(U.x, U.y);
+        const double scale = rho / std::sqrt(dot(U, U));
         return {p.x + scale * U.y, p.y - scale * U.x};
     }
     Vec<double> unit{(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)};

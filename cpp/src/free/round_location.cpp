@@ -28,6 +28,17 @@ std::array<double, 2> around(const Int& p, const Int& r) {
     return {std::nextafter(std::nextafter(tau, -infinity), -infinity), std::nextafter(std::nextafter(tau, infinity), infinity)};
 }
 
+// The pose of two balls' middles, in doubles' unit.
+ExactPose exact_pose(const Ball& x, const Ball& y, int shift, int chart, const Dyadic& tau) {
+    unsigned digits = 0;
+    for (const double part : {x.hi, x.lo, y.hi, y.lo}) digits = std::max(digits, Dyadic::from(part).k);
+    const auto whole = [&](double part) -> Int {
+        const Dyadic d = Dyadic::from(part);
+        return d.n << (digits - d.k + static_cast<unsigned>(shift));
+    };
+    return {whole(x.hi) + whole(x.lo), whole(y.hi) + whole(y.lo), Int(1) << digits, chart, tau.n, Int(1) << tau.k};
+}
+
 }  // namespace
 
 // An end of a piece that is as high as the pose counts as below it, for all pieces: as for a ray just above.
@@ -91,16 +102,12 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         const RoundPoints points(scene, surface.chart);
         const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
         const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
-        const double y = low.y.hi + (0.5 + (attempt % 5 - 2) * 0.15) * (high.y - low.y).hi;
+        const double y = low.y.hi + (0.5 + (attempt % 5 - 2) * 0.125) * (high.y - low.y).hi;
         if (!(std::min(low.y.hi, high.y.hi) < y && y < std::max(low.y.hi, high.y.hi))) return {};
         const Ball x = points.crossing(surface.contact, low, high, y, tau);
         const bool rises = high.y.hi > low.y.hi;
-        const auto pose_at = [&](double by) {  // x + by, exactly
-            const Ball at = x + Ball(by);
-            const Dyadic first = Dyadic::from(at.hi), second = Dyadic::from(at.lo), height = Dyadic::from(y);
-            const unsigned digits = std::max({first.k, second.k, height.k}), up = static_cast<unsigned>(scene.shift);
-            const auto whole = [&](const Dyadic& d) -> Int { return d.n << (digits - d.k + up); };
-            return ExactPose{whole(first) + whole(second), whole(height), Int(1) << digits, surface.chart, tau.n, Int(1) << tau.k};
+        const auto pose_at = [&](double by) {
+            return exact_pose(x + Ball(by), Ball(y), scene.shift, surface.chart, tau);
         };
         double step = (std::abs((high.x - low.x).hi) + std::abs((high.y - low.y).hi)) * 0.25;
         for (int smaller = 0; smaller < 50; ++smaller, step *= 0.25) {
@@ -121,13 +128,36 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         }
         return {};
     };
+    // A surface of level lines alone is a slit. Space just above it is forbidden, and left of its upper line.
+    const auto above_slit = [&](const std::vector<Index>& faces) -> std::optional<Ray> {
+        for (const Index k : faces) {
+            const Surface surface = surface_of(patches, trapezoids, k);
+            Predicates predicates(scene, surface);
+            const Event from = angle_from(patches, trapezoids, k).event(predicates), to = angle_to(patches, trapezoids, k).event(predicates);
+            const Dyadic tau = predicates.between(from, to).exact();
+            const RoundPoints points(scene, surface.chart);
+            const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
+            const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
+            const bool is_slit = std::any_of(faces.begin(), faces.end(), [&](Index other) {
+                return points.are_slit(surface.contact, surface_of(patches, trapezoids, other).contact, tau);
+            });
+            if (!is_slit || !(high.x.hi < low.x.hi)) continue;
+            const double length = (low.x - high.x).hi;
+            const Ball x = high.x + Ball(0.5 * length), y = low.y + Ball(length * 0x1p-60);
+            const ExactPose q = exact_pose(x, y, scene.shift, surface.chart, tau);
+            Nearby seen = look_among_grown(q);
+            if (seen.generic && seen.on.empty()) return Ray{q, k, true, std::move(seen.crossed)};
+        }
+        return {};
+    };
     std::vector<Ray> result;
     for (auto& faces : of_component) {
         heed_stop();
         std::stable_sort(faces.begin(), faces.end(), [&](Index p, Index q) { return width(p) > width(q); });
         std::optional<Ray> ray;
         for (int attempt = 0; attempt < Predicates::most_attempts && !ray; ++attempt)
-            for (std::size_t k = 0; k < std::min<std::size_t>(faces.size(), 8) && !ray; ++k) ray = try_one(faces[k], attempt);
+            for (std::size_t k = 0; k < faces.size() && !ray; ++k) ray = try_one(faces[k], attempt);
+        if (!ray) ray = above_slit(faces);
         if (!ray) throw std::logic_error("no ray in general position");
         result.push_back(std::move(*ray));
     }
