@@ -16,7 +16,9 @@ import cfree
 import cfree.verify
 from cfree import Curved, Pose, Scene
 from cfree.curves import Arc, Circle
+from cfree.planning import contact_fits
 from cfree.planning.contact_fits import Fits
+from cfree.planning.improving import Improver
 from fuzz_round import Frame, box, fault, rounded, stadium
 
 HALF = Fraction(1, 2)
@@ -356,3 +358,61 @@ def test_many_paths_of_a_robot_too_thin_for_a_polygon_inside_are_kept() -> None:
     scene = Scene(Curved([(0, 0), low, high]), [[(4, -9), (5, -9), (5, 9), (4, 9)]], bounds=(-9, -9, 9, 9))
     [path] = cfree.plan_many(scene, [((0, 0, 0), (2, 2, 0))])
     assert isinstance(path, cfree.Path)
+
+
+# --- objectives ---
+
+
+def moon(x: int, y: int, thin: Any = "1e-12") -> Curved:
+    """Too thin to have a polygon inside."""
+    inner, outer = (x, y + 1), (x, y + 1 + Fraction(thin))
+    return Curved([(x + 1, y), Arc((x - 1, y), through=inner), Arc((x + 1, y), through=outer)])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("robot", "others"), [(moon(0, 0), []), (moon(0, 0, "1e-4"), []), (Curved.circle((0, 0), HALF), [moon(0, -4)])]
+)
+def test_an_objective_is_kept_where_a_shape_has_no_polygon_inside(robot: Curved, others: list[Curved]) -> None:
+    scene = Scene(robot, [Curved.circle((0, 0), 2), Curved.circle((0, 6), 1), *others], bounds=(-8, -8, 8, 8))
+    least = list[float]()
+    for objective in ("short", "balanced", "clear"):
+        path = cfree.plan(scene, (-6, 0, 0), (6, 0, 0), objective=objective)
+        assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+        place = cfree.clearance(path, scene)
+        assert place is not None
+        least.append(place.least)
+    assert least[0] < 0.1 < least[1] and least[2] > 0.1
+
+
+# --- work ---
+
+
+@pytest.mark.parametrize("tau", [Fraction(0), Fraction(1, 3), None])
+@pytest.mark.parametrize("robot", [stadium(1, HALF), rounded(-1, -1, 1, HALF, Fraction(1, 4)), box(-1, -HALF, 1, HALF)])
+def test_doubles_leave_out_no_contact_that_exact_numbers_find(robot: Any, tau: Fraction | None) -> None:
+    discs = [Curved.circle((3 * i, 2 * j), 1) for i in range(3) for j in range(3)]
+    fits = Fits(Scene(robot, [*discs, box(-9, -9, 9, -3), box(8, -3, 9, 9)], bounds=(-9, -9, 9, 9)))
+    for k in range(20):
+        place, near = (Fraction(k, 2), Fraction(-7 * k % 11, 3) - 2), (1e-3, 0.1, 1.0)[k % 3]
+        held = dict[Any, float]()
+        for own in fits._robot:
+            for other in fits._close(float(place[0]), float(place[1]), near):
+                if contact := contact_fits._contact(contact_fits._turned(own, tau), other, place, near):
+                    held.setdefault(replace(contact[0], own=own), contact[1])
+        assert list(fits._contacts(place, tau, near)) == sorted(held, key=held.__getitem__)
+
+
+@pytest.mark.slow
+def test_a_path_that_polygons_leave_open_is_pushed_off_obstacles_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The disc does not fit through the gap: both pushes are of one ridge, of small distances."""
+    ridges, pushed = list[int](), Improver.pushed
+
+    def counted(self: Improver, poses: Any, motions: Any) -> Any:
+        ridges.append(len(motions))
+        return pushed(self, poses, motions)
+
+    monkeypatch.setattr(Improver, "pushed", counted)
+    scene = cfree.load_scene(FilePath(__file__).parents[2] / "examples" / "scenes" / "round_gap.json")
+    proof = cfree.plan(scene)
+    assert isinstance(proof, cfree.Separated) and ridges == [2]

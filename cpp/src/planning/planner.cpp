@@ -16,6 +16,7 @@ namespace {
 constexpr int search_guesses = 40000;  // most guesses of motions: each scans all of the trees
 constexpr int quick_guesses = 2000;    // guesses before any exact work
 constexpr int round_guesses = 16000;   // among round shapes
+constexpr int straight_guesses = 500;  // there, of motions without turns, which come first
 constexpr int guesses_each = 45;       // guesses that take no longer than a patch of a surface
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
@@ -86,7 +87,8 @@ std::optional<Poses> Planner::quick(const End& start, const End& goal, std::opti
     const int most = guesses.value_or(most_guesses());
     if (auto way = simple_way(start.pose, goal.pose)) return way;
     if (!scene->round) return searched(start, goal, most);
-    // looks at round shapes cost little: there is time for two searches
+    // looks at round shapes cost little: there is time for more searches
+    if (auto way = searched(start, goal, std::min(straight_guesses, most / 4), without_turns)) return way;
     if (auto way = searched(start, goal, most / 4)) return way;
     return searched(start, goal, most - most / 4, by_short_steps);
 }

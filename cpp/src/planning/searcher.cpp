@@ -15,6 +15,7 @@ namespace cfree {
 namespace {
 
 constexpr int place_bits = 24, angle_bits = 20;            // bits of random poses: few, for short integers
+constexpr double beyond_slack = 4;                         // least factor of a meaningful distance to push a path to
 constexpr int fine_place_bits = 40, fine_angle_bits = 36;  // bits of poses on paths
 
 Area scaled(const Area& area, double by) { return {area.x0 * by, area.y0 * by, area.x1 * by, area.y1 * by}; }
@@ -43,10 +44,13 @@ Area search_area(const KnownScene& scene, std::span<const Place> poses, double r
     return {around.x0 - margin, around.y0 - margin, around.x1 + margin, around.y1 + margin};
 }
 
-Searcher::Searcher(std::shared_ptr<const KnownScene> of, std::span<const Place> poses, const Costs& given)
+Searcher::Searcher(std::shared_ptr<const KnownScene> of, std::span<const Place> poses, const Costs& given,
+                   const std::optional<Place>& middle)
     : unit(nearest(of->scene().scale, power_of_two(of->scene().shift).n)), scene(std::move(of)),
       costs{given.weight * unit, given.sideways, given.backward, given.turning, {given.axle.x * unit, given.axle.y * unit, given.axle.theta}},
-      area(scaled(search_area(*scene, poses, given.weight), unit)), extent(extent_of(area)) {}
+      area(scaled(search_area(*scene, poses, given.weight), unit)), extent(extent_of(area)) {
+    if (middle) center = {middle->x * unit, middle->y * unit, 0};
+}
 
 Grid Searcher::grid(int of_places, int of_angles) const { return {scene->scene().shift, of_places - extent, of_angles}; }
 
@@ -73,15 +77,16 @@ RrtConnect Searcher::search(const End& start, const End& goal, std::uint64_t see
 }
 
 Shortcut Searcher::shortener(std::span<const End> way, std::uint64_t seed) const {
-    Way free{*scene->checker, nullptr, grid(fine_place_bits, fine_angle_bits), {}, costs};
+    Way free{*scene->checker, nullptr, grid(fine_place_bits, fine_angle_bits), {}, costs, 0, center};
     return {std::move(free), {route(way), std::vector<double>(way.size())}, seed};
 }
 
-Shortcut Searcher::balanced(std::span<const End> way, std::uint64_t seed) const {
+Shortcut Searcher::balanced(std::span<const End> way, std::uint64_t seed, double radii) const {
     constexpr double inf = std::numeric_limits<double>::infinity();
     const Area limits = scene->shapes().bounds ? scaled(area_of(*scene->shapes().bounds), unit) : Area{-inf, -inf, inf, inf};
-    const Way start{*scene->checker, &scene->nearness(), grid(fine_place_bits, fine_angle_bits), limits, costs};
-    auto [asking, path] = cfree::balanced(start, route(way));
+    const Way start{*scene->checker, &scene->nearness(), grid(fine_place_bits, fine_angle_bits), limits, costs, 0, center};
+    const double up_to = std::max(radii * costs.weight, beyond_slack * start.nearness->least());
+    auto [asking, path] = cfree::balanced(start, route(way), up_to);
     return {std::move(asking), std::move(path), seed};
 }
 

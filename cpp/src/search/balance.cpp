@@ -27,6 +27,7 @@ constexpr int most_fails = 2;                              // failures before lo
 constexpr double wider = 1.3;                              // factor by which another way must be wider than a narrow place
 constexpr double almost = 0.9, straight = 1e-3;            // share of a distance that suffices; negligible turning per travel
 constexpr double shortest_line = 0.05;                     // radii
+constexpr double worth_turning = 2, comfortable = 0.5;     // times a distance; radii, more of which are not worth a turn
 constexpr double step_of_guess = 0.25;                     // radii
 constexpr int guesses_by_pose = 300, most_guesses = 30000;  // to find them: more on a way that was hard to find
 constexpr int guesses_at_once = 500, runs = 4;              // at one place
@@ -163,7 +164,7 @@ Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j
         return all_along(a, b, static_cast<int>(length / step) + 1, keeps);
     };
     const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };
-    RrtConnect search({seems, joins}, way.grid, area, radius, route[i], route[j], 0);
+    RrtConnect search({seems, joins}, way.grid, area, radius, route[i], route[j], 0, way.may_turn ? Growth{} : without_turns);
     Route found;
     for (int k = 0; k < runs && guesses > 0 && found.empty(); ++k, guesses -= guesses_at_once) found = search.run(guesses_at_once);
     return found;
@@ -320,28 +321,61 @@ void push_on(const Way& way, Pushed& top) {
     }
 }
 
-Pushed pushed(const Way& way, const Route& route) {
+Pushed pushed(const Way& way, const Route& route, double up_to) {
     Way any = way;
     any.nearness = nullptr;
     const Route path = pruned(any, {route, std::vector<double>(route.size())}).route;
-    const double most = most_distance(way, path), level = std::min(most, lowest * way.costs.weight);
+    const double most = std::min(most_distance(way, path), up_to), level = std::min(most, lowest * way.costs.weight);
     Pushed top{ridge(way, path, level), level, most};
     push_on(way, top);
     return top;
 }
 
+// Ridge beside a path, past its narrow places where there are wider ways.
+Ridge widest(const Way& way, const Route& route, double up_to) {
+    Pushed top = pushed(way, route, up_to);
+    Route tried;
+    for (int guesses = std::min(most_guesses, guesses_by_pose * static_cast<int>(route.size()));
+         past_narrowest(way, top.ridge, top.level, tried, guesses);)
+        push_on(way, top);
+    climb_on(way, top.ridge, top.level);
+    return std::move(top.ridge);
+}
+
+// True if a path turns only from the orientation of its start to that of its goal.
+bool turns_least(const Route& route) {
+    double turning = 0;
+    for (std::size_t k = 1; k < route.size(); ++k) turning += std::abs(turn_between(route[k - 1], route[k]));
+    return turning <= std::abs(turn_between(route.front(), route.back())) + straight;
+}
+
+// True if a turn widens the narrowest place of a ridge much.
+bool gains_by_turning(const Way& way, const Ridge& top) {
+    const Route& route = top.path.route;
+    if (route.size() < 3) return false;
+    const auto begin = top.distance.begin() + 1;
+    const auto k = static_cast<std::size_t>(std::min_element(begin, top.distance.end() - 1) - top.distance.begin());
+    Place q = route[k].place();
+    const double enough = worth_turning * std::max(way.nearness->distance(q, HUGE_VAL), way.nearness->least());
+    if (enough > comfortable * way.costs.weight) return false;
+    Way turning = way;
+    turning.may_turn = true;
+    const Configuration &before = route[k - 1], &beyond = route[k + 1];
+    return climb(turning, q, {beyond.px - before.px, beyond.py - before.py, way.costs.weight * turn_between(before, beyond)}, enough) >= enough;
+}
+
 }  // namespace
 
-Balanced balanced(const Way& way, const Route& route) {
+Balanced balanced(const Way& way, const Route& route, double up_to) {
     Way plain = way;  // preferences come last
     plain.costs = way.length();
-    const int poses = static_cast<int>(route.size());
-    Pushed top = pushed(plain, route);
-    Route tried;
-    for (int guesses = std::min(most_guesses, guesses_by_pose * poses); past_narrowest(plain, top.ridge, top.level, tried, guesses);)
-        push_on(plain, top);
-    climb_on(plain, top.ridge, top.level);
-    return shortest_along(way, top.ridge, std::min(most_nodes, 12 + route.size() / 2));
+    plain.may_turn = !(way.center && turns_least(route));
+    Ridge top = widest(plain, route, up_to);
+    if (!plain.may_turn && gains_by_turning(plain, top)) {
+        plain.may_turn = true;
+        top = widest(plain, route, up_to);
+    }
+    return shortest_along(way, top, std::min(most_nodes, 12 + route.size() / 2));
 }
 
 }  // namespace cfree

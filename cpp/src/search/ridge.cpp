@@ -88,7 +88,8 @@ std::array<double, 3> best_step(const std::vector<Slope>& slopes, double trust) 
 }  // namespace
 
 double climb(const Way& way, Place& q, const Three& direction, double enough) {
-    const Three t = unit(direction), other = std::abs(t[2]) < 0.9 ? Three{0, 0, 1} : Three{1, 0, 0};
+    const bool turns = way.may_turn || (direction[0] == 0 && direction[1] == 0);
+    const Three t = unit({direction[0], direction[1], turns ? direction[2] : 0}), other = std::abs(t[2]) < 0.9 ? Three{0, 0, 1} : Three{1, 0, 0};
     const Three e = unit(cross(t, other)), f = cross(t, e);
     const double radius = way.costs.weight;
     const auto between = [off = off_limits * radius](double from, double lo, double hi) {
@@ -101,7 +102,7 @@ double climb(const Way& way, Place& q, const Three& direction, double enough) {
         heed_stop();
         std::vector<Slope> slopes{{enough, 0, 0}};
         for (const Witness& w : way.nearness->around(q, d + 3 * trust)) {
-            const Three g{w.normal.x, w.normal.y, (w.normal.y * w.arm.x - w.normal.x * w.arm.y) / radius};
+            const Three g{w.normal.x, w.normal.y, turns ? (w.normal.y * w.arm.x - w.normal.x * w.arm.y) / radius : 0};
             const Slope s{w.distance, dot(g, e), dot(g, f)};
             if (s.value - trust * (std::abs(s.u) + std::abs(s.v)) < enough) slopes.push_back(s);
         }

@@ -17,7 +17,6 @@ using std::numbers::pi;
 constexpr int certainty = 16;         // guesses that take as long as an exact test
 constexpr Index few = 200;             // nodes: all of them are scanned
 constexpr int squares = 24;            // along the longer side of the area
-constexpr double kept = 0.5;           // share of tries without turning, against needless turning
 constexpr int some = 2000;            // at least so many guesses
 constexpr std::size_t new_parts = 3;
 constexpr int parts = 8;              // parts per side of the configuration space, which record visits of trees
@@ -45,22 +44,22 @@ void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
 }
 
 void RrtConnect::cut(Tree& tree, Index first) const {
-    Tree kept{tree.root, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size())};
+    Tree rest{tree.root, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size())};
     std::vector<Index> number(tree.x.size(), -1);
     for (Index k = 0; k < tree.size(); ++k) {
         const Index from = tree.parent[k];
         if (k == first || (from >= 0 && number[from] < 0)) continue;
-        number[k] = kept.size();
-        add(kept, tree.at(k), from < 0 ? -1 : number[from]);
-        kept.is_certain.back() = tree.is_certain[k];
+        number[k] = rest.size();
+        add(rest, tree.at(k), from < 0 ? -1 : number[from]);
+        rest.is_certain.back() = tree.is_certain[k];
     }
-    tree = std::move(kept);
+    tree = std::move(rest);
 }
 
 RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
                        std::uint64_t seed, const Growth& growth)
     : joins(std::move(j)), grid(g), area(a), weight(growth.turning * w),
-      range(growth.step * (norm(a.x1 - a.x0, a.y1 - a.y0) + weight * pi)), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
+      range(growth.step * (norm(a.x1 - a.x0, a.y1 - a.y0) + weight * pi)), kept(growth.kept), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
     trees[0].root = std::move(start), trees[1].root = std::move(goal);
     for (Tree& tree : trees) {
         tree.near.resize(squares * squares);

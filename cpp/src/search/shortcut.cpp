@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "cfree/search/fewer_turns.hpp"
 #include "cfree/support/elementary.hpp"
 
 namespace cfree {
@@ -29,11 +30,18 @@ void Shortcut::run(int checks) {
 }
 
 void Shortcut::merge() {
+    turn_less();
     for (std::size_t i = 0; i + 2 < route.size(); ++i)
         for (std::size_t j = std::min(i + most_merged, route.size() - 1); j > i + 1; --j) {
             const Configuration &a = route[i], &b = route[j];
             if (replace(i, j, {a, b}) || (j > i + 2 && (replace(i, j, {a, corner(a, b), b}) || replace(i, j, {a, corner(b, a), b})))) break;
         }
+}
+
+void Shortcut::turn_less() {
+    if (!way.center) return;
+    Marked path = with_fewer_turns(way, {route, mark});
+    route = std::move(path.route), mark = std::move(path.mark), at = costs_along(route, way.costs);
 }
 
 // Replace the path between two of its poses by a fresh route, if that is shorter and keeps the required distances.
@@ -111,7 +119,7 @@ void Shortcut::attempt() {
     const std::size_t last = q ? j + 1 : j;  // the old path is kept up to i and from `last`
     if (last <= i || (last == i + 1 && !p && !q)) return;
     const Configuration &a = p ? *p : route[i], &b = q ? *q : route[j];
-    for (int kind = 0; kind < 3; ++kind) {
+    for (int kind = way.center && turn_between(a, b) == 0 ? 2 : 0; kind < 3; ++kind) {
         Route fresh{route[i]};
         if (p) fresh.push_back(a);
         if (kind == 0) fresh.push_back(corner(a, b));

@@ -59,7 +59,7 @@ std::vector<Route> turned_or_straight(const Configuration& a, const Configuratio
 Way Way::asking(Marked along, std::vector<double> what) const {
     std::vector<Place> at;
     for (const Configuration& q : along.route) at.push_back({q.px, q.py, q.theta});
-    return {checker, nearness, grid, limits, costs, per_motion, std::move(along), std::move(what), std::move(at)};
+    return {checker, nearness, grid, limits, costs, per_motion, center, may_turn, std::move(along), std::move(what), std::move(at)};
 }
 
 std::size_t Way::nearest(const Place& at, double from, double to, std::size_t guess) const {

@@ -59,6 +59,10 @@ class Approximations:
         """Return the scene with polygons around everything that is forbidden, or inside it."""
         return with_polygons(self.exact, self.errors, outward=outward)
 
+    def nearby(self) -> Scene:
+        """Return the scene with polygons inside the shapes, or around those that have none inside."""
+        return with_polygons(self.exact, self.errors, outward=False, always=True)
+
     def refine(self, poses: NDArray[np.float64], others: Iterable[int] = ()) -> bool:
         """Divide the errors of shapes that may overlap at these poses; False if no error can become smaller.
 
@@ -91,9 +95,12 @@ class Approximations:
                 self.errors[k] = min(before[k], max(target, self.tolerance, shape.least_error))
         return self.errors != before
 
-    def obstacle_of(self, number: int) -> int:
-        """Return the obstacle that a polygon of the inner scene replaces; bounds and workspace keep their numbers."""
-        return number if number < 0 else self.shape_of(number, outward=False) - len(self.exact.robot)
+    def obstacle_of(self, number: int, *, outward: bool = False) -> int:
+        """Return the obstacle that a polygon of the inner scene replaces, or one of the outer scene.
+
+        Bounds and workspace keep their numbers.
+        """
+        return number if number < 0 else self.shape_of(number, outward=outward) - len(self.exact.robot)
 
     def shape_of(self, number: int, *, outward: bool) -> int:
         """Return the shape that an obstacle's polygon replaces."""

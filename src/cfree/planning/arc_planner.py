@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
 
@@ -14,6 +14,7 @@ from cfree.collision.motion_checker import MotionChecker
 from cfree.curves.curved import Curved
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
+from cfree.paths.path import Path
 from cfree.planning.contact_fits import Fits
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
@@ -55,6 +56,7 @@ class ArcPlanner(PosePlanner):
     def __init__(self, arcs: ArcScene, true: Scene, guide: Scene, slack: float = math.inf) -> None:
         super().__init__(guide)
         self.arcs, self.true, self._slack = arcs, true, slack
+        self.center = _middle(true.robot)
 
     @cached_property
     def checker(self) -> MotionChecker:
@@ -75,6 +77,10 @@ class ArcPlanner(PosePlanner):
     def _known(self) -> _core.KnownScene:
         return _core.KnownScene(self.checker.features.made, self.checker._handle, self._slack, self.arcs.poses)
 
+    def improved(self, way: Sequence[Pose], options: Options) -> Path:
+        """Improve a path of a robot that moves in any direction; it turns no more than it needs to."""
+        return super().improved(self.improver(way, options).turning_less(way), options)
+
     def way(self, start: Pose, goal: Pose, options: Options, *, few: bool = False) -> list[Pose] | None:
         """Return poses of a path, if simple ways or a search give one."""
         found = self.quick(start, goal, options)
@@ -89,10 +95,23 @@ def with_inner_polygons(arcs: ArcScene, near: Approximations) -> ArcPlanner:
     UndecidedError
         If a robot or workspace has no polygon inside.
     """
-    true, inner, count = near.exact, near.scene(outward=False), len(near.exact.robot)
-    few = len(inner.obstacles) < len(true.obstacles)  # one has no polygon inside
+    inner = near.scene(outward=False)
+    few = len(inner.obstacles) < len(near.exact.obstacles)  # one has no polygon inside
+    return ArcPlanner(arcs, near.exact, inner, math.inf if few else _slack(near))
+
+
+def with_polygons_near(arcs: ArcScene, near: Approximations) -> ArcPlanner:
+    """Return the same planner; shapes that have no polygon inside are replaced by polygons around them.
+
+    Their distances are enough to push paths away, and too small. What is planned for a vehicle needs polygons inside.
+    """
+    return ArcPlanner(arcs, near.exact, near.nearby(), _slack(near))
+
+
+def _slack(near: Approximations) -> float:
+    count = len(near.exact.robot)
     errors = near.errors[:count], near.errors[count:]
-    return ArcPlanner(arcs, true, inner, math.inf if few else sum(max(part, default=0.0) for part in errors) * ROUNDED)
+    return sum(max(part, default=0.0) for part in errors) * ROUNDED
 
 
 def with_boxes(arcs: ArcScene, true: Scene) -> ArcPlanner:
@@ -105,8 +124,18 @@ def with_boxes(arcs: ArcScene, true: Scene) -> ArcPlanner:
 
 def _box(shapes: Sequence[AnyShape]) -> list[ExactPoint]:
     """Return a box around shapes."""
-    boxes = (shape.box if isinstance(shape, Curved) else map(Fraction, shape.bounds) for shape in shapes)
-    x0, y0, x1, y1 = (choose(row) for choose, row in zip((min, min, max, max), zip(*boxes, strict=True), strict=True))
+    x0, y0, x1, y1 = _sides(shapes)
     unit = Fraction(2) ** (math.frexp(max(x1 - x0, y1 - y0))[1] - BITS)
     left, low, right, high = ((x // unit + k) * unit for x, k in ((x0, 0), (y0, 0), (x1, 1), (y1, 1)))
     return [(left, low), (right, low), (right, high), (left, high)]
+
+
+def _middle(shapes: Sequence[AnyShape]) -> tuple[float, float]:
+    x0, y0, x1, y1 = _sides(shapes)
+    return float(x0 + x1) / 2, float(y0 + y1) / 2
+
+
+def _sides(shapes: Sequence[AnyShape]) -> Iterator[Fraction]:
+    """Return the sides x0, y0, x1, y1 of the least box around shapes."""
+    boxes = (shape.box if isinstance(shape, Curved) else map(Fraction, shape.bounds) for shape in shapes)
+    return (choose(row) for choose, row in zip((min, min, max, max), zip(*boxes, strict=True), strict=True))

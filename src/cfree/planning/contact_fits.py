@@ -13,15 +13,19 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import chain, combinations, islice, product
 
+import numpy as np
+from numpy.typing import NDArray
+
 from cfree.collision.arcs import Curve, curves_of
 from cfree.exact.half_angle import half_angle_rotation
 from cfree.exact.number import ExactPoint, rational_root, simplest_between
-from cfree.exact.pose import Pose, pose_at
+from cfree.exact.pose import Floats, Pose, pose_at
 from cfree.scene.scene import AnyShape, Scene
 
 MOST_CONTACTS = 40  # contacts near one place that are paired
 MOST_ANGLES = 8  # orientations near one place
 ASKEW = 0.05  # radians by which a robot may be askew that is turned to be parallel
+ROUNDING = 2.0**-40  # relative, of distances in doubles
 DIGITS = 1 << 80  # of square roots that are not rational
 
 
@@ -82,6 +86,48 @@ class _Held:
     own: Feature | None = field(default=None, compare=False)
 
 
+@dataclass(frozen=True)
+class _Rows:
+    """Features in doubles, which only tell which contacts are worth exact numbers.
+
+    The centers or points, the unit vectors of sides, or 0, and their lengths; and the radii.
+    """
+
+    point: Floats
+    along: Floats
+    length: Floats
+    radius: Floats
+
+    @staticmethod
+    def of(features: Sequence[Feature]) -> _Rows:
+        sides = [feature if isinstance(feature, Side) else None for feature in features]
+        point = [feature.point if isinstance(feature, Side) else feature.center for feature in features]
+        along = [tuple(part / side.length for part in side.vector) if side else (0, 0) for side in sides]
+        length = [side.length if side else 0 for side in sides]
+        return _Rows(*(np.array(row, float) for row in (point, along, length, [f.radius for f in features])))
+
+    def turned(self, tau: Fraction | None) -> _Rows:
+        q, s, w = half_angle_rotation(tau)
+        turn = np.array([[q / w, s / w], [-s / w, q / w]], float)
+        return _Rows(self.point @ turn, self.along @ turn, self.length, self.radius)
+
+
+def _may_touch(robot: _Rows, others: _Rows, place: tuple[float, float], near: float) -> NDArray[np.bool_]:
+    """Return which features (n) of the robot, turned already, may be near which others (m) at a place: (n, m)."""
+    offset = np.array(place) + robot.point[:, None] - others.point[None]
+    size = max(map(abs, place)) + float(max(abs(robot.point).max(), abs(others.point).max()))
+    near += ROUNDING * (size + float(max(abs(robot.radius).max(), abs(others.radius).max())))
+    along = robot.along[:, None] + others.along[None]  # of pairs with one side
+    is_side, is_other = robot.length > 0, others.length > 0
+    height = abs(along[..., 0] * offset[..., 1] - along[..., 1] * offset[..., 0])
+    foot = (along * offset).sum(axis=2) * np.where(is_side, -1, 1)[:, None]
+    is_beside = (-near <= foot) & (foot <= robot.length[:, None] + others.length[None] + near)
+    has_side = is_side[:, None] != is_other[None]
+    distance = np.where(has_side, height, np.hypot(offset[..., 0], offset[..., 1]))
+    off = abs(distance - abs(robot.radius[:, None] + others.radius[None]))
+    return (off <= near) & np.where(has_side, is_beside, ~(is_side[:, None] & is_other[None]))
+
+
 class Fits:
     """The vertices, arcs and segments of a scene.
 
@@ -96,6 +142,7 @@ class Fits:
         self._robot = [*dict.fromkeys(chain.from_iterable(map(_features, scene.robot)))]
         self._others = [*dict.fromkeys(chain.from_iterable(map(_features, others)))]
         self._reach = max(map(_extent, self._robot))
+        self._rows = _Rows.of(self._robot)
 
     def angles(self, x: float, y: float, theta: float, near: float, most: float = ASKEW) -> list[Fraction | None]:
         """Return half-angle tangents near an orientation: those parallel to something near, and the simplest."""
@@ -139,11 +186,16 @@ class Fits:
     def _contacts(self, place: ExactPoint, tau: Fraction | None, near: float) -> Iterator[_Held]:
         """Yield the contacts near a pose, the nearest first."""
         held = dict[_Held, float]()
-        others = self._close(float(place[0]), float(place[1]), near)
-        for own in self._robot:
+        x, y = map(float, place)
+        others = self._close(x, y, near)
+        if not others:
+            return
+        may_touch = _may_touch(self._rows.turned(tau), _Rows.of(others), (x, y), near)
+        for k in np.flatnonzero(may_touch.any(axis=1)).tolist():
+            own = self._robot[k]
             turned = _turned(own, tau)
-            for other in others:
-                if contact := _contact(turned, other, place, near):
+            for j in np.flatnonzero(may_touch[k]).tolist():
+                if contact := _contact(turned, others[j], place, near):
                     held.setdefault(replace(contact[0], own=own), contact[1])
         yield from sorted(held, key=held.__getitem__)
 

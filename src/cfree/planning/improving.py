@@ -32,6 +32,7 @@ DEAR = 3  # factor of these numbers with preferences: there is more to try
 OTHERS = 30  # other paths that each core searches for
 SEARCH = 50_000  # motions tried, without proof, in one search
 BLOCK = 200  # motions checked or tried between two checks of the clock and of Ctrl-C
+PUSHED = 1 / 16  # radii up to which a path is pushed away from obstacles to be free of them
 LESS = 0.9  # least share of the first path's clearance that a shorter path must keep
 
 Better = Any  # the core's improver of one path: run(checks), merge(), length(), path()
@@ -49,6 +50,8 @@ class Improver:
     preferences : Preferences
     stop : Event
         Ends all work without a result.
+    has_center : bool
+        True if the searcher has a center, about which it turns poses so that paths turn less.
     """
 
     def __init__(
@@ -58,8 +61,10 @@ class Improver:
         searcher: _core.Searcher,
         preferences: Preferences,
         stop: threading.Event,
+        has_center: bool = False,
     ) -> None:
         self.scene, self.checker, self.searcher, self.stop = scene, checker, searcher, stop
+        self._has_center = has_center
         self._prefers = preferences.matter
         self._enough = threading.Event()
 
@@ -95,15 +100,25 @@ class Improver:
 
     def farther(self, poses: Sequence[Pose]) -> Iterator[Sequence[Pose]]:
         """Yield a path with the same ends farther from obstacles, unchecked; then `balanced_once`."""
-        better = self.searcher.balanced([*map(end_of, poses)], 0)
+        better = self.searcher.balanced([*map(end_of, poses)], 0, math.inf)
         yield [*map(from_numbers, better.path())]
         yield self._finished(poses, self._run(poses, better))
 
-    def pushed(self, poses: Sequence[Pose], motions: int) -> Sequence[Pose]:
-        """Return a path farther from obstacles, unchecked, after checks of so many motions."""
-        better = self.searcher.balanced([*map(end_of, poses)], 0)
-        better.run(motions)
-        return [*map(from_numbers, better.path())]
+    def pushed(self, poses: Sequence[Pose], motions: Sequence[int]) -> Iterator[Sequence[Pose]]:
+        """Yield a path farther from obstacles, unchecked, after checks of so many motions, and of more."""
+        better, before = self.searcher.balanced([*map(end_of, poses)], 0, PUSHED), 0
+        for count in motions:
+            better.run(count - before)
+            before = count
+            yield [*map(from_numbers, better.path())]
+
+    def turning_less(self, poses: Sequence[Pose]) -> Sequence[Pose]:
+        """Return a path through the same places that turns less, if there is one."""
+        if not self._has_center or len({pose.tau for pose in poses}) == 1:
+            return poses
+        better = self.searcher.shortener([*map(end_of, poses)], 0)
+        better.turn_less()
+        return self._checked(poses, [*map(from_numbers, better.path())])
 
     def _finished(self, poses: Sequence[Pose], better: Better) -> Sequence[Pose]:
         better.merge()
@@ -120,7 +135,7 @@ class Improver:
         return better
 
     def _balanced(self, poses: Sequence[Pose], seed: int) -> Better:
-        return self._run(poses, self.searcher.balanced([*map(end_of, poses)], seed))
+        return self._run(poses, self.searcher.balanced([*map(end_of, poses)], seed, math.inf))
 
     def _run(self, poses: Sequence[Pose], better: Better) -> Better:
         """Balance a path in the usual number of attempts."""
@@ -153,7 +168,7 @@ class Improver:
                     own = candidates[:1] if core == 0 else []
                     for seed in range(core + 1, OTHERS * cores, cores):
                         if way := self._other(poses, seed, half):
-                            own += filter(will_do, [make(way, seed)])
+                            own += filter(will_do, [make(self.turning_less(way), seed)])
                     if not own and not self._is_over(half):
                         own = [make(poses, core)]
                     best = min(own, key=_length, default=None)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 SAMPLES = 600  # poses at which a path is looked at
 MOST_PLACES = 8  # free parts of a path that are tried, and as many motions through fits
-MOST_TRIES = 80  # searches that join them
+MOST_TRIES, FEW_TRIES = 80, 20  # searches that join them; in one of many queries
 MOST_WAYS = 8  # motions out of a contact
 MOST_PAIRS = 12  # searches between motions out of contacts
 LOOKS = 5  # poses of a forbidden part of a path near which fits are looked for
@@ -39,7 +39,9 @@ FARTHER = (1.25, 2.0, 1.0, 0.5)  # lengths of a motion through a place, relative
 Way = list[Pose]
 
 
-def way_through_fits(planner: ArcPlanner, path: Path, options: Options, error: float) -> Way | None:
+def way_through_fits(
+    planner: ArcPlanner, path: Path, options: Options, error: float, *, thorough: bool = True
+) -> Way | None:
     """Return a way near one among polygons inside of the shapes, through places where the robot fits exactly.
 
     Parameters
@@ -50,6 +52,8 @@ def way_through_fits(planner: ArcPlanner, path: Path, options: Options, error: f
     options : Options
     error : float
         That of the polygons.
+    thorough : bool
+        False leaves out most searches.
 
     Returns
     -------
@@ -58,8 +62,8 @@ def way_through_fits(planner: ArcPlanner, path: Path, options: Options, error: f
     """
     links = _links(planner, path, error)
     ways: dict[int, Way] = {-1: [path.start]}  # by the link at whose end they are
-    todo, tries = [-1], 0
-    while todo and tries < MOST_TRIES:
+    todo, tries, most = [-1], 0, MOST_TRIES if thorough else FEW_TRIES
+    while todo and tries < most:
         k = todo.pop()
         for n in range(len(links), k, -1):
             if n in ways:

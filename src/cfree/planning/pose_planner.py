@@ -54,6 +54,7 @@ class PosePlanner:
     def __init__(self, scene: Scene, space: FreeSpace | None = None) -> None:
         self.scene, self._space = scene, space
         self._slides: Slides = {}  # by the poses that they join
+        self.center: tuple[float, float] | None = None  # a point of the robot, about which paths are made to turn less
 
     @cached_property
     def checker(self) -> MotionChecker:
@@ -161,8 +162,10 @@ class PosePlanner:
         costs = self.angle_scale, *options.preferences.factors
         frame = options.vehicle.frame if options.vehicle else Pose(0, 0)
         axle = float(frame.x), float(frame.y), frame.theta
-        searcher = _core.Searcher(self._known, [end_of(pose)[1] for pose in poses], costs, axle)
-        return Improver(self.scene, self.checker, searcher, options.preferences, options.stop)
+        turns_freely = options.vehicle is None and not options.preferences.matter
+        center = self.center if turns_freely else None
+        searcher = _core.Searcher(self._known, [end_of(pose)[1] for pose in poses], costs, axle, center)
+        return Improver(self.scene, self.checker, searcher, options.preferences, options.stop, center is not None)
 
     def _driven(self, way: Sequence[Pose], vehicle: Vehicle, options: Options) -> Path | Stuck | Unreachable:
         """Return a path of a vehicle between the ends of a path of the robot, or a proof that it is stuck."""
@@ -192,12 +195,14 @@ class PosePlanner:
 
         def way_between(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
             larger = PosePlanner(scene)
+            larger.center = self.center
             way = larger.quick(start, goal, own)
             if way is None and larger.checker.features.patches <= COMPLETE:
                 way = larger.walk(start, goal, own)
             if way is None or len(larger._without_slides(way)) > 1:
                 return None
             left = options.improve and max(0.0, end - time.perf_counter()) / 3
-            return larger.improver(way, own).shortened(way, left)
+            improver = larger.improver(way, own)
+            return improver.shortened(improver.turning_less(way), left)
 
         return clear(self.scene, self.checker, poses, self.angle_scale, way_between)

@@ -15,10 +15,9 @@ from functools import cached_property
 
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import ArcScene, arcs_of
-from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
-from cfree.planning.arc_planner import ArcPlanner, with_boxes, with_inner_polygons
+from cfree.planning.arc_planner import ArcPlanner, with_boxes, with_inner_polygons, with_polygons_near
 from cfree.planning.narrow_fits import NEAR, way_out_of_contacts, way_through_fits
 from cfree.planning.options import Options
 from cfree.planning.stuck import Stuck
@@ -52,18 +51,24 @@ class TruePlanner:
     def __init__(self, exact: Scene, clearance: Fraction, arcs: ArcScene, near: Approximations) -> None:
         self.arcs, self._search, self._near = arcs, with_boxes(arcs, near.exact), near
         self._exact, self._clearance = exact, clearance
+        self._planners: dict[tuple[bool, bool], ArcPlanner] = {}
 
     @cached_property
     def guide(self) -> ArcPlanner:
         """A planner with polygons inside the shapes, away from which it pushes paths."""
         return with_inner_polygons(self.arcs, self._near)
 
-    @cached_property
-    def _finer(self) -> ArcPlanner:
-        """A planner with finer polygons, whose distances are nearer to the truth: for paths that are improved."""
-        near = copy(self._near)
-        near.errors = [max(error / FINER, near.least(k)) if error else error for k, error in enumerate(near.errors)]
-        return with_inner_polygons(self.arcs, near)
+    def _improving(self, options: Options) -> ArcPlanner:
+        """Return a planner with polygons; finer ones improve paths, as their distances are nearer to the truth."""
+        key = options.improve != 0, options.vehicle is not None
+        if key not in self._planners:
+            near = copy(self._near)
+            if options.improve != 0:
+                errors = enumerate(near.errors)
+                near.errors = [max(error / FINER, near.least(k)) if error else error for k, error in errors]
+            make = with_inner_polygons if options.vehicle else with_polygons_near
+            self._planners[key] = make(self.arcs, near)
+        return self._planners[key]
 
     def first_path(self, start: Pose, goal: Pose, options: Options, guesses: int | None = None) -> Path | Stuck | None:
         """Return a path between free poses, if simple ways or searches give one."""
@@ -84,27 +89,22 @@ class TruePlanner:
         if not slides and search.checker.joins(poses):
             return self.finished(poses, options)
         # a few help where there is room; more are dear near exact fits, which are tried first
-        for motions in PUSHES if thorough else PUSHES[:1]:
-            if not slides:
-                pushed = self.guide.improver(poses, options).pushed(poses, motions)
-                if search.checker.joins(pushed):
-                    return self.finished(pushed, options)
-            if motions == PUSHES[0]:
-                through = way_through_fits(search, path, options, max(self._near.errors))
-                if through is not None and search.checker.joins(through):
-                    return self.finished(through, options)
+        pushes = PUSHES if thorough else PUSHES[:1]
+        pushed = iter(()) if slides else self.guide.improver(poses, options).pushed(poses, pushes)
+        if (first := next(pushed, None)) and search.checker.joins(first):
+            return self.finished(first, options)
+        through = way_through_fits(search, path, options, max(self._near.errors), thorough=thorough)
+        if through is not None and search.checker.joins(through):
+            return self.finished(through, options)
+        if (last := next(pushed, None)) and search.checker.joins(last):
+            return self.finished(last, options)
         return None
 
     def finished(self, way: Sequence[Pose], options: Options) -> Path | Stuck | None:
         """Improve a path, given by its poses, and return it as one among the shapes."""
         planner = self._search
         if options.improve != 0 or options.vehicle or options.objective == "clear":
-            try:
-                planner = self.guide if options.improve == 0 else self._finer
-            except UndecidedError:  # the robot has no polygon inside
-                if options.vehicle:
-                    raise
-                options = replace(options, improve=0.0, objective="short")
+            planner = self._improving(options)
         answer = planner.answered(way, options)
         if not isinstance(answer, Path):
             return None
@@ -125,12 +125,18 @@ class TrueShapes:
         Its polygons, which are refined elsewhere.
     clearance : Fraction
         Radius of the disc.
+
+    Attributes
+    ----------
+    grown : Scene
+    arcs : ArcScene
+        The exact shapes of `grown`.
     """
 
     def __init__(self, scene: Scene, near: Approximations, clearance: Fraction) -> None:
         self._scene, self._near, self._clearance = scene, near, clearance
-        self._grown = grown_scene(scene, clearance) if clearance else scene
-        arcs = arcs_of(self._grown)
+        self.grown = grown_scene(scene, clearance) if clearance else scene
+        arcs = arcs_of(self.grown)
         assert arcs is not None, "all shapes are of lines and circular arcs"
         self.arcs = arcs
 
@@ -138,7 +144,7 @@ class TrueShapes:
         """Return a planner with the polygons of now."""
         near = self._near
         if self._clearance:
-            near = Approximations(self._grown, near.tolerance)
+            near = Approximations(self.grown, near.tolerance)
             pairs = enumerate(zip(near.errors, self._near.errors, strict=True))
             near.errors = [min(own, max(error, near.least(k))) if error else own for k, (own, error) in pairs]
         return TruePlanner(self._scene, self._clearance, self.arcs, near)

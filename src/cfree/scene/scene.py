@@ -326,15 +326,24 @@ def largest_of(scene: Scene) -> float:
     return max(map(size_of, shapes_of(scene)))
 
 
-def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Scene:
-    """Replace round shapes by polygons, with an error for each in the order of `shapes_of`; outward forbids more."""
+def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool, always: bool = False) -> Scene:
+    """Replace round shapes by polygons, with an error for each in the order of `shapes_of`; outward forbids more.
+
+    With `always`, a shape that has no polygons on that side gets those on the other one: such a scene proves nothing.
+    """
     if not scene.curved:
         return scene
     error_of = iter(errors)
-    robot = [polygon for shape in scene.robot for polygon in polygons_for(shape, next(error_of), outward)]
+
+    def replaced(shape: AnyShape) -> tuple[Polygon, ...]:
+        error = next(error_of)
+        polygons = polygons_for(shape, error, outward)
+        return polygons or (polygons_for(shape, error, not outward) if always else ())
+
+    robot = [polygon for shape in scene.robot for polygon in replaced(shape)]
     named = list[tuple[str, Polygon]]()
     for k, (name, shape) in enumerate(zip(scene.obstacle_names, scene.obstacles, strict=True)):
-        for polygon in polygons_for(shape, next(error_of), outward):
+        for polygon in replaced(shape):
             # a polygon whose number has changed keeps the number of its shape as a name
             is_moved = name != default_name(k) and len(named) != k
             named.append((f"{default_name(k)} ({name})" if is_moved else name, polygon))

@@ -18,12 +18,14 @@ Area search_area(const KnownScene& scene, std::span<const Place> poses, double r
 class Searcher {
 public:
     // Searcher around poses; costs are in the user's units, the weight of a radian is the robot's radius.
-    Searcher(std::shared_ptr<const KnownScene> scene, std::span<const Place> poses, const Costs& costs);
+    // If there is a center, a point of the robot, paths turn no more than they need to.
+    Searcher(std::shared_ptr<const KnownScene> scene, std::span<const Place> poses, const Costs& costs,
+             const std::optional<Place>& center = {});
 
     RrtConnect search(const End& start, const End& goal, std::uint64_t seed = 0, const Growth& growth = {}) const;
     Shortcut shortener(std::span<const End> way, std::uint64_t seed = 0) const;
-    // Shortener of a path beside this one that keeps a distance from obstacles if there is room.
-    Shortcut balanced(std::span<const End> way, std::uint64_t seed = 0) const;
+    // Shortener of a path beside this one that keeps a distance from obstacles if there is room, at most so many radii.
+    Shortcut balanced(std::span<const End> way, std::uint64_t seed = 0, double radii = HUGE_VAL) const;
     Poses poses(const Route& route) const;
     // Factor from the user's lengths to the doubles of shapes.
     const double unit;
@@ -35,6 +37,7 @@ private:
 
     const std::shared_ptr<const KnownScene> scene;
     const Costs costs;  // per length in the doubles of shapes
+    std::optional<Place> center;  // there
     const Area area;
     const int extent;  // exponent of the area's extent
 };

@@ -19,11 +19,12 @@ struct Joins {
     std::function<bool(const Configuration&, const Configuration&)> certainly;  // exact: the motion is admissible
 };
 
-// Longest step of a tree, as a share of the extent of the configuration space; factor of a radian's weight.
+// Longest step of a tree, as a share of the extent of the configuration space; factor of a radian's weight; share of tries
+// without turning, against needless turning.
 struct Growth {
-    double step = 0.2, turning = 1;
+    double step = 0.2, turning = 1, kept = 0.5;
 };
-constexpr Growth by_short_steps{0.05, 0.25};
+constexpr Growth by_short_steps{0.05, 0.25}, without_turns{0.2, 1, 1};  // turns only where the trees meet
 
 class RrtConnect {
 public:
@@ -66,7 +67,7 @@ private:
     const Joins joins;
     const Grid grid;
     const Area area;
-    const double weight, range, side;  // side: of a square
+    const double weight, range, kept, side;  // side: of a square
     Tree trees[2];
     bool turn = false;  // the tree that grows next
     Random random;

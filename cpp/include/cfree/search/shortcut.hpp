@@ -10,8 +10,9 @@ public:
     Shortcut(Way way, Marked path, std::uint64_t seed);
     // Check about so many motions.
     void run(int checks);
-    // Replace neighbours by one motion, or two, from start to goal.
+    // Turn less if the way has a center; then replace neighbours by one motion, or two, from start to goal.
     void merge();
+    void turn_less();
     const Route& path() const { return route; }
     double length() const { return at.back(); }
 

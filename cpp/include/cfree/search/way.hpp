@@ -1,5 +1,6 @@
 // Routes of paths, and the distance from obstacles that each place must keep.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "cfree/search/nearness.hpp"
@@ -43,6 +44,8 @@ struct Way {
     Area limits;                   // limits of the reference point
     Costs costs;
     double per_motion = 0;         // cost of each motion, as a length
+    std::optional<Place> center = {};  // about this point of the robot poses are turned, so that a path turns less; or not at all
+    bool may_turn = true;          // false: poses keep their orientations when they are pushed away from obstacles
     Marked ridge = {};                   // ridge with requirements,
     std::vector<double> distances = {};  // a distance for each pose of it,
     std::vector<Place> places = {};      // and the places of these poses
