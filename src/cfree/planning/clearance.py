@@ -20,12 +20,12 @@ from cfree.collision.approximations import Approximations
 from cfree.collision.nearer import require_distance
 from cfree.collision.nearest_free import refuse_forbidden
 from cfree.collision.pose_checker import PoseChecker, is_free_at
-from cfree.errors import InvalidPoseError, UndecidedError
+from cfree.errors import UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.free.turn_in_place import free_orientations
 from cfree.paths.path import Path
-from cfree.planning.goals import AllSeparated, all_separated, cheapest, name_of, pose_in
+from cfree.planning.goals import AllSeparated, all_separated, cheapest, name_of, no_orientation, pose_in
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
@@ -221,11 +221,7 @@ def _turned(query: _Query, place: ExactPoint, robot: Sequence[Polygon], name: st
     )
     intervals = [interval for interval in free_orientations(larger, place) if not interval.is_single]
     if not intervals:
-        x, y = map(float, place)
-        raise InvalidPoseError(
-            f"{name} ({x:g}, {y:g}): however it is turned there, the robot is nearer to something than "
-            f"{float(query.options.clearance):g}; give another place, or less clearance"
-        )
+        raise no_orientation(name, place, query.options.clearance)
     poses = [pose_in(interval, query.start, place) for interval in intervals]
     return [pose for pose in poses if pose]
 

@@ -32,12 +32,13 @@ from cfree.free.turn_in_place import free_orientations
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.caller import OutOfWork, Work
-from cfree.planning.goals import AllSeparated, cheapest, name_of, pose_in, refuse_far, several
+from cfree.planning.goals import AllSeparated, cheapest, name_of, no_orientation, pose_in, refuse_far, several
 from cfree.planning.options import Options
 from cfree.planning.planner import Planner, answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
 from cfree.planning.reach import Reach
+from cfree.planning.round_places import STRAIGHT, is_free_place
 from cfree.planning.stuck import Stuck
 from cfree.planning.true_shapes import TruePlanner, TrueShapes
 from cfree.planning.unreachable import Unreachable
@@ -53,7 +54,6 @@ POSES = 400  # poses of a path at which overlaps are looked up
 PATCHES = 80_000  # default limit of contact patches trimmed for one query; about 10 s
 AROUND = 4  # errors of polygons by which a clearance is changed to bound the largest
 FEW, MANY = 48_000, 80_000  # guesses of searches among the shapes themselves, before the first polygons and after
-STRAIGHT = Fraction(0), Fraction(1), None, Fraction(-1)  # half-angle tangents of quarter turns
 MOST_AT_PLACE = 6  # orientations at a place to which a path among the shapes themselves is searched
 COARSE = 2  # finenesses of boxes
 NARROW = 0.002  # width of an interval, relative to the clearance, that finer polygons do not reduce
@@ -109,9 +109,12 @@ class CurvedPlanner:
         """The scene with round shapes."""
         return self._near.exact
 
-    def obstacle_of(self, number: int) -> int:
-        """Return the round or other obstacle that a polygon of the last proof replaces; bounds and workspace stay."""
-        return self._near.obstacle_of(number)
+    def obstacle_of(self, number: int, *, outward: bool = False) -> int:
+        """Return the obstacle that a polygon of the last answer replaces; bounds and workspace keep their numbers.
+
+        The polygons are inside the shapes, as in proofs, or around them if `outward`, as in paths.
+        """
+        return self._near.obstacle_of(number, outward=outward)
 
     @property
     def angle_scale(self) -> float:
@@ -246,15 +249,17 @@ class CurvedQuery:
         for k, end in enumerate(ends):
             name = "start" if k == 0 else name_of(ends[1:], k - 1)
             if not isinstance(end, Pose):
+                if is_free_place(self._true.grown, end, self.options.tolerance) is False:
+                    raise no_orientation(name, end, self.options.clearance)
                 continue
             if not arcs.is_free(end):
                 refuse_overlap(self.near.exact, arcs, end, name)
             if not self._true.arcs.is_free(end):
-                clearance, (least, most) = float(self.options.clearance), arcs.distance(end)
+                least, most = arcs.distance(end)
                 away = f"{least:.6g}" if f"{least:.6g}" == f"{most:.6g}" else f"between {least:.6g} and {most:.6g}"
                 remedy = "move it, or give a smaller clearance"
-                text = f"{name}: {away} away from obstacles and workspace, and the clearance is {clearance:g}; {remedy}"
-                raise InvalidPoseError(text)
+                asked = f"the clearance is {float(self.options.clearance):g}"
+                raise InvalidPoseError(f"{name}: {away} away from obstacles and workspace, and {asked}; {remedy}")
 
     def _first_path(self, planner: TruePlanner, ends: Sequence[Pose], guesses: int) -> Path | None:
         """Return the cheapest path among the shapes themselves, if a search finds one."""

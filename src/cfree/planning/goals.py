@@ -179,6 +179,15 @@ def name_of(goals: Sequence[Goal], k: int) -> str:
     return "goal" if len(goals) == 1 else f"goal {k}"
 
 
+def no_orientation(name: str, place: ExactPoint, clearance: Fraction = Fraction(0)) -> InvalidPoseError:
+    """Return the error of a place at which no orientation is free, or keeps a clearance."""
+    where = f"{name} ({float(place[0]):g}, {float(place[1]):g})"
+    if not clearance:
+        return InvalidPoseError(f"{where}: no orientation is free there; give another place")
+    near = f"the robot is nearer to something than {float(clearance):g}"
+    return InvalidPoseError(f"{where}: however it is turned there, {near}; give another place, or less clearance")
+
+
 def cheapest(paths: Sequence[Path], scene: Scene, preferences: Preferences) -> Path:
     """Return the path of least cost by preferences."""
     return min(paths, key=lambda path: preferences.cost(path, scene)) if len(paths) > 1 else paths[0]
@@ -196,10 +205,9 @@ def _poses_at(scene: Scene, place: ExactPoint, start: Pose, name: str) -> Iterat
     """Yield one pose for each interval of free orientations, turned little from the start; None if irrational."""
     from cfree.free.turn_in_place import free_orientations
 
-    x, y = place
     intervals = free_orientations(scene, place)
     if not intervals:
-        raise InvalidPoseError(f"{name} ({float(x):g}, {float(y):g}): no orientation is free there; give another place")
+        raise no_orientation(name, place)
     for interval in intervals:
         yield pose_in(interval, start, place)
 

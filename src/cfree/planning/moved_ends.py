@@ -15,6 +15,7 @@ from cfree.free.turn_in_place import free_orientations
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated, name_of
 from cfree.planning.proof import Proof
+from cfree.planning.round_places import is_free_place
 from cfree.polygons.disc import around_disc
 from cfree.scene.dilation import grown_by
 from cfree.scene.goals import Goal, Moved, text_of
@@ -79,7 +80,9 @@ def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Fract
 
     def is_fit(end: Goal) -> bool:
         if not isinstance(end, Pose):
-            return bool(free_orientations(checker.scene, end))
+            if free_orientations(checker.scene, end):
+                return True
+            return scene.curved and is_free_place(grown, end) is True
         if clearance is None or scene.curved:
             return is_free_at(checker, end) or is_free(grown, end) is True
         try:

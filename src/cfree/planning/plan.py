@@ -80,7 +80,7 @@ def plan(
         If the free space is given, two calls of `locate` decide whether a path exists, unless exact fits join cells.
     start, goal : Pose or (x, y, theta), optional
         By default those of the scene. A goal may also be a place (x, y), at which any orientation will do, or a
-        list of poses and places, any one of which will do.
+        list of poses and places, any one of which will do; each of them must be free.
     clearance : number, optional
         Distance that the path keeps from obstacles and workspace, not from bounds. If no path keeps it, the answer is a
         proof.
@@ -101,7 +101,8 @@ def plan(
         nor `max_seconds`, a query with round shapes ends undecided after 80,000 contact patches, about 10 s.
     nearest_free : bool
         Move a start or goal that is not free, or has less than the clearance, to the nearest free pose that a search
-        finds. The answer has the requested ones: `Path.moved`, `Separated.moved`.
+        finds. The answer has the requested ones: `Path.moved`, `Separated.moved`. Free ones stay, also places among
+        segments and arcs at which the robot touches something; among other curves, if polygons prove them free.
     vehicle : Car, DifferentialDrive or "any", optional
         The machine that drives the path; by default the scene's, if it has one. With "any" the robot moves in any
         direction.
@@ -117,7 +118,7 @@ def plan(
     ------
     InvalidPoseError
         If there is no start or goal, or the robot overlaps an obstacle there, or has less than the clearance; at a
-        place, in all orientations.
+        place, in all orientations. Among round shapes a place counts as forbidden if polygons prove it.
     IncompleteError
         If `max_seconds` ran out. Subclass `UndecidedError`: the clearance is within 0.1 % of the largest possible
         (carries the interval), or the polygons for round shapes were too coarse (carries their error), or a vehicle
@@ -131,6 +132,9 @@ def plan(
     it prefers short ones of few motions. `clearance` certifies the distance that a path keeps. "clear" searches for a
     path of a robot grown by the largest margin that works, between the first and the last place on a short path where
     the grown robot fits.
+
+    Among segments and arcs a robot without vehicle and preferences turns no more than it needs to on the way that was
+    found. A balanced path still turns where that makes a very narrow place twice as wide.
 
     A vehicle that reverses reaches every pose of its cell that touches nothing, whatever its turning radius. So
     `Separated` is a proof for every vehicle. "balanced" keeps half of the distance that a path of the robot keeps
