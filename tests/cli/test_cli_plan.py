@@ -189,6 +189,32 @@ def test_what_if_and_the_nearest_miss_among_round_shapes(run: Run, tmp_path: Pat
     assert json.loads(run("plan", scene, "--what-if", "--json").stdout)["what if"] == [0, 1, 2]
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["arcs", "other curves"])
+def test_obstacles_of_an_answer_are_named_by_the_round_shapes_not_by_polygons(
+    run: Run, tmp_path: Path, kind: str
+) -> None:
+    """The first obstacle becomes several polygons, so that the numbers of the others' polygons are larger."""
+    first = cfree.Curved([(1, 2), (2, 2), (2, "2.2"), ("1.2", "2.2"), ("1.2", 3), (1, 3)], grown="0.02")
+    posts = [
+        cfree.Curved.circle((x, 0), 1) if kind == "arcs" else cfree.Curved.ellipse((x, 0), (1, 1)) for x in (0, 3, 6)
+    ]
+    room, names = [(0, -4), (6, -4), (6, 4), (0, 4)], ["angle", "left", "middle", "right"]
+    ends: dict[str, Any] = {"start": (4, 2, 0), "workspace": room, "obstacle_names": names}
+    scene = str(tmp_path / "scene.json")
+    cfree.save(cfree.Scene(cfree.Curved.circle((0, 0), "0.55"), [first, *posts], **ends), scene)
+    for options in ([], ["--improve", "0.1"]):
+        said = " ".join(run("plan", scene, "--goal", "3,-2,0", *options).stdout.split())
+        posts_said = "obstacle 1 (left), 2 x 2 at (0, 0); obstacle 2 (middle), 2 x 2 at (3, 0); obstacle 3 (right), 2"
+        assert f"blocking obstacles the workspace; {posts_said}" in said
+        facts = json.loads(run("plan", scene, "--goal", "3,-2,0", "--json", *options).stdout)
+        assert facts["obstacles"] == [-2, 1, 2, 3]
+    said = " ".join(run("plan", scene, "--goal", "4.5,0.8,0").stdout.split())
+    assert "to obstacle 3 (right), 2 x 2 at (6, 0)" in said or "to obstacle 2 (middle), 2 x 2 at (3, 0)" in said
+    place = json.loads(run("plan", scene, "--goal", "4.5,0.8,0", "--json").stdout)["clearance"]["obstacle"]
+    assert place in (2, 3)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -421,7 +447,7 @@ def test_a_forbidden_end_is_moved_when_asked_for(run: Run, tmp_path: Path) -> No
     assert run("plan", file, "--start", "0,2,0", "--nearest-free").exit_code == 0  # the goal is the scene's
     one = run("plan", file, "--start", "0,2,0", "--goal", "2.25,2,0", "--nearest-free", "--clearance", "0.1")
     assert "goal moved" in one.stdout and "start moved" not in one.stdout and "(3.1, 2, 0 deg)" in one.stdout
-    free = run("plan", file, "--start", "0,2,0", "--goal", "5,2,0", "--nearest-free")
+    free = run("plan", file, "--start", "0,2,0", "--goal", "4.5,0.8,0", "--nearest-free")
     assert free.exit_code == 0 and "start moved" not in free.stdout and "goal moved" not in free.stdout
 
 

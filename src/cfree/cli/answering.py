@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
@@ -16,9 +16,11 @@ from cfree.cli.files import bar
 from cfree.cli.reading import AS_READ
 from cfree.cli.terminal import printable
 from cfree.scene.naming import all_placed
+from cfree.scene.smooth import smoothed
 
 if TYPE_CHECKING:
     from cfree.analysis.blockers import Blockers
+    from cfree.cli.report import Shapes
     from cfree.errors import IncompleteError
     from cfree.exact.pose import Pose
     from cfree.formats.answers.answer_file import Form
@@ -166,10 +168,10 @@ class Answering:
         try:
             answers = [
                 planner.plan(start, goal, **wanted) if is_one else planner.plan_any(start, goals, **wanted)
-                for wanted in (options, *([options | {"improve": 0.0}] if options["improve"] else []))
-            ]
+                for wanted in (*([options | {"improve": 0.0}] if options["improve"] else []), options)
+            ]  # the wanted one comes last: the planner keeps the polygons of its last answer
             answers = [free.marked(answer) if free else answer for answer in answers]
-            return cls(planner, start, goal if is_one else None, files, *answers)
+            return cls(planner, start, goal if is_one else None, files, *reversed(answers))
         except IncompleteError as error:
             _draw_undecided(error, planner.scene, files.get("picture"))
             fail(str(error), INCOMPLETE)
@@ -229,6 +231,19 @@ class Answering:
         """The scene that was asked about, with its round shapes."""
         scene: Scene = getattr(self.planner, "exact", self.planner.scene)
         return scene
+
+    @property
+    def _shapes(self) -> Shapes:
+        from cfree.cli.report import Shapes
+
+        return Shapes(self.planner.scene, self.scene, self._own)
+
+    def _own(self, obstacles: Iterable[int]) -> list[int]:
+        """Return the obstacles of the scene that was asked about for those of the answer."""
+        owner, path = getattr(self.planner, "obstacle_of", None), self.path
+        if path is not None and path.scene is None and path.curved:  # it is among the shapes themselves
+            return [smoothed(path.curved, k) for k in obstacles]
+        return [*dict.fromkeys(owner(k, outward=path is not None) for k in obstacles)] if owner else [*obstacles]
 
     @cached_property
     def blockers(self) -> Blockers:
@@ -297,13 +312,12 @@ class Answering:
         from cfree.formats.answers.answer_file import in_time
 
         with bar("least clearance"):
-            described = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
+            described = (answer_facts if for_machines else answer_rows)(self.answer, self._shapes)
         moved = moved_facts(self.answer) if for_machines else moved_rows(self.answer)
         rows: dict[str, Any] = {"answer": described["answer"], **moved, **described}
         rows[AS_READ] = self._as_read()
         if self.path is not None and self.first is not None:
-            facts = answer_facts(self.first, self.planner.scene)
-            now = answer_facts(self.answer, self.planner.scene)
+            facts, now = (answer_facts(answer, self._shapes) for answer in (self.first, self.answer))
             compared = ("length", "turning", "clearance")
             rows["before it was improved"] = (
                 {name: facts[name] for name in compared} if for_machines else _before(facts)

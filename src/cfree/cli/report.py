@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from cfree.cli.reading import AS_READ, facts, last_line
 from cfree.cli.terminal import columns, print_json, printable, terminal_width
 from cfree.exact.pose import Pose
 from cfree.scene.goals import Goal, Moved, text_of
-from cfree.scene.naming import all_placed, placed
+from cfree.scene.naming import all_placed
 from cfree.words import counted
 
 if TYPE_CHECKING:
@@ -104,7 +104,30 @@ def boundary_facts(boundary: Boundary) -> dict[str, Any]:
     return asdict(boundary.stats) | {"isolated": len(boundary.isolated)}
 
 
-def answer_rows(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
+@dataclass(frozen=True)
+class Shapes:
+    """The scene of an answer, and the shapes that its obstacles stand for: polygons may replace round ones.
+
+    Attributes
+    ----------
+    scene : Scene
+        The scene of polygons, or the one that was asked about.
+    asked : Scene
+        The one that was asked about.
+    own : callable
+        Returns its obstacles for those of an answer.
+    """
+
+    scene: Scene
+    asked: Scene
+    own: Callable[[Iterable[int]], list[int]]
+
+    def placed(self, obstacles: Iterable[int]) -> str:
+        """Return the numbers, names, sizes and places of the obstacles of an answer."""
+        return all_placed(self.asked, self.own(obstacles))
+
+
+def answer_rows(answer: Path | Proof | AllSeparated, shapes: Shapes) -> dict[str, int | float | str]:
     """Describe an answer in words and numbers."""
     from cfree.paths.clearance import own_clearance, rounded_down
     from cfree.paths.path import Path
@@ -112,13 +135,14 @@ def answer_rows(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, 
     from cfree.planning.stuck import Stuck
     from cfree.planning.unreachable import Unreachable
 
+    scene = shapes.scene
     unit = f" {scene.units}" if scene.units else ""
     if not isinstance(answer, Path):
         if isinstance(answer, Stuck):
             return {
                 "answer": answer_text(answer, scene),
                 "poses along contacts": f"{len(answer.rail):,}",
-                "touched obstacles": all_placed(scene, answer.obstacles),
+                "touched obstacles": shapes.placed(answer.obstacles),
             }
         if isinstance(answer, Unreachable):
             grid = answer.grid
@@ -132,12 +156,12 @@ def answer_rows(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, 
                 "answer": answer_text(answer, scene),
                 "goals": f"{len(answer.goals):,}",
                 "proofs": f"{len(answer.proofs):,}",
-                "blocking obstacles": all_placed(scene, answer.obstacles),
+                "blocking obstacles": shapes.placed(answer.obstacles),
             }
         return {
             "answer": answer_text(answer, scene),
             "separating surface": f"{counted(len(answer.pieces), 'piece')} of contact surfaces",
-            "blocking obstacles": all_placed(scene, answer.obstacles),
+            "blocking obstacles": shapes.placed(answer.obstacles),
         }
     rows: dict[str, int | float | str] = {
         "answer": answer_text(answer, scene),
@@ -158,7 +182,7 @@ def answer_rows(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, 
         if answer.vehicle.kind == "differential":
             rows["turned in place"] = f"{math.degrees(facts['in place']):.6g} degrees"
     if least := own_clearance(answer, scene):
-        name = placed(scene, least.obstacle[0])
+        name = shapes.placed(least.obstacle[:1])
         rows["least clearance"] = f"{least.found:.6g}{unit}, in motion {least.motion}, to {name}"
         rows["proved lower bound"] = f"{rounded_down(max(least.least, float(answer.clearance)), 6)}{unit}"
     return rows
@@ -190,7 +214,7 @@ def answer_text(answer: Path | Proof | AllSeparated, scene: Scene) -> str:
     return verdict if isinstance(answer, Separated) else f"to none of the goals: {verdict}"
 
 
-def answer_facts(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str, Any]:
+def answer_facts(answer: Path | Proof | AllSeparated, shapes: Shapes) -> dict[str, Any]:
     """Describe an answer by numbers, for machines: lengths in the scene's unit, angles in radians."""
     from cfree.paths.clearance import own_clearance
     from cfree.paths.path import Path
@@ -201,10 +225,10 @@ def answer_facts(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str,
     numbers: dict[str, Any]
     if isinstance(answer, AllSeparated):
         numbers = {"answer": "all separated", "of": answer.of, "goals": len(answer.goals), "proofs": len(answer.proofs)}
-        return numbers | {"obstacles": list(answer.obstacles)}
+        return numbers | {"obstacles": shapes.own(answer.obstacles)}
     if isinstance(answer, Stuck):
         numbers = {"answer": "stuck", "at": answer.at, "of": answer.of, "poses": len(answer.rail)}
-        return numbers | {"obstacles": list(answer.obstacles)}
+        return numbers | {"obstacles": shapes.own(answer.obstacles)}
     if isinstance(answer, Unreachable):
         grid = answer.grid
         return {
@@ -217,16 +241,16 @@ def answer_facts(answer: Path | Proof | AllSeparated, scene: Scene) -> dict[str,
     if not isinstance(answer, Path):
         facts: dict[str, Any] = {"of": answer.of, "pieces": len(answer.pieces)}
         facts |= {"asked clearance": float(answer.clearance)} if answer.clearance else {}
-        return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
+        return {"answer": "separated"} | facts | {"obstacles": shapes.own(answer.obstacles)}
     numbers = {"answer": "path", **motion_counts(answer)}
     numbers |= {"length": answer.length, "turning": answer.turning, "clearance": None}
     if answer.vehicle:
         numbers["driving"] = {"vehicle": answer.vehicle.kind, **driving_facts(answer)}
     if answer.clearance:
         numbers["asked clearance"] = float(answer.clearance)
-    if least := own_clearance(answer, scene):
+    if least := own_clearance(answer, shapes.scene):
         proved = max(least.least, float(answer.clearance))
-        place = {"motion": least.motion, "obstacle": least.obstacle[0]}
+        place = {"motion": least.motion, "obstacle": shapes.own(least.obstacle[:1])[0]}
         numbers["clearance"] = {"found": least.found, "proved": proved, **place}
     return numbers
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from cfree.scene.scene import Scene, largest_of
+from itertools import accumulate
+
+from cfree.scene.scene import Scene, largest_of, polygons_for
 
 EDGES = 4000  # one part of so many of the largest shape's size is invisible
 
@@ -11,5 +13,16 @@ def smooth(scene: Scene, *, outward: bool = True) -> Scene:
     """Replace round shapes by polygons that look round."""
     if not scene.curved:
         return scene
-    error = largest_of(scene) / EDGES
-    return scene.outer(error) if outward else scene.inner(error)
+    return scene.outer(_error(scene)) if outward else scene.inner(_error(scene))
+
+
+def smoothed(scene: Scene, obstacle: int) -> int:
+    """Return the obstacle that a polygon of `smooth` replaces; bounds and workspace keep their numbers."""
+    if not scene.curved or obstacle < 0:
+        return obstacle
+    ends = accumulate(len(polygons_for(shape, _error(scene), outward=True)) for shape in scene.obstacles)
+    return next(k for k, end in enumerate(ends) if obstacle < end)
+
+
+def _error(scene: Scene) -> float:
+    return largest_of(scene) / EDGES
