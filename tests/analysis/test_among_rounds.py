@@ -13,6 +13,7 @@ import shapely
 import cfree.verify
 from cfree import Curved, Scene, blockers, boundary, max_margin, max_scale, nearest_miss
 from cfree.analysis import among_rounds
+from cfree.analysis.among_rounds import Decisions
 from cfree.analysis.blockers import Blockers, _without
 from cfree.analysis.inset_shapes import inset_shapes
 from cfree.analysis.margins import Interval
@@ -109,6 +110,26 @@ def test_the_nearest_miss_between_discs(robot: Curved) -> None:
     assert miss is not None and miss.lo <= 0.05 <= miss.hi <= 1.1 * miss.lo and not miss.undecided
     (place,) = miss.bottlenecks
     assert 1 in place.obstacles and "obstacle 1, 2 x 2 at (3, 0)" in str(miss)  # found by samples, on one side of it
+
+
+@pytest.mark.slow
+def test_the_nearest_miss_of_an_open_ring_ends_after_counted_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its corners are not rational when it is inset, so that it becomes polygons, whose searches in vain take long."""
+    (a, b), (c, d) = ((4 * radius / 5, 3 * radius / 5) for radius in (Fraction(3, 5), Fraction(3, 10)))
+    outer, inner = Arc((a, -b), center=(0, 0)), Arc((c, d), center=(0, 0), clockwise=True)
+    left, answered = list[int](), Decisions._answered
+
+    def counted(self: Decisions, number: Fraction, scene: Scene) -> bool | None:
+        left.append(self._left)
+        return answered(self, number, scene)
+
+    monkeypatch.setattr(Decisions, "_answered", counted)
+    monkeypatch.setattr(among_rounds, "TOTAL", 20_000)
+    monkeypatch.setattr(among_rounds, "PATCHES", 0)  # no bottlenecks
+    miss = nearest_miss(hall(Curved([(a, b), outer, (c, -d), inner])))
+    assert sum(patches < 0 for patches in left) <= 1  # the second question about one number
+    assert miss is not None and 0.001 < miss.lo <= miss.hi < 0.02
+    assert "round shapes do not decide" in miss.undecided
 
 
 @pytest.mark.slow

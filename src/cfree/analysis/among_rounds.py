@@ -29,8 +29,9 @@ from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
 from cfree.polygons.offset import inset
+from cfree.polygons.polygon import Polygon
 from cfree.scene.naming import placed
-from cfree.scene.scene import Scene, grown_scene, size_of, with_robot, with_shapes
+from cfree.scene.scene import AnyShape, Scene, grown_scene, size_of, with_robot, with_shapes
 
 Progress = Callable[[float], object]
 BITS = 24  # bits of the numbers that are tried
@@ -39,7 +40,8 @@ WORK = 30_000  # most contact patches trimmed for one number
 SMALLEST = 20  # halvings of the robot's size: the least inset that is tried
 WIDER = 4  # times that polygons for a bottleneck are made smaller, each time twice as much
 PATCHES = 8_000  # most contact patches of polygons that are searched for bottlenecks
-TOTAL = 80_000  # contact patches trimmed for all numbers after which polygons get no finer
+TOTAL = 80_000  # contact patches trimmed for all numbers, after which nothing more is decided
+SEARCH = 160  # patches that take about as long as searches in vain, for each piece of the robot's boundary
 COARSE = 2.0**-8  # first error of the polygons, in robot sizes
 FINER = 4  # divisor of that error
 NARROW = 4  # part of an interval: what is not undecided counts as narrow
@@ -76,12 +78,15 @@ class Decisions:
     proofs: dict[Fraction, tuple[Separated, Approximations]] = field(default_factory=dict)
     reason: str = ""
     _error: float = COARSE  # in robot sizes
-    _left: int = TOTAL
+    _left: int = field(default_factory=lambda: TOTAL)
     _may_help: bool = False  # True if finer polygons may decide a number that is undecided
 
     def joined(self, number: Fraction) -> bool | None:
         """True if a path exists, False if none does that keeps a distance; None if that stays undecided."""
         self.undecided.discard(number)
+        if self._left < 0:
+            self.undecided.add(number)
+            return None
         pair = self.scenes(number, self._error)
         if pair is None:
             return False
@@ -115,6 +120,7 @@ class Decisions:
             return False
         except UndecidedError as undecided:
             self.reason = f"polygons within {undecided.error:.3g} of the round shapes do not decide the numbers between"
+            self._left -= SEARCH * sum(map(_pieces, scene.robot))
             self._may_help |= self._error > TOLERANCE and work.left >= 0
             return None
         finally:
@@ -303,6 +309,13 @@ def _bottlenecks(decisions: Decisions, lo: Fraction, hi: Fraction) -> tuple[Bott
             return tuple(_among(near, place) for place in places)
         by *= 2
     return ()
+
+
+def _pieces(shape: AnyShape) -> int:
+    """Count the vertices of a polygon, or the pieces of a round shape's path."""
+    if isinstance(shape, Polygon):
+        return len(shape)
+    return len(shape.path) if isinstance(shape.path, tuple) else 1
 
 
 def _patches(proof: Separated) -> int:
