@@ -11,6 +11,7 @@ import reprlib
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, Literal
@@ -22,6 +23,7 @@ from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
 from cfree.curves.rings import Circle
+from cfree.curves.similar import moved_shape
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UndecidedError, UnsupportedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -33,7 +35,7 @@ from cfree.scene.reading import Note, in_order
 from cfree.scene.reading_lines import losses
 from cfree.value import Keeping, Shown
 from cfree.vehicles.vehicle import Vehicle
-from cfree.words import counted
+from cfree.words import counted, listed
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
 AnyShape = Polygon | Curved
@@ -294,6 +296,141 @@ class Scene(Shown, Keeping):
         """
         return with_shapes(self, [_grown(shape, to_fraction(by)) for shape in self.robot])
 
+    @checked
+    def moved(self, obstacle: int | str, pose: PoseLike) -> Scene:
+        """Return the scene with one obstacle moved from its place by a rigid motion, exactly.
+
+        Parameters
+        ----------
+        obstacle : int or str
+            Its index or name.
+        pose : Pose or (x, y, theta)
+            The motion: the obstacle is turned about the origin by theta, then shifted by x and y.
+
+        Raises
+        ------
+        IndexError, ValueError
+            If no obstacle has this index or name, or several have the name.
+        InvalidPoseError
+            If `pose` is no pose.
+        UnsupportedError
+            If the obstacle leaves the range of coordinates.
+
+        Notes
+        -----
+        Everything else stays, but for `check`: its facts were those of another scene.
+
+        Examples
+        --------
+        >>> scene = Scene([(0, 0), (1, 0), (0, 1)], [[(3, 0), (4, 0), (4, 2)]], obstacle_names=["desk"])
+        >>> scene.moved("desk", ("1/2", 0, 0)).obstacles[0].bounds
+        (3.5, 0.0, 4.5, 2.0)
+        >>> scene.moved(0, (0, 0, "90deg")).moved(0, (0, 0, "-90deg")) == scene
+        True
+        """
+        k = obstacle_index(self, obstacle)
+        shapes = list[AnyShape](self.obstacles)
+        shapes[k] = moved_shape(shapes[k], to_pose(pose))
+        return _with_obstacle_list(self, shapes, self.obstacle_names)
+
+    @checked
+    def with_obstacle(self, obstacle: Any, name: str | None = None) -> Scene:
+        """Return the scene with one more obstacle, after the others.
+
+        Parameters
+        ----------
+        obstacle : shape
+            All polygons of a multipolygon get the name.
+        name : str, optional
+
+        Raises
+        ------
+        InvalidPolygonError
+            If it is no shape.
+        UnsupportedError
+            If it leaves the range of coordinates.
+
+        Examples
+        --------
+        >>> scene = Scene([(0, 0), (1, 0), (0, 1)], [[(3, 0), (4, 0), (4, 2)]])
+        >>> scene.with_obstacle([(5, 5), (6, 5), (6, 6)], "desk").obstacle_names
+        ('obstacle 0', 'desk')
+        """
+        added = _shapes(obstacle, "obstacle" + (f" ({name})" if name else ""))
+        count = len(self.obstacles)
+        names = [name or default_name(count + k) for k in range(len(added))]
+        return _with_obstacle_list(self, [*self.obstacles, *added], [*self.obstacle_names, *names])
+
+    @checked
+    def without_obstacle(self, obstacle: int | str) -> Scene:
+        """Return the scene without one of its obstacles, given by index or name.
+
+        Obstacles after it have an index less by one; so have those of them that are named by their index.
+
+        Raises
+        ------
+        IndexError, ValueError
+            If no obstacle has this index or name, or several have the name.
+
+        Examples
+        --------
+        >>> wall, desk = [(3, 0), (4, 0), (4, 2)], [(5, 5), (6, 5), (6, 6)]
+        >>> scene = Scene([(0, 0), (1, 0), (0, 1)], [wall, desk])
+        >>> scene.without_obstacle(0) == Scene(scene.robot, [desk])
+        True
+        """
+        gone = obstacle_index(self, obstacle)
+        shapes, names = list(self.obstacles), list[str]()
+        del shapes[gone]
+        for k, name in enumerate(self.obstacle_names):
+            if k != gone:
+                names.append(default_name(len(names)) if name == default_name(k) else name)
+        return _with_obstacle_list(self, shapes, names)
+
+
+def obstacle_index(scene: Scene, obstacle: int | str) -> int:
+    """Return the index of an obstacle that is given by its index or name.
+
+    Raises
+    ------
+    IndexError, ValueError
+        As from `Scene.moved`.
+
+    Examples
+    --------
+    >>> scene = Scene([(0, 0), (1, 0), (0, 1)], [[(3, 0), (4, 0), (4, 2)]], obstacle_names=["desk"])
+    >>> obstacle_index(scene, 0), obstacle_index(scene, "desk")
+    (0, 0)
+    >>> obstacle_index(scene, "disk")
+    Traceback (most recent call last):
+        ...
+    ValueError: obstacle: 'disk' is the name of none; did you mean 'desk'?
+    """
+    names = scene.obstacle_names
+    if not isinstance(obstacle, str):
+        if 0 <= obstacle < len(names):
+            return int(obstacle)
+        numbers = f"an index from 0 to {len(names) - 1}, or a name" if names else "with_obstacle adds some"
+        raise IndexError(f"obstacle: {obstacle}, and the scene has {counted(len(names), 'obstacle')}; {numbers}")
+    places = [k for k, name in enumerate(names) if name == obstacle]
+    if len(places) > 1:
+        numbers = listed(list(map(str, places)), ", ")
+        raise ValueError(f"obstacle: {obstacle!r} is the name of obstacles {numbers}; give an index")
+    if not places:
+        similar = get_close_matches(obstacle, names, 1)
+        remedy = f"did you mean {similar[0]!r}?" if similar else "give an index, or a name of obstacle_names"
+        raise ValueError(f"obstacle: {obstacle!r} is the name of none; {remedy}")
+    return places[0]
+
+
+def _with_obstacle_list(scene: Scene, obstacles: Sequence[AnyShape], names: Sequence[str]) -> Scene:
+    """Return the scene with other obstacles; of its values only `check` does not stay."""
+    other = copy(scene)
+    values: dict[str, Any] = {"obstacles": tuple(obstacles), "obstacle_names": tuple(names), "check": {}}
+    for key, value in values.items():
+        object.__setattr__(other, key, value)
+    return _examined(other)
+
 
 def grown_scene(scene: Scene, by: Fraction) -> Scene:
     """Return the scene with its robot grown by a disc, whatever its curves; for planners."""
@@ -305,10 +442,15 @@ def with_shapes(scene: Scene, robot: Sequence[AnyShape]) -> Scene:
     """Return the scene with another robot, some of whose shapes may be round."""
     other = copy(scene)
     object.__setattr__(other, "robot", tuple(robot))
-    object.__setattr__(other, "curved", any(isinstance(shape, Curved) for shape in shapes_of(other)))
-    if not other.curved:
-        _refuse_far(other)
-    return other
+    return _examined(other)
+
+
+def _examined(scene: Scene) -> Scene:
+    """Return a new scene whose shapes have changed, unless a coordinate is out of range."""
+    object.__setattr__(scene, "curved", any(isinstance(shape, Curved) for shape in shapes_of(scene)))
+    if not scene.curved:
+        _refuse_far(scene)
+    return scene
 
 
 def shapes_of(scene: Scene) -> tuple[AnyShape, ...]:
