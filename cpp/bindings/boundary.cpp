@@ -81,6 +81,7 @@ static void bind_tally(nb::module_& m) {
     nb::class_<Tally>(m, "Tally")
         .def_ro("pairs", &Tally::pairs)
         .def_ro("live_patches", &Tally::live_patches)
+        .def_ro("kept_patches", &Tally::kept_patches)
         .def_prop_ro("decided_by_identity", [](const Tally& t) { return t.decisions.identity; })
         .def_prop_ro("decided_by_filter", [](const Tally& t) { return t.decisions.filter; })
         .def_prop_ro("decided_by_intervals", [](const Tally& t) { return t.decisions.interval; })
@@ -93,7 +94,8 @@ static void bind_tally(nb::module_& m) {
 
 // watch(share) is asked ten times a second whether to go on; what it raises ends the call.
 static SharedBoundary computed(const std::shared_ptr<const cfree::Scene>& scene, int threads, bool regularized,
-                               const nb::typed<nb::callable, bool(double)>& watch, std::optional<std::vector<int>> features) {
+                               const nb::typed<nb::callable, bool(double)>& watch, std::optional<std::vector<int>> features,
+                               SharedBoundary reuse) {
     Raised raised;
     const auto ask = [&](double share) {
         const nb::gil_scoped_acquire lock;
@@ -107,7 +109,7 @@ static SharedBoundary computed(const std::shared_ptr<const cfree::Scene>& scene,
     };
     try {
         const nb::gil_scoped_release release;
-        return cfree::compute_boundary(scene, {threads, regularized, ask, std::move(features)});
+        return cfree::compute_boundary(scene, {threads, regularized, ask, std::move(features), std::move(reuse)});
     } catch (const cfree::Stopped&) {
     }
     raised.rethrow();
@@ -144,7 +146,8 @@ void bind_boundary(nb::module_& m) {
         .def_ro("tally", &Boundary::tally)
         .def("root", &root, "contact"_a, "chart"_a, "first"_a, "second"_a, "lo"_a, "hi"_a, "place"_a)
         .def("angle_ranks", &angle_ranks);
-    m.def("compute_boundary", &computed, "scene"_a, "threads"_a, "regularized"_a, "watch"_a, "features"_a = nb::none());
+    m.def("compute_boundary", &computed, "scene"_a, "threads"_a, "regularized"_a, "watch"_a, "features"_a = nb::none(),
+          "reuse"_a = nb::none());
     m.def("may_have_slits", [](const cfree::Scene& scene) { return cfree::may_have_slits(scene); }, "scene"_a);
     m.def("misfit", [](const Boundary& b, int threads) { return watched([&] { return cfree::misfit(b, threads); }); },
           "boundary"_a, "threads"_a);

@@ -221,7 +221,7 @@ def test_a_scene_is_curved_as_long_as_a_shape_of_it_is() -> None:
         (lambda s: s.moved(True, (0, 0, 0)), TypeError, r"obstacle: True"),
         (lambda s: s.moved(1.0, (0, 0, 0)), TypeError, r"obstacle: 1.0 is a float; give an int or a str"),
         (lambda s: s.with_obstacle([(0, 0), (1, 1)], "rod"), InvalidPolygonError, r"obstacle \(rod\): .*a segment or"),
-        (lambda s: s.with_obstacle(3), InvalidPolygonError, r"obstacle: int"),
+        (lambda s: s.with_obstacle(3), InvalidPolygonError, r"obstacle: .*3 is no ring"),
         (lambda s: s.with_obstacle(SQUARE, 4), TypeError, r"name: 4 is an int"),
     ],
 )  # fmt: skip

@@ -2,9 +2,11 @@
 #include "cfree/forbidden/boundary.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "cfree/forbidden/isolated.hpp"
+#include "forbidden/kept_patches.hpp"
 #include "forbidden/patch_trimming.hpp"
 #include "support/parallel.hpp"
 
@@ -12,30 +14,28 @@ namespace cfree {
 
 namespace {
 
-void gather(std::vector<std::vector<Trapezoid>>& lists, Trapezoids& into) {
-    std::size_t total = 0;
-    for (const auto& list : lists) total += list.size();
-    into.reserve(total);
-    for (auto& list : lists) {
-        for (const Trapezoid& x : list) into.push_back(x);
-        std::vector<Trapezoid>().swap(list);
-    }
-}
-
-}  // namespace
-
-namespace {
-
 // Trimming of all patches of a scene, one after another, by any number of threads.
 class Trimming {
 public:
-    Trimming(const Scene& scene, bool regularized, const std::optional<std::vector<Index>>& features)
-        : one(scene, regularized), chosen(features), trimmed(one.patches.size(), 0), found(one.first_patch.size() - 1),
-          found_thin(found.size()) {}
+    Trimming(const Scene& scene, const Task& task)
+        : one(scene, task.regularized), chosen(task.features), trimmed(one.patches.size(), 0),
+          counted(one.first_patch.size() - 1), found(counted.size()), found_thin(counted.size()) {
+        if (!task.reuse || task.regularized || chosen) return;
+        kept = kept_patches(*task.reuse, scene);
+        if (!kept) return;
+        chosen = kept->retrimmed;
+        for (Index j = 0; j < static_cast<Index>(counted.size()); ++j) {
+            if (kept->from[j] < 0) continue;
+            const Index begin = one.first_patch[j], end = one.first_patch[j + 1];
+            std::fill(trimmed.begin() + begin, trimmed.begin() + end, 1);
+            counted[j] = task.reuse->counted[kept->from[j]], counted[j].decisions.exact_seconds = 0;
+            done += end - begin;
+        }
+        kept_count = done;
+    }
 
     // Work of one thread: all patches of one obstacle feature after another.
     void run(const std::atomic<bool>& stop) {
-        Tally mine;
         Shadows near = one.shadows();
         const auto count = static_cast<Index>(chosen ? chosen->size() : found.size());
         for (Index n = next++; n < count && !stop; n = next++) {
@@ -46,15 +46,36 @@ public:
             try {
                 for (Index id = one.first_patch[j]; id < one.first_patch[j + 1] && !stop; ++id, ++done) {
                     whole = found[j].size(), whole_thin = found_thin[j].size();
-                    one.trim(id, near, found[j], found_thin[j], mine);
+                    one.trim(id, near, found[j], found_thin[j], counted[j]);
                     trimmed[id] = 1;
                 }
             } catch (const Stopped&) {  // in the middle of a patch, with perhaps one chart done
                 found[j].resize(whole), found_thin[j].resize(whole_thin);
             }
         }
-        const std::lock_guard lock(mutex);
-        tally.pairs += mine.pairs, tally.live_patches += mine.live_patches, tally.decisions += mine.decisions;
+    }
+
+    // Write all rows in the order of their patches.
+    void gather(Trapezoids& live, Trapezoids& thin) {
+        const auto rows = [](const auto& lists) {
+            return std::accumulate(lists.begin(), lists.end(), std::size_t{0}, [](std::size_t n, const auto& x) { return n + x.size(); });
+        };
+        live.reserve(rows(found) + (kept ? kept->live.columns->size() : 0));
+        thin.reserve(rows(found_thin) + (kept ? kept->thin.columns->size() : 0));
+        for (Index j = 0; j < static_cast<Index>(counted.size()); ++j) {
+            if (kept && kept->from[j] >= 0) kept->add(j, one.first_patch[j], live, thin);
+            for (const auto& [list, out] : {std::pair{&found[j], &live}, std::pair{&found_thin[j], &thin}}) {
+                for (const Trapezoid& x : *list) out->push_back(x);
+                std::vector<Trapezoid>().swap(*list);
+            }
+        }
+    }
+
+    Tally tally() const {
+        Tally sum;
+        for (const Count& x : counted) sum.add(x);
+        sum.kept_patches = kept_count;
+        return sum;
     }
 
     double share() const { return trimmed.empty() ? 0.0 : static_cast<double>(done) / static_cast<double>(trimmed.size()); }
@@ -62,24 +83,27 @@ public:
 
 private:
     PatchTrimming one;
-    const std::optional<std::vector<Index>>& chosen;
+    std::optional<std::vector<Index>> chosen;
+    std::optional<KeptPatches> kept;
     std::atomic<Index> next{0};
     std::atomic<std::int64_t> done{0};
-    std::mutex mutex;
+    std::int64_t kept_count = 0;
 
 public:
     Patches& patches = one.patches;
     std::vector<std::uint8_t> trimmed;
-    std::vector<std::vector<Trapezoid>> found, found_thin;  // one per obstacle ring vertex
-    Tally tally;
+    std::vector<Count> counted;  // one per obstacle ring vertex, as the lists
+
+private:
+    std::vector<std::vector<Trapezoid>> found, found_thin;
 };
 
 }  // namespace
 
 Boundary::Boundary(std::shared_ptr<const Scene> s, Patches p, std::vector<std::uint8_t> done, Trapezoids t, IsolatedParts i,
-                   const Tally& counted)
+                   const Tally& sum, std::optional<Trapezoids> without_width, std::vector<Count> counts)
     : scene(std::move(s)), patches(std::move(p)), trimmed(std::move(done)), trapezoids(std::move(t)), isolated(std::move(i)),
-      tally(counted) {}
+      tally(sum), thin(std::move(without_width)), counted(std::move(counts)) {}
 
 bool Boundary::is_complete() const { return std::find(trimmed.begin(), trimmed.end(), 0) == trimmed.end(); }
 
@@ -121,7 +145,7 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
     auto start = Clock::now();
     const auto lap = [&] { return std::chrono::duration<double>(Clock::now() - std::exchange(start, Clock::now())).count(); };
     const Scene& scene = shared->near();
-    Trimming work(scene, task.regularized, task.features);
+    Trimming work(scene, task);
     std::atomic<bool> stop{false}, cancelled{false};
     const auto ask = [&] {
         const Wish wish = task.watch(work.share());
@@ -133,24 +157,24 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
         const Lookout trimming(stop, look);
         in_parallel(task.threads, stop, [&] { work.run(stop); });
     }
-    Tally tally = work.tally;
+    Tally tally = work.tally();
     tally.trim_seconds = lap();
     const Lookout afterwards(cancelled, look);
     heed_stop();
     Trapezoids trapezoids, thin;
-    gather(work.found, trapezoids), gather(work.found_thin, thin);
+    work.gather(trapezoids, thin);
+    const bool has_names = !task.features && !scene.is_round;  // a grown edge is smooth with its own end only
+    if (has_names)
+        for (Trapezoids* rows : {&trapezoids, &thin}) use_names(scene, rows->features());
     tally.collect_seconds = lap();
     IsolatedParts isolated;
     if (work.is_complete() && !task.regularized && !task.features && !scene.is_round)  // not there yet for grown shapes
         isolated = isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
     heed_stop();
-    if (!task.features && !scene.is_round) {  // a grown edge is smooth with its own end only
-        use_names(scene, trapezoids.features());
-        use_names(scene, isolated.parts.features());
-    }
+    if (has_names) use_names(scene, isolated.parts.features());
     tally.isolated_seconds = lap();
     return std::make_shared<const Boundary>(shared, std::move(work.patches), std::move(work.trimmed), std::move(trapezoids),
-                                            std::move(isolated), tally);
+                                            std::move(isolated), tally, std::move(thin), std::move(work.counted));
 }
 
 }  // namespace cfree

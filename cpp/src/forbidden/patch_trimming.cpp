@@ -1,6 +1,7 @@
 // Trim a patch by the pillars near it; theory, "The trimmed boundary".
 #include "forbidden/patch_trimming.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "forbidden/round_trim.hpp"
@@ -61,6 +62,13 @@ void PatchTrimming::seams(const Feature& contact, std::vector<Feature>& out) con
     for (Index o = 0; o < O.ring_vertices; ++o)
         if (O.layer[o] != reference_layer && (is_level ? between(O.y, O.X, O.Y, o) : between(O.x, O.Y, O.X, o)))
             out.push_back({Kind::vertex_vertex, at_reference.front(), o});
+    // in the order of their places, each once: not in that of the input
+    std::sort(out.begin(), out.end(), [&](const Feature& x, const Feature& y) {
+        const auto& along = is_level ? O.X : O.Y;
+        return along[x.obstacle] < along[y.obstacle];
+    });
+    const auto is_same = [&](const Feature& x, const Feature& y) { return O.point[x.obstacle] == O.point[y.obstacle]; };
+    out.erase(std::unique(out.begin(), out.end(), is_same), out.end());
 }
 
 void PatchTrimming::pillars_near(Index feature, Shadows& out) const {
@@ -70,29 +78,34 @@ void PatchTrimming::pillars_near(Index feature, Shadows& out) const {
 }
 
 void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin,
-                         Tally& tally) const {
+                         Count& count) const {
     const Feature contact = patches.contact(patch);
-    const std::vector<Feature> before_it = owners.before(contact);
-    if (scene.is_round) return trim_round(patch, near, before_it, out, thin, tally);
-    const Range range = range_of(scene, contact, tally.decisions);
+    std::vector<Feature> before_it = owners.before(contact);
+    if (scene.is_round) return trim_round(patch, near, before_it, out, thin, count);
+    // owners elsewhere on the line share nothing
+    const auto is_apart = [&](const Feature& owner) {
+        return !edge_box(scene.obstacles, owner.obstacle).meets(edge_box(scene.obstacles, contact.obstacle));
+    };
+    if (contact.kind == Kind::vertex_edge) std::erase_if(before_it, is_apart);
+    const Range range = range_of(scene, contact, count.decisions);
     std::vector<Feature> touching;
     seams(contact, touching);
     const std::size_t before = out.size();
     for (int r = 0; r < range.count; ++r) {
         const auto& pillars = near.on({contact, range.chart[r]}, range.from[r].lo, range.to[r].hi);
         if (near.cover_all(contact)) {
-            ++tally.pairs;
+            ++count.pairs;
             continue;
         }
         Trimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r]);
         for (const Feature& owner : before_it) {
-            const Range shared = range_of(scene, owner, tally.decisions);
+            const Range shared = range_of(scene, owner, count.decisions);
             for (int s = 0; s < shared.count; ++s)
                 if (shared.chart[s] == range.chart[r]) trimmer.cede(owner, shared.from[s], shared.to[s]);
         }
         for (const Shadows::Pillar& pillar : pillars) {
             if (trimmer.empty()) break;
-            ++tally.pairs;
+            ++count.pairs;
             trimmer.left(near.slices);
             const Slices::Part part = near.part(pillar);
             if (part.empty()) continue;
@@ -101,22 +114,22 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
         }
         for (const Feature& helix : touching) trimmer.split(helix);
         trimmer.finish(patch, out, thin);
-        tally.decisions += trimmer.decide.counters;
+        count.decisions += trimmer.decide.counters;
     }
-    tally.live_patches += out.size() > before;
+    count.live_patches += out.size() > before;
 }
 
 // The same among grown shapes, by all pillars near the patch.
 void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vector<Feature>& before_it, std::vector<Trapezoid>& out,
-                               std::vector<Trapezoid>& thin, Tally& tally) const {
+                               std::vector<Trapezoid>& thin, Count& count) const {
     const Feature contact = patches.contact(patch);
-    const Range range = range_of(scene, contact, tally.decisions);
+    const Range range = range_of(scene, contact, count.decisions);
     const std::size_t before = out.size();
     const std::vector<Index> edges = owners.edges_at(contact.obstacle);
     for (int r = 0; r < range.count; ++r) {
         RoundTrimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r], edges);
         for (const Feature& owner : before_it) {
-            const Range shared = range_of(scene, owner, tally.decisions);
+            const Range shared = range_of(scene, owner, count.decisions);
             for (int s = 0; s < shared.count; ++s) {
                 if (shared.chart[s] != range.chart[r]) continue;
                 if (is_circle(owner)) trimmer.cede_circle(owner);
@@ -126,14 +139,14 @@ void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vect
         for (const Index k : near.pieces())
             for (Index p = 0; p < scene.robot.pieces() && !trimmer.empty(); ++p) {
                 if (scene.robot.piece_layer[p] != scene.obstacles.piece_layer[k]) continue;
-                ++tally.pairs;
+                ++count.pairs;
                 heed_stop();
                 trimmer.cover(p, k);
             }
         trimmer.finish(patch, out, thin);
-        tally.decisions += trimmer.decide.counters;
+        count.decisions += trimmer.decide.counters;
     }
-    tally.live_patches += out.size() > before;
+    count.live_patches += out.size() > before;
 }
 
 }  // namespace cfree

@@ -23,11 +23,11 @@ public:
     // Pillars that may reach the patches of an obstacle feature.
     void pillars_near(Index feature, Shadows& out) const;
     // Add the live parts of a patch to `out`, and those without width to `thin`.
-    void trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin, Tally& tally) const;
+    void trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin, Count& count) const;
 
 private:
     void trim_round(Index patch, const Shadows& near, const std::vector<Feature>& before_it, std::vector<Trapezoid>& out,
-                    std::vector<Trapezoid>& thin, Tally& tally) const;
+                    std::vector<Trapezoid>& thin, Count& count) const;
     // Helices inside a bound's patch along which pillars may touch it, free space on both sides; theory, "The trimmed boundary".
     void seams(const Feature& contact, std::vector<Feature>& out) const;
 

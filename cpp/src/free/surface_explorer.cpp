@@ -97,7 +97,7 @@ struct SurfaceExplorer::State {
     double nearness = 0;                           // distance of points that may be equal; it decides only the order
     Index pillars_of = -1;
     Shadows pillars = one.shadows();
-    Tally tally;
+    Count count;
 };
 
 void SurfaceExplorer::State::trim(Index patch) {
@@ -108,7 +108,7 @@ void SurfaceExplorer::State::trim(Index patch) {
         pillars_of = contact.obstacle;
     }
     std::vector<Trapezoid> found, thin;
-    one.trim(patch, pillars, found, thin, tally);
+    one.trim(patch, pillars, found, thin, count);
     trimmed[patch] = 1;
     const std::size_t before = rows.size();
     const ContactLine<double> line(scene, contact, Doubles{});

@@ -12,17 +12,23 @@
 
 namespace cfree {
 
-struct Tally {
+struct Count {
     std::int64_t pairs = 0;         // pairs of a patch and a pillar near it
     std::int64_t live_patches = 0;
     Counters decisions;
+    void add(const Count& o) { pairs += o.pairs, live_patches += o.live_patches, decisions += o.decisions; }
+};
+
+struct Tally : Count {
+    std::int64_t kept_patches = 0;  // patches of another boundary
     double trim_seconds = 0, collect_seconds = 0, isolated_seconds = 0;
 };
 
 class Boundary {
 public:
     Boundary(std::shared_ptr<const Scene> scene, Patches patches, std::vector<std::uint8_t> trimmed, Trapezoids trapezoids,
-             IsolatedParts isolated, const Tally& tally = {});
+             IsolatedParts isolated, const Tally& tally = {}, std::optional<Trapezoids> thin = {},
+             std::vector<Count> counted = {});
 
     const std::shared_ptr<const Scene> scene;
     const Patches patches;
@@ -30,6 +36,10 @@ public:
     const Trapezoids trapezoids;
     const IsolatedParts isolated;
     const Tally tally;
+    // Parts of patches without width, on trapezoids or not; and counts by obstacle ring vertex. Only if it has been computed: no
+    // file has them.
+    const std::optional<Trapezoids> thin;
+    const std::vector<Count> counted;
 
     bool is_complete() const;
     // All critical angles in one order, computed at the first call, by this many threads.
@@ -66,6 +76,8 @@ struct Task {
     // A part of the scene: the obstacle features, vertices of rings and the edges that start there, whose patches are
     // trimmed. Then isolated parts are not computed, and curves keep their first names, which depend on the features near by.
     std::optional<std::vector<Index>> features = {};
+    // Boundary of another scene: its patches that are the same here are not trimmed again. The result is the same.
+    std::shared_ptr<const Boundary> reuse = {};
 };
 
 // Throws Stopped if cancelled.

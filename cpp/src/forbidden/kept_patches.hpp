@@ -1,0 +1,29 @@
+// Patches of one boundary that hold in another scene; theory, "The trimmed boundary".
+#pragma once
+#include "cfree/forbidden/boundary.hpp"
+
+namespace cfree {
+
+// The rows of obstacle features, as in another boundary, with the names of this scene.
+struct KeptPatches {
+    std::vector<Index> from;      // for each obstacle ring vertex the one of the other boundary with its patches, or -1
+    std::vector<Index> retrimmed; // the ring vertices with -1
+    // Add the rows of a ring vertex to those of this boundary, whose first patch is this one.
+    void add(Index feature, Index first_patch, Trapezoids& live, Trapezoids& thin) const;
+
+    struct Rows {
+        const Trapezoids* columns;
+        std::vector<Index> first;  // row of each ring vertex of the other boundary
+    };
+    Rows live, thin;
+    std::vector<Index> first_patch;  // of each ring vertex of the other boundary
+    std::vector<Index> points, lines;  // an obstacle vertex at each point of the other scene, and an edge on each line; or -1
+    const Shape* other;                // obstacles of the other scene
+};
+
+// The patches of `other` that are the same in a scene, whose patches begin at `first_patch`: their pieces, and all that is
+// within the robot's reach of them, have not changed. None if the two scenes do not have the same robot in the same
+// integers, or if `other` does not have its parts without width.
+std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scene);
+
+}  // namespace cfree
