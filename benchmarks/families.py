@@ -21,6 +21,8 @@ Questions, ten seeds each, none chosen by its answer:
     throat     two furnished rooms and a throat that is wider by 10 % to 0.001 %; a rounded rectangle
     large      a star of 10 to 100 vertices among convex obstacles
 
+Moved obstacles, of any scene: `moves` chooses some, with motions of three kinds.
+
 Seeds 2, 5 and 8 of mazes, traps, barriers and throats are shut, most by little. Coordinates are doubles of full length.
 """
 
@@ -46,6 +48,7 @@ CAR = np.array([(-2.25, -0.6), (-1.95, -0.9), (1.95, -0.9), (2.25, -0.6), (2.25,
 BLOCK = 74.0
 BAR = np.array([(-0.6, -0.2), (0.6, -0.2), (0.6, 0.2), (-0.6, 0.2)])
 SEEDS = range(10)
+MOVES = ("decimals", "doubles", "turns")
 SIZES = {
     "convex": (60, 500, 5_000, 25_000),
     "stars": (50, 500, 5_000),
@@ -377,6 +380,24 @@ QUESTIONS: dict[str, Callable[[int], cfree.Scene]] = {
 
 
 # --- parts of both ---
+
+
+def moves(scene: cfree.Scene, kind: str, count: int, seed: int = 0) -> list[tuple[int, cfree.Pose]]:
+    """Obstacles, and motions by up to a tenth of their size: shifts by decimals or doubles, or turns about their middles."""
+    rng = np.random.default_rng(seed)
+    result = []
+    for k in rng.choice(len(scene.obstacles), min(count, len(scene.obstacles)), replace=False).tolist():
+        x0, y0, x1, y1 = scene.obstacles[k].bounds
+        x, y = rng.uniform(-0.1, 0.1, 2) * max(x1 - x0, y1 - y0)
+        if kind == "decimals":
+            pose = cfree.Pose(f"{x:.2f}", f"{y:.2f}")
+        elif kind == "doubles":
+            pose = cfree.Pose(x, y)
+        else:
+            middle, turn = cfree.Pose((x0 + x1) / 2, (y0 + y1) / 2), cfree.Pose(0, 0, f"{rng.uniform(-10, 10):.1f}deg")
+            pose = middle @ turn @ middle.inverse()
+        result.append((k, pose))
+    return result
 
 
 def _spread_angles(rng: np.random.Generator, sizes: NDArray[np.int64]) -> Floats:

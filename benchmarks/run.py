@@ -20,6 +20,7 @@ from cfree.cli.terminal import columns
 
 BENCHES = (
     "boundary",
+    "moved",
     "exact",
     "growth",
     "threads",

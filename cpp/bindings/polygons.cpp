@@ -200,12 +200,13 @@ void bind_polygons(nb::module_& m) {
     column(owners, "vertex", &cfree::Owners::vertex);
     nb::class_<cfree::WholeScene>(m, "WholeScene")
         .def("__init__", [](cfree::WholeScene* w, const nb::int_& scale, const std::optional<std::array<nb::int_, 4>>& box,
-                            const std::array<bool, 4>& rounded) {
-            new (w) cfree::WholeScene{integer(scale), {}, {rounded[0], rounded[1]}, {rounded[2], rounded[3]}};
+                            const nb::int_& short_part) {
+            new (w) cfree::WholeScene{integer(scale), {}, integer(short_part)};
             if (box) w->box = std::array{integer((*box)[0]), integer((*box)[1]), integer((*box)[2]), integer((*box)[3])};
-        }, "scale"_a, "box"_a.none(), "rounded"_a)
+        }, "scale"_a, "box"_a.none(), "short_part"_a)
         .def("add", [](cfree::WholeScene& w, const Polygon& polygon) { w.add(polygon); }, "polygon"_a)
         .def_prop_ro("scale", [](const cfree::WholeScene& w) { return integer(w.scale); })
+        .def_prop_ro("short_part", [](const cfree::WholeScene& w) { return integer(w.short_part); })
         .def_prop_ro("box", [](const cfree::WholeScene& w) {
             using Box = std::optional<std::tuple<nb::int_, nb::int_, nb::int_, nb::int_>>;
             return w.box ? std::apply([](const auto&... c) { return Box({integer(c)...}); }, *w.box) : Box();
@@ -227,10 +228,6 @@ void bind_polygons(nb::module_& m) {
              nb::sig("def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
                      "bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, "
                      "radii: Sequence[fractions.Fraction] | None = None) -> None"))
-        .def_prop_ro("rounded", [](const cfree::SceneFeatures& f) {
-            const auto &far = f.scene->obstacles, &near = f.scene->near().obstacles;
-            return std::tuple(far.rounded, far.rounded_twice, near.rounded, near.rounded_twice);
-        }, "Whether coordinates of the obstacles are, once and twice, and those of the scene that is near.")
         .def_ro("scene", &cfree::SceneFeatures::scene)
         .def_ro("robot", &cfree::SceneFeatures::robot)
         .def_ro("obstacles", &cfree::SceneFeatures::obstacles)

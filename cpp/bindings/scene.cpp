@@ -35,7 +35,8 @@ static std::shared_ptr<const cfree::Scene> make_scene(const cfree::Shape& robot,
                                                       int shift, bool is_bounded, const Point& robot_origin,
                                                       const Point& obstacle_origin, int near_shift) {
     const auto exact = [](const Point& p) { return cfree::Vec<cfree::Int>{integer(p.first), integer(p.second)}; };
-    cfree::Scene scene{robot, obstacles, integer(scale), shift, is_bounded, {}, nullptr};
+    const cfree::Int denominator = integer(scale);
+    cfree::Scene scene{robot, obstacles, denominator, denominator >> lsb(denominator), shift, is_bounded, {}, nullptr};
     return cfree::scene_around(std::move(scene), exact(robot_origin), exact(obstacle_origin), near_shift);
 }
 

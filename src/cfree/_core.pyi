@@ -135,7 +135,7 @@ class Owners:
     def vertex(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), writable=False)]: ...
 
 class WholeScene:
-    def __init__(self, scale: int, box: Sequence[int] | None, rounded: Sequence[bool]) -> None: ...
+    def __init__(self, scale: int, box: Sequence[int] | None, short_part: int) -> None: ...
 
     def add(self, polygon: Polygon) -> None: ...
 
@@ -143,17 +143,14 @@ class WholeScene:
     def scale(self) -> int: ...
 
     @property
+    def short_part(self) -> int: ...
+
+    @property
     def box(self) -> tuple[int, int, int, int] | None: ...
 
 class SceneFeatures:
     def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, radii: Sequence[fractions.Fraction] | None = None) -> None:
         """Radii by which the robot and each obstacle are grown."""
-
-    @property
-    def rounded(self) -> tuple[bool, bool, bool, bool]:
-        """
-        Whether coordinates of the obstacles are, once and twice, and those of the scene that is near.
-        """
 
     @property
     def scene(self) -> Scene: ...

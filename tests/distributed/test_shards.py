@@ -14,7 +14,7 @@ import cfree
 import cfree._core as _core
 from cfree.distributed import Sharded, boundary
 from cfree.distributed.part import Part
-from cfree.distributed.store import SceneStore, is_small, rounding, store_scene
+from cfree.distributed.store import SceneStore, store_scene
 from cfree.distributed.trim import digest, trim_tile
 from compared import scene_of
 from examples import POLYGONS
@@ -25,10 +25,7 @@ TRIANGLE = [(0, 0), (2, 0), (0, 1)]
 
 
 def stored(scene: cfree.Scene, folder: Path) -> SceneStore:
-    store = store_scene(scene, [], folder)
-    if not is_small(store):
-        store.rounded = rounding(store, np.arange(len(store)))
-    return store
+    return store_scene(scene, [], folder)
 
 
 def check_tiles(scene: cfree.Scene, folder: Path, counts: tuple[int, ...] = (1, 7, 64)) -> None:

@@ -145,6 +145,43 @@ def test_scenes_far_from_the_origin() -> None:
     reused(far, far.moved(5, (1, 0, 0)))
 
 
+@pytest.mark.parametrize(
+    "pose",
+    [
+        (0.1, 0.2, 0),
+        (1e-9, 0, 0),
+        (0.3, -0.7, 0.4),
+        (0, 0, "30deg"),
+        ("0.5", 0, "-1deg"),
+        (2**-40, 0, 0),
+        ("1/1000003", 0, 0),
+    ],
+)
+def test_moves_by_doubles_and_turns_by_any_angle_change_nothing_elsewhere(pose: tuple[float, float, float]) -> None:
+    scene = Scene(BAR, [box("0.1", k * k + Fraction(k, 10), 2, 3) for k in range(12)])
+    for k in (0, 5):
+        moved = scene.moved(k, pose)
+        reused(scene, moved, 200)
+        reused(moved, scene, 200)
+        reused(moved, moved.moved(8, (0.1, 0, "17deg")), 200)
+        reused(moved, moved.moved(k, (0.1, 0, "17deg")), 200)
+
+
+def test_longer_decimals_change_all_and_then_no_more() -> None:
+    scene = Scene(BAR, [box("0.1", k * k, 2, 3) for k in range(12)])
+    longer = scene.moved(5, ("0.001", 0, 0))
+    assert reused(scene, longer, 0).kept_patches == 0
+    reused(longer, longer.moved(6, ("0.002", 0, 0)), 200)
+
+
+def test_simple_fractions_are_doubles_as_long_as_they_are_few() -> None:
+    thirds = Scene(BAR, [box(Fraction(k, 3), k * k, 2, 3) for k in range(12)])
+    reused(thirds, thirds.moved(5, ("1/3", 0.1, "20deg")), 200)
+    many = Scene(BAR, [box(Fraction(1, 10**k + 3), k * k * 3, 2, 3) for k in range(12)])
+    reused(many, many.moved(5, ("1/3", 0.1, "20deg")), 0)
+    reused(many, many.moved(5, (0, 0.1, "20deg")), 100)
+
+
 def test_moves_by_doubles_among_doubles() -> None:
     scene = Scene(BAR, [box(0.1 * k * k, 7.3 * k, 1.7, 2.9) for k in range(12)])
     reused(scene, scene.moved(5, (0.5, 0.25, "90deg")), 200)
@@ -265,7 +302,7 @@ def test_a_boundary_that_is_not_complete_gives_what_it_has() -> None:
     "other",
     [
         Scene(box(0, 0, 2, 2), HOUSES),  # another robot
-        Scene(BAR, [Polygon([(x / 3, y) for x, y in house.exact_vertices]) for house in HOUSES]),  # another denominator
+        Scene(BAR, [Polygon([(x / 3, y) for x, y in house.exact_vertices]) for house in HOUSES]),  # other places
         Scene(BAR, [box(1000, 1000, 1, 1)]),
         Scene(BAR),
     ],

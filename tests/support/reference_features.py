@@ -189,11 +189,11 @@ def scene_features(scene: Scene) -> SceneFeatures:
             obstacles.add_polygon(part, BODY, WORKSPACE, emit_outer=part is not parts[0], owner_vertex=named)
     rim = None
     if scene.bounds is not None or scene.workspace is not None:
-        reach = 1 + sum(max(abs(c) for c in axis) for axis in zip(*robot.vertices, strict=True))
+        reach = sum(max(abs(c) for c in axis) for axis in zip(*robot.vertices, strict=True))
         bounds = [int(b * scale) for b in scene.bounds or ()]
-        x0, y0, x1, y1 = box([*obstacles.vertices, *zip(bounds[::2], bounds[1::2], strict=True)])
-        reach += max(x1 - x0, y1 - y0) // 8  # so that doubles resolve the difference
-        outer = x0 - reach, y0 - reach, x1 + reach, y1 + reach
+        around = box([*obstacles.vertices, *zip(bounds[::2], bounds[1::2], strict=True)])
+        step = coarse_step(around, scale)  # so that doubles resolve the difference
+        outer = outwards(around, reach + step, step)
         rim = (outer[0] / scale, outer[1] / scale, outer[2] / scale, outer[3] / scale)
         if bounds:
             add_bounds(robot, obstacles, bounds, outer)
@@ -210,8 +210,7 @@ def scene_features(scene: Scene) -> SceneFeatures:
 def complement(rings: Sequence[Iterable[Point]], robot: Box, around: Box, scale: int) -> list[Polygon]:
     """Polygons that the robot must stay out of: a frame around the workspace, thicker than the robot, and its holes."""
     thickness = 1 + 2 * sum(map(abs, robot))
-    x0, y0, x1, y1 = around
-    frame = rectangle(x0 - thickness, y0 - thickness, x1 + thickness, y1 + thickness)
+    frame = rectangle(*outwards(around, thickness, coarse_step(around, scale)))
 
     def exact(ring: Iterable[Point]) -> list[tuple[Fraction, Fraction]]:
         return [(Fraction(x, scale), Fraction(y, scale)) for x, y in ring]
@@ -226,15 +225,32 @@ def box(points: Sequence[Point]) -> Box:
 
 
 def place_near(points: Sequence[Point], scale: int) -> Point:
-    """The middle of points that are far away, in whole units of the user where these are small; else 0."""
+    """The middle of points that are far away, on a coarse grid; else 0."""
     if not points:
         return 0, 0
     x0, y0, x1, y1 = around = box(points)
     size = max(x1 - x0, y1 - y0)
     if max(map(abs, around)) <= FAR * size:
         return 0, 0
-    unit = scale if size > scale else 1
-    return (x0 + x1) // (2 * unit) * unit, (y0 + y1) // (2 * unit) * unit
+    step = coarse_step(around, scale)
+    return (x0 + x1) // (2 * step) * step, (y0 + y1) // (2 * step) * step
+
+
+def coarse_step(around: Box, scale: int) -> int:
+    """Return the least power of two, in units of the user, of an eighth of the size or more, if it is an integer."""
+    x0, y0, x1, y1 = around
+    step = scale // (scale & -scale)
+    while 8 * step < max(x1 - x0, y1 - y0):
+        step *= 2
+    return step
+
+
+def outwards(around: Box, margin: int, step: int) -> Box:
+    """Return a box with a margin, then outwards to multiples of a step."""
+    x0, y0, x1, y1 = around
+    low = [(c - margin) // step * step for c in (x0, y0)]
+    high = [-((-c - margin) // step) * step for c in (x1, y1)]
+    return low[0], low[1], high[0], high[1]
 
 
 def rectangle(x0: int, y0: int, x1: int, y1: int) -> list[Point]:

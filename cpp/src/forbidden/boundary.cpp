@@ -17,11 +17,12 @@ namespace {
 // Trimming of all patches of a scene, one after another, by any number of threads.
 class Trimming {
 public:
-    Trimming(const Scene& scene, const Task& task)
+    // `scene` has the doubles for trimming, `near` is of the same shapes.
+    Trimming(const Scene& scene, const Scene& near, const Task& task)
         : one(scene, task.regularized), chosen(task.features), trimmed(one.patches.size(), 0),
           counted(one.first_patch.size() - 1), found(counted.size()), found_thin(counted.size()) {
         if (!task.reuse || task.regularized || chosen) return;
-        kept = kept_patches(*task.reuse, scene);
+        kept = kept_patches(*task.reuse, near);
         if (!kept) return;
         chosen = kept->retrimmed;
         for (Index j = 0; j < static_cast<Index>(counted.size()); ++j) {
@@ -144,8 +145,10 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
     using Clock = std::chrono::steady_clock;
     auto start = Clock::now();
     const auto lap = [&] { return std::chrono::duration<double>(Clock::now() - std::exchange(start, Clock::now())).count(); };
-    const Scene& scene = shared->near();
-    Trimming work(scene, task);
+    const Scene& near = shared->near();
+    const std::optional<Scene> with_others = with_short_doubles(near);
+    const Scene& scene = with_others ? *with_others : near;
+    Trimming work(scene, near, task);
     std::atomic<bool> stop{false}, cancelled{false};
     const auto ask = [&] {
         const Wish wish = task.watch(work.share());

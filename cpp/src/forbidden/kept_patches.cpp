@@ -47,7 +47,7 @@ std::vector<Block> blocks(const Shape& s) {
 std::size_t hash_of(const Shape& s, const Block& block) {
     std::uint64_t h = 0;
     const auto add = [&](Index v) {
-        for (const double c : {s.x[v], s.y[v]}) h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
+        for (const double c : {s.xy[2 * v], s.xy[2 * v + 1]}) h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
     };
     for (Index v = block.begin; v < block.end; ++v) add(v);
     if (block.begin == block.end)
@@ -55,10 +55,21 @@ std::size_t hash_of(const Shape& s, const Block& block) {
     return static_cast<std::size_t>(h);
 }
 
+// Obstacles or robots of two scenes, and integers that make their coordinates equal if they are multiplied by these.
+struct Two {
+    const Shape &s, &t;
+    const Int &s_factor, &t_factor;
+    bool are_same_place(Index v, Index w) const {
+        if (s_factor == t_factor) return s.X[v] == t.X[w] && s.Y[v] == t.Y[w];
+        return s.X[v] * s_factor == t.X[w] * t_factor && s.Y[v] * s_factor == t.Y[w] * t_factor;
+    }
+};
+
 // True if two blocks are the same but for numbers.
-bool are_same(const Shape& s, const Block& b, const Shape& t, const Block& c) {
+bool are_same(const Two& both, const Block& b, const Block& c) {
+    const Shape &s = both.s, &t = both.t;
     if (b.end - b.begin != c.end - c.begin || b.pieces.size() != c.pieces.size()) return false;
-    const auto is_same_place = [&](Index v, Index w) { return s.X[v] == t.X[w] && s.Y[v] == t.Y[w]; };
+    const auto is_same_place = [&](Index v, Index w) { return both.are_same_place(v, w); };
     for (Index v = b.begin, w = c.begin; v < b.end; ++v, ++w)
         if (!is_same_place(v, w) || s.previous[v] - b.begin != t.previous[w] - c.begin || s.convex[v] != t.convex[w] ||
             s.emit[v] != t.emit[w] || s.layer[v] != t.layer[w])
@@ -81,7 +92,9 @@ struct Matching {
     std::vector<Box> changed;         // pieces that are in one shape only
 };
 
-Matching matching(const Shape& s, const Shape& t) {
+// Boxes of the first shape are multiplied by a factor.
+Matching matching(const Two& both, double box_factor) {
+    const Shape &s = both.s, &t = both.t;
     Matching result{std::vector<Index>(s.x.size(), -1), std::vector<Index>(s.v.size(), -1),
                     std::vector<Index>(static_cast<std::size_t>(t.ring_vertices), -1), {}};
     const auto ours = blocks(s), theirs = blocks(t);
@@ -94,7 +107,7 @@ Matching matching(const Shape& s, const Shape& t) {
         std::size_t b = ours.size();
         if (same_hash != by_hash.end()) {
             auto& list = same_hash->second;
-            const auto match = std::find_if(list.rbegin(), list.rend(), [&](std::size_t x) { return are_same(s, ours[x], t, c); });
+            const auto match = std::find_if(list.rbegin(), list.rend(), [&](std::size_t x) { return are_same(both, ours[x], c); });
             if (match != list.rend()) b = *match, list.erase(std::next(match).base());
         }
         if (b == ours.size()) {
@@ -110,7 +123,10 @@ Matching matching(const Shape& s, const Shape& t) {
     }
     for (std::size_t b = 0; b < ours.size(); ++b)
         if (!is_matched[b])
-            for (const Index k : ours[b].pieces) result.changed.push_back(our_boxes[k]);
+            for (const Index k : ours[b].pieces) {
+                const Box& x = our_boxes[k];
+                result.changed.push_back(grown({x.x0 * box_factor, x.y0 * box_factor, x.x1 * box_factor, x.y1 * box_factor}));
+            }
     return result;
 }
 
@@ -149,13 +165,22 @@ void release_reordered(const Shape& t, std::vector<Index>& from) {
     release();
 }
 
-bool have_same_numbers(const Shape& s, const Shape& t) {
-    return s.rounded == t.rounded && s.rounded_twice == t.rounded_twice;
+bool are_same_robots(const Two& both) {
+    const Shape &s = both.s, &t = both.t;
+    if (s.previous != t.previous || s.layer != t.layer || s.piece != t.piece || s.piece_vertex != t.piece_vertex) return false;
+    for (Index v = 0; v < static_cast<Index>(s.X.size()); ++v)
+        if (!both.are_same_place(v, v)) return false;
+    return true;
 }
 
-bool are_same_robots(const Shape& s, const Shape& t) {
-    return have_same_numbers(s, t) && s.X == t.X && s.Y == t.Y && s.previous == t.previous && s.layer == t.layer &&
-           s.emit == t.emit && s.piece == t.piece && s.piece_vertex == t.piece_vertex;
+Int odd_part(const Int& n) { return n >> lsb(n); }
+
+// True if the doubles of one scene, in which it is trimmed, are those of the other times a power of two, which leaves signs,
+// errors and mantissas as they are unless something underflows.
+bool have_same_doubles(const Scene& s, const Scene& t) {
+    constexpr int most = 64;  // bits below 1, so that products of eight do not underflow
+    const bool may_underflow = short_shift(s) > most || short_shift(t) > most;
+    return s.short_part == t.short_part && (!may_underflow || (s.scale == t.scale && s.shift == t.shift));
 }
 
 // First row of each ring vertex, whose patches are rows of one list, one after another.
@@ -180,11 +205,13 @@ std::vector<Index> members(const std::vector<Index>& group, const std::vector<In
 std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scene) {
     const Scene& before = other.scene->near();
     const Shape &s = before.obstacles, &t = scene.obstacles;
-    if (!other.thin || before.scale != scene.scale || before.shift != scene.shift || before.is_round || scene.is_round ||
-        !have_same_numbers(s, t) || !are_same_robots(before.robot, scene.robot))
+    if (!other.thin || before.is_round || scene.is_round || !have_same_doubles(before, scene) ||
+        !are_same_robots({before.robot, scene.robot, scene.scale, before.scale}))
         return {};
-    Matching match = matching(s, t);
+    Matching match = matching({s, t, scene.scale, before.scale}, before.unit() / scene.unit());
     const BoxTree changed(match.changed);
+    // exact integers with other factors may be rounded to other doubles
+    const bool may_be_exact = odd_part(before.scale) == odd_part(scene.scale);
     const double reach = diagonal(scene.robot);
     KeptPatches kept;
     kept.first_patch = first_patches(before, other.patches);
@@ -192,7 +219,9 @@ std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scen
     if (!std::is_sorted(kept.from.begin(), kept.from.end())) release_reordered(t, kept.from);
     for (Index j = 0; j < t.ring_vertices; ++j) {
         Index& from = kept.from[j];
-        if (from >= 0) changed.query(grown(edge_box(t, j), reach), [&](Index) { from = -1; });
+        if (from >= 0 && !may_be_exact && other.counted[from].decisions.exact > 0) from = -1;
+        // twice, for the rounding of both scenes
+        if (from >= 0) changed.query(grown(grown(edge_box(t, j), reach)), [&](Index) { from = -1; });
         for (Index p = from < 0 ? 0 : kept.first_patch[from]; from >= 0 && p < kept.first_patch[from + 1]; ++p)
             if (!other.trimmed[p]) from = -1;
         if (from < 0) kept.retrimmed.push_back(j);

@@ -23,7 +23,7 @@ struct KeptPatches {
 
 // The patches of `other` that are the same in a scene, whose patches begin at `first_patch`: their pieces, and all that is
 // within the robot's reach of them, have not changed. None if the two scenes do not have the same robot in the same
-// integers, or if `other` does not have its parts without width.
+// doubles, or if `other` does not have its parts without width.
 std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scene);
 
 }  // namespace cfree

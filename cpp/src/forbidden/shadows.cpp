@@ -42,7 +42,8 @@ void Shadows::look(const Shape& s, Index origin, Index piece, Side& side) const 
     for (Index n = s.piece[piece]; n < s.piece[piece + 1]; ++n) {
         const Vec<double> v{s.x[s.piece_vertex[n]], s.y[s.piece_vertex[n]]};
         side.seen.push_back(v - o);
-        side.size = std::max(side.size, s.rounded ? 2 * std::max(larger(v), larger(o)) : larger(v - o));
+        const bool is_rounded = s.rounded[origin] | s.rounded[s.piece_vertex[n]];
+        side.size = std::max(side.size, is_rounded ? 2 * std::max(larger(v), larger(o)) : larger(v - o));
     }
     side.start.push_back(static_cast<Index>(side.seen.size()));
 }
@@ -163,7 +164,8 @@ const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double l
     // values are within 2 (27.5 + 12 + 2.2) u e m + 4.4 u e m < 90 u e m, fixed ones within 25 u e m. The values compared with
     // them, at most e^2 apart, are within 16 u e^2; sums of two add 6 u of their size. 128 u suffices for all, and twice that
     // for diagonals.
-    const double e = own.rounded ? 2 * std::max(larger(v), larger(w)) : larger(E);
+    const bool is_rounded = own.rounded[own.v[edge]] | own.rounded[own.w[edge]];
+    const double e = is_rounded ? 2 * std::max(larger(v), larger(w)) : larger(E);
     const double slack = 0x1p-45 * e * (turning->size + still->side.size + e) + 0x1p-900;
     length = dot(E, E);
     turn(on_edge ? 1 : -1, slack);

@@ -29,6 +29,22 @@ Box box_of(const std::vector<Int>& x, const std::vector<Int>& y) {
     return box;
 }
 
+// A step for numbers that should rarely change with the scene: the least power of two, in units of the user, of at least an
+// eighth of a box's longer side; but a multiple of the denominator's fraction.
+Int coarse_step(const Box& box, const Int& scale) {
+    const Int size = std::max(Int(box.x1 - box.x0), Int(box.y1 - box.y0));
+    Int step = scale >> lsb(scale);
+    while (8 * step < size) step <<= 1;
+    return step;
+}
+
+// The box with a margin, then outwards to multiples of a step.
+Box outwards(const Box& box, const Int& margin, const Int& step) {
+    const auto down = [&](const Int& c) { return Int(floor_divide(c - margin, step) * step); };
+    const auto up = [&](const Int& c) { return Int(-floor_divide(-c - margin, step) * step); };
+    return {down(box.x0), down(box.y0), up(box.x1), up(box.y1)};
+}
+
 Points rectangle(const Int& x0, const Int& y0, const Int& x1, const Int& y1) { return {{x0, x1, x1, x0}, {y0, y0, y1, y1}}; }
 
 // A radius times the common denominator.
@@ -181,9 +197,8 @@ std::vector<std::pair<Int, Int>> add_radii(Shape& s, Builder& from, const Points
     return keys;
 }
 
-Shape finished(Builder&& from, int shift, const Rounded& before, bool is_round) {
+Shape finished(Builder&& from, int shift, bool is_round) {
     Shape s;
-    s.rounded = before.once, s.rounded_twice = before.twice;
     Points points(std::move(from.x), std::move(from.y));
     s.ring_vertices = static_cast<Index>(from.next.size());
     s.v.resize(from.next.size()), s.w = from.next;
@@ -249,7 +264,8 @@ void add_workspace(const Polygon& workspace, const Box& size, Builder& obstacles
     Box around = box_of(x, y);
     if (others) around.add(others->x0, others->y0), around.add(others->x1, others->y1);
     const Int thickness = 1 + 2 * (abs(size.x0) + abs(size.y0) + abs(size.x1) + abs(size.y1));
-    const Points frame = rectangle(around.x0 - thickness, around.y0 - thickness, around.x1 + thickness, around.y1 + thickness);
+    const Box rim = outwards(around, thickness, coarse_step(around, obstacles.scale));
+    const Points frame = rectangle(rim.x0, rim.y0, rim.x1, rim.y1);
     for (std::size_t r = 0; r + 1 < workspace.offsets.size(); ++r) {
         std::vector<Index> ring;
         for (Index k = workspace.offsets[r]; k < workspace.offsets[r + 1]; ++k) ring.push_back(k);
@@ -293,15 +309,28 @@ int shift_of(const Int& widest) {
     return widest.is_zero() ? 0 : std::max(0, static_cast<int>(msb(widest)) + 1 - largest_bits);
 }
 
-// Middle of vertices that are far away, in whole units of the user if these are small; else 0.
+// Include the odd part of a denominator in the short part of a common one, unless it is long: prime factors beyond 5 make more
+// than a few bits, or doubles would have few left for coordinates.
+void include_short(Int& short_part, const Int& denominator) {
+    constexpr int most_bits_beyond_5 = 16, most_bits_in_all = 40;
+    const Int odd = denominator >> lsb(denominator);
+    if (short_part % odd == 0) return;
+    Int beyond_5 = odd;
+    while (beyond_5 % 5 == 0) beyond_5 /= 5;
+    if (msb(beyond_5) >= most_bits_beyond_5) return;
+    const Int both = lcm(short_part, odd);
+    if (msb(both) < most_bits_in_all) short_part = both;
+}
+
+// Middle of vertices that are far away, on a coarse grid; else 0.
 Vec<Int> place_near(const Box& box, const Int& scale) {
     const Int size = std::max(Int(box.x1 - box.x0), Int(box.y1 - box.y0));
     Int widest = 0;
     for (const Int* c : {&box.x0, &box.y0, &box.x1, &box.y1})
         if (abs(*c) > widest) widest = abs(*c);
     if (widest <= far * size) return {0, 0};
-    const Int unit = size > scale ? scale : Int(1);
-    return {floor_divide(box.x0 + box.x1, 2 * unit) * unit, floor_divide(box.y0 + box.y1, 2 * unit) * unit};
+    const Int step = coarse_step(box, scale);
+    return {floor_divide(box.x0 + box.x1, 2 * step) * step, floor_divide(box.y0 + box.y1, 2 * step) * step};
 }
 
 }  // namespace
@@ -313,6 +342,7 @@ Int floor_divide(const Int& n, const Int& d) {
 }
 
 void WholeScene::add(const Polygon& polygon, const Ratio& radius) {
+    include_short(short_part, polygon.denominator);
     for (const Int* denominator : {&polygon.denominator, &radius.d}) {
         if (scale % *denominator == 0) continue;
         const Int more = lcm(scale, *denominator) / scale;
@@ -334,11 +364,12 @@ void WholeScene::add(const Polygon& polygon, const Ratio& radius) {
 SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole) {
     SceneFeatures result;
     result.shapes = shapes;
-    Int scale = whole.scale;  // the common denominator
+    Int scale = whole.scale, short_part = whole.short_part;  // the common denominator, and its odd part but for long ones
     const auto include = [&](const Int& denominator) {
         if (scale % denominator != 0) scale = lcm(scale, denominator);
+        include_short(short_part, denominator);
     };
-    for (const auto* polygons : {&shapes.robot, &shapes.obstacles})
+    for (const auto* polygons : {&shapes.obstacles, &shapes.robot})
         for (const auto& polygon : *polygons) include(polygon->denominator);
     if (shapes.workspace) include(shapes.workspace->denominator);
     include(shapes.robot_radius.d);
@@ -384,11 +415,8 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
             if (abs(robot.x[k]) > reach_x) reach_x = abs(robot.x[k]);
             if (abs(robot.y[k]) > reach_y) reach_y = abs(robot.y[k]);
         }
-        Box outer = *given;
-        // so that doubles can distinguish it
-        const Int size = std::max(Int(outer.x1 - outer.x0), Int(outer.y1 - outer.y0));
-        const Int reach = 1 + reach_x + reach_y + 2 * robot_radius + size / 8;
-        outer = {outer.x0 - reach, outer.y0 - reach, outer.x1 + reach, outer.y1 + reach};
+        const Int step = coarse_step(*given, scale);  // so that doubles can distinguish it
+        const Box outer = outwards(*given, reach_x + reach_y + 2 * robot_radius + step, step);
         result.rim = {nearest(outer.x0, scale), nearest(outer.y0, scale), nearest(outer.x1, scale),
                       nearest(outer.y1, scale)};
         if (shapes.bounds) add_bounds(robot, obstacles, bounds, outer);
@@ -399,9 +427,9 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     const int shift = shift_of(std::max(widest_of(moving, zero), widest_of(still, zero)));
     const int near_shift = shift_of(std::max(widest_of(moving, robot_origin), widest_of(still, obstacle_origin)));
     result.robot = std::move(robot.owners), result.obstacles = std::move(obstacles.owners);
-    Scene scene{finished(std::move(robot), shift, {}, is_round), finished(std::move(obstacles), shift, whole.rounded, is_round),
-                scale, shift, result.rim.has_value(), {}, nullptr, is_round};
-    result.scene = scene_around(std::move(scene), robot_origin, obstacle_origin, near_shift, whole.near_rounded);
+    Scene scene{finished(std::move(robot), shift, is_round), finished(std::move(obstacles), shift, is_round), scale, short_part, shift,
+                result.rim.has_value(), {}, nullptr, is_round};
+    result.scene = scene_around(std::move(scene), robot_origin, obstacle_origin, near_shift);
     return result;
 }
 

@@ -1,6 +1,9 @@
 // Coordinates in doubles, exact or with remainders, and from origins near the shapes; theory, "Coordinates".
 #include "cfree/scene/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -21,20 +24,37 @@ Ball about(const Length& length, int shift) {
     return root;
 }
 
+template <class Round>
+void set_doubles(Shape& s, Round round) {
+    s.rounded.assign(s.X.size(), 0);
+    const auto convert = [&](const std::vector<Int>& exact, std::vector<double>& high, std::vector<double>& low) {
+        high.clear(), low.clear();
+        for (std::size_t v = 0; v < exact.size(); ++v) {
+            const Ball b = round(exact[v]);
+            high.push_back(b.hi), low.push_back(b.lo);
+            s.rounded[v] = std::max(s.rounded[v], static_cast<char>(b.radius != 0 ? 2 : b.lo != 0 ? 1 : 0));
+        }
+    };
+    convert(s.X, s.x, s.x_low), convert(s.Y, s.y, s.y_low);
+}
+
+// A quotient of integers times 2^-shift, as two doubles, both rounded once: its value alone decides them.
+Ball rounded(const Int& n, const Int& d, int shift) {
+    if ((n % d).is_zero()) return ball(n / d, shift);
+    int exponent;
+    const double high = nearest(n, d), mantissa = std::ldexp(std::frexp(high, &exponent), 53);
+    const Int m(static_cast<std::int64_t>(mantissa));
+    const int power = exponent - 53;
+    const auto up = static_cast<unsigned>(std::abs(power));
+    const double low = power < 0 ? ratio((n << up) - m * d, d << up) : ratio(n - (m << up) * d, d);
+    return {std::ldexp(high, -shift), std::ldexp(low, -shift), std::ldexp(ball_error(high), -shift)};
+}
+
 }  // namespace
 
 void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift, const Int& scale) {
     X = std::move(exact_x), Y = std::move(exact_y);
-    const auto convert = [&](const std::vector<Int>& exact, std::vector<double>& high, std::vector<double>& low) {
-        high.clear(), low.clear();
-        for (const Int& c : exact) {
-            const Ball b = ball(c, shift);
-            high.push_back(b.hi), low.push_back(b.lo);
-            rounded |= b.lo != 0 || b.radius != 0;
-            rounded_twice |= b.radius != 0;
-        }
-    };
-    convert(X, x, x_low), convert(Y, y, y_low);
+    set_doubles(*this, [&](const Int& c) { return ball(c, shift); });
     for (Radius& radius : radii) radius.about = ball(radius.exact, shift);
     for (Length& length : lengths) length.about = about(length, shift);
     xy.clear();
@@ -42,12 +62,11 @@ void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, 
 }
 
 std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,
-                                          int near_shift, const Rounded& near_rounded) {
+                                          int near_shift) {
     const auto is_zero = [](const Vec<Int>& p) { return p.x.is_zero() && p.y.is_zero(); };
     if (is_zero(robot_origin) && is_zero(obstacle_origin) && near_shift == scene.shift)
         return std::make_shared<const Scene>(std::move(scene));
-    const auto around = [&](Shape shape, const Vec<Int>& origin, const Rounded& before) {
-        shape.rounded = before.once, shape.rounded_twice = before.twice;
+    const auto around = [&](Shape shape, const Vec<Int>& origin) {
         for (Int& c : shape.X) c -= origin.x;
         for (Int& c : shape.Y) c -= origin.y;
         shape.set_coordinates(std::move(shape.X), std::move(shape.Y), near_shift, scene.scale);
@@ -55,10 +74,25 @@ std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_ori
     };
     scene.frame = {ratio(obstacle_origin.x, scene.scale), ratio(obstacle_origin.y, scene.scale),
                    ratio(robot_origin.x, scene.scale), ratio(robot_origin.y, scene.scale)};
-    Scene moved{around(scene.robot, robot_origin, {}), around(scene.obstacles, obstacle_origin, near_rounded), scene.scale, near_shift,
+    Scene moved{around(scene.robot, robot_origin), around(scene.obstacles, obstacle_origin), scene.scale, scene.short_part, near_shift,
                 scene.is_bounded, scene.frame, nullptr, scene.is_round};
     scene.moved = std::make_shared<const Scene>(std::move(moved));
     return std::make_shared<const Scene>(std::move(scene));
+}
+
+int short_shift(const Scene& scene) {
+    const auto bits_of_odd = static_cast<int>(msb(scene.scale) - lsb(scene.scale)), short_bits = static_cast<int>(msb(scene.short_part));
+    return std::max(0, scene.shift - (bits_of_odd - short_bits));
+}
+
+std::optional<Scene> with_short_doubles(const Scene& scene) {
+    const Int odd = scene.scale >> lsb(scene.scale);
+    if (scene.is_round || odd == scene.short_part) return {};
+    Scene result = scene;
+    result.shift = short_shift(scene);
+    const auto round = [&](const Int& c) { return rounded(c * scene.short_part, odd, result.shift); };
+    set_doubles(result.robot, round), set_doubles(result.obstacles, round);
+    return result;
 }
 
 namespace {

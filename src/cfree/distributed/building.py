@@ -20,7 +20,7 @@ from cfree.distributed.reading import read_source, source_key
 from cfree.distributed.running import check_client, run
 from cfree.distributed.shard import VERSION, key_of, read_json, read_shard, write_json, write_shard
 from cfree.distributed.sharded import Sharded
-from cfree.distributed.store import NO_ROUNDING, SceneStore, is_small, store_scene
+from cfree.distributed.store import SceneStore, store_scene
 from cfree.distributed.trim import MODULUS
 from cfree.errors import FormatError
 from cfree.polygons.polygon import Polygon
@@ -114,7 +114,7 @@ class _Build:
         self._claim()
         store = self._stored()
         division = self._divided(store)
-        self._describe(store, division)
+        self._describe()
         counts = {"tiles": len(division), "obstacles": len(store), "vertices": store.vertices} | self._trim(division)
         components = self._glue(division)
         if not self._is_finished(counts):
@@ -177,17 +177,11 @@ class _Build:
             tiles = self.tiles or max(1, -(-store.vertices // self.vertices_a_tile))
             return divide_scene(store, tiles, place, self.key)
 
-    def _describe(self, store: SceneStore, division: Division) -> None:
-        """Write the facts about all obstacles that tasks need."""
+    def _describe(self) -> None:
+        """Write the key that tasks need."""
         path = self.folder / "plan.json"
-        if _is_sound(path) and read_json(path).get("measured"):
-            return
-        rounded = list(NO_ROUNDING)
-        write_json(path, {"key": self.key, "rounded": rounded})
-        if not is_small(store):
-            for _, flags in self._each(tasks.rounding_task, "measure", range(len(division))):
-                rounded = [a or b for a, b in zip(rounded, flags, strict=True)]
-        write_json(path, {"key": self.key, "rounded": rounded, "measured": True})
+        if not _is_sound(path):
+            write_json(path, {"key": self.key})
 
     def _each(self, task: Any, stage: str, tiles: Iterable[int], *more: Any) -> Any:
         """Results of a task for all tiles."""

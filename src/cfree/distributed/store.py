@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, pairwise
 from pathlib import Path
@@ -30,7 +30,6 @@ from cfree.scene.scene import Scene, with_obstacles, with_reading
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
-NO_ROUNDING = (False, False, False, False)
 BLOCK = 4_000  # vertices written at a time
 COLUMNS: dict[str, tuple[type, int]] = {
     "line": (np.int64, 1),  # beginning of the obstacle's line
@@ -53,7 +52,6 @@ class SceneStore:
     """
 
     folder: Path
-    rounded: Sequence[bool] = field(default=NO_ROUNDING)
 
     @cached_property
     def head(self) -> Scene:
@@ -110,7 +108,7 @@ class SceneStore:
     def features(self, polygons: Sequence[Polygon]) -> SceneFeatures:
         """Features of the scene with these obstacles alone, with the numbers of the whole."""
         box = self.facts["box"]
-        whole = _core.WholeScene(self.facts["scale"], box and tuple(box), list(self.rounded))
+        whole = _core.WholeScene(self.facts["scale"], box and tuple(box), self.facts["short_part"])
         head = self.head
         robot, obstacles, workspace, bounds = core_shapes(head.robot, polygons, head.workspace, head.bounds)
         return SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, bounds, whole))
@@ -154,7 +152,7 @@ def store_scene(
     """
     folder.mkdir(parents=True, exist_ok=True)
     digest = SceneDigest(head)
-    whole = _core.WholeScene(1, None, list(NO_ROUNDING))
+    whole = _core.WholeScene(1, None, 1)
     counts = {"obstacles": 0, "vertices": 0}
     files = {name: (folder / f"{name}.bin").open("wb") for name in COLUMNS}
     try:
@@ -176,7 +174,8 @@ def store_scene(
             file.close()
     record = together(head.reading, notes)
     save_scene(with_reading(with_obstacles(head, []), record), folder / "scene.json")
-    facts = {"key": key, **counts, "scale": whole.scale, "box": whole.box, "scene": digest.sha256}
+    frame = {"scale": whole.scale, "short_part": whole.short_part, "box": whole.box}
+    facts = {"key": key, **counts, **frame, "scene": digest.sha256}
     write_json(folder / "facts.json", facts | {"files": file_sums(folder / name for name in STORED)})
     return SceneStore(folder)
 
@@ -211,18 +210,6 @@ def _columns(block: Sequence[Polygon], vertices: int) -> dict[str, NDArray[Any]]
 def _sums(counts: Iterable[int]) -> Ints:
     """Sums before each count, and of all."""
     return np.cumsum([0, *counts])
-
-
-def rounding(store: SceneStore, numbers: Ints) -> tuple[bool, ...]:
-    """Flags, True if coordinates of some obstacles are no doubles; parts of a scene need them for all obstacles."""
-    return tuple(store.features(store.polygons(numbers)).made.rounded)
-
-
-def is_small(store: SceneStore) -> bool:
-    """True if all coordinates, times the common denominator, are certainly doubles."""
-    made = store.rest
-    widest = max((abs(c) for c in store.facts["box"] or ()), default=0)
-    return widest < 2**52 and made.core.shift == 0 and not any(made.made.rounded)
 
 
 def _line(polygon: Polygon) -> bytes:

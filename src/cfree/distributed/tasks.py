@@ -24,7 +24,7 @@ from cfree.distributed.nesting import Answer, Question, TileLines, answered
 from cfree.distributed.part import Part
 from cfree.distributed.rows import Rows, gathered
 from cfree.distributed.shard import Shard, changed, key_of, read_json, read_shard, write_shard
-from cfree.distributed.store import STORED, SceneStore, rounding
+from cfree.distributed.store import STORED, SceneStore
 from cfree.distributed.tiles import BoxIndex
 from cfree.distributed.trim import digest, trim_tile
 from cfree.errors import FormatError
@@ -38,13 +38,13 @@ class Work:
     Parameters
     ----------
     folder : path
-        It has ``plan.json``: the key of the whole computation, and flags of the rounded coordinates.
+        It has ``plan.json``: the key of the whole computation.
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.plan = read_json(folder / "plan.json")
-        self.store = SceneStore(folder / "scene", self.plan["rounded"])
+        self.store = SceneStore(folder / "scene")
         self.store.check()
         self.division = Division.open(folder / "tiles", self.plan["key"])
 
@@ -58,7 +58,7 @@ class Work:
 
     def key(self, stage: str, tile: int) -> str:
         """Key of the source of a shard."""
-        return key_of(self.plan["key"], self.plan["rounded"], stage, tile)
+        return key_of(self.plan["key"], stage, tile)
 
     def shard(self, stage: str, tile: int) -> Shard:
         return read_shard(self.path(stage, tile), self.key(stage, tile))
@@ -106,12 +106,6 @@ def stamp_of(folder: Path) -> str:
 def opened(folder: str, stamp: str) -> Work:
     """Work in a folder; `stamp` changes with the facts known about it."""
     return Work(Path(folder))
-
-
-def rounding_task(folder: str, stamp: str, tile: int) -> tuple[bool, ...]:
-    """Flags, True where coordinates of the obstacles near a tile are no doubles."""
-    work = opened(folder, stamp)
-    return rounding(work.store, work.division.listed("obstacles", tile))
 
 
 def trim_task(folder: str, stamp: str, tile: int, regularized: bool = False) -> dict[str, Any]:

@@ -79,9 +79,9 @@ def boundary(
     -----
     Time is about linear in the number of pairs of a patch and a pillar near it; memory about 90 bytes a trapezoid.
 
-    Nothing can be taken from the boundary given as `reuse` if it was read from a file or unpickled, if the common
-    denominator of all coordinates is another, or if the origin of a scene far from 0 has moved. `Boundary.kept_patches`
-    counts the patches that were.
+    Nothing is taken from the boundary given as `reuse` if it was read from a file or unpickled, if decimals have become
+    longer or simple fractions are new, or if the origin of a scene far from 0 has moved. Doubles, and shapes turned by
+    any angle, change nothing elsewhere. `Boundary.kept_patches` counts the patches that were taken.
 
     Examples
     --------

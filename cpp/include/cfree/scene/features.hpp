@@ -34,7 +34,7 @@ struct SceneShapes {
 struct WholeScene {
     Int scale = 1;                          // the common denominator
     std::optional<std::array<Int, 4>> box;  // box of its obstacles, grown, times the denominator: xmin, ymin, xmax, ymax
-    Rounded rounded, near_rounded;          // rounding in the scene, and in the scene near its shapes
+    Int short_part = 1;                     // see Scene; of its obstacles
     bool is_round = false;                  // true if a radius is above 0
     // Add an obstacle.
     void add(const Polygon& polygon, const Ratio& radius = {});

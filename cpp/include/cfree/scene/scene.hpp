@@ -10,6 +10,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cfree/exact/ball.hpp"
@@ -34,8 +35,7 @@ struct Shape {
     std::vector<Int> X, Y;         // exact coordinates
     std::vector<double> x, y;      // the same times 2^-shift, rounded
     std::vector<double> x_low, y_low;  // the remainder, rounded
-    bool rounded = false;          // true if rounding changed a coordinate
-    bool rounded_twice = false;    // true if a coordinate is not the sum of its two doubles
+    std::vector<char> rounded;     // of each vertex: 0, its coordinates are these doubles; 1, sums of the two; 2, not even sums
     std::vector<Index> point;      // class of coincident vertices
     // Directed edges v -> w. Those of rings come first: edge e of a ring starts at vertex e. Then the pieces' diagonals.
     std::vector<Index> v, w, line, direction;
@@ -59,15 +59,16 @@ struct Shape {
     bool has_extent(Index e) const { return v[e] != w[e]; }  // or is the ring a single point
     // Vertices in the user's units, correctly rounded: x0, y0, x1, ...
     std::vector<double> xy;
-    // Set X and Y and the doubles, also those of radii and lengths; flags of rounding that are set stay set. Both shapes of a
-    // scene have the same scale, integers in a unit, and shift: 0, or enough to keep products of four doubles finite.
+    // Set X and Y and the doubles, also those of radii and lengths. Both shapes of a scene have the same scale, integers in a
+    // unit, and shift: 0, or enough to keep products of four doubles finite.
     void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0, const Int& scale = 1);
 };
 
 // Two shapes, and the origins of their coordinates.
 struct Scene {
     Shape robot, obstacles;
-    Int scale = 1;            // integers in a unit of the user
+    Int scale = 1;            // integers in a unit of the user: their common denominator
+    Int short_part = 1;       // the odd part of that, but for the long denominators of a few shapes
     int shift = 0;            // doubles are integers times 2^-shift
     bool is_bounded = false;  // true if there is no free space far away
     // The same scene from an origin near each shape: far away from it doubles would have no digits left. Differences of
@@ -90,14 +91,13 @@ private:
     std::array<std::vector<Index>, 2> vertices, edges;  // obstacles first, then the robot
 };
 
-// Rounding of coordinates of obstacles outside this part of the scene.
-struct Rounded {
-    bool once = false, twice = false;
-};
-
 // Scene with a copy measured from the two origins, in the scene's integers, with a shift for coordinates from there.
-std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,
-                                          int near_shift, const Rounded& near_rounded = {});
+std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin, int near_shift);
+
+// The scene with doubles that are coordinates times `short_part` and a power of two: they do not depend on long denominators
+// of other shapes. None if its doubles are such already. Radii stay.
+std::optional<Scene> with_short_doubles(const Scene& scene);
+int short_shift(const Scene& scene);  // its shift
 
 template <class T>
 Vec<T> difference(const Shape& s, Index p, Index q);  // vertex p minus vertex q
@@ -105,7 +105,7 @@ Vec<T> difference(const Shape& s, Index p, Index q);  // vertex p minus vertex q
 template <>
 inline Vec<Approx> difference(const Shape& s, Index p, Index q) {
     const double dx = s.x[p] - s.x[q], dy = s.y[p] - s.y[q];
-    if (!s.rounded) return {{dx, std::abs(dx)}, {dy, std::abs(dy)}};
+    if (!(s.rounded[p] | s.rounded[q])) return {{dx, std::abs(dx)}, {dy, std::abs(dy)}};
     return {{dx, std::abs(s.x[p]) + std::abs(s.x[q])}, {dy, std::abs(s.y[p]) + std::abs(s.y[q])}};
 }
 template <>
@@ -114,15 +114,15 @@ inline Vec<Int> difference(const Shape& s, Index p, Index q) {
 }
 template <>
 inline Vec<Ball> difference(const Shape& s, Index p, Index q) {
-    if (!s.rounded) {
+    if (!(s.rounded[p] | s.rounded[q])) {
         const auto dx = two_sum(s.x[p], -s.x[q]), dy = two_sum(s.y[p], -s.y[q]);
         return {{dx.s, dx.e, 0}, {dy.s, dy.e, 0}};
     }
-    const auto coordinate = [&](double high, double low) {
-        return Ball{high, low, s.rounded_twice ? ball_error(high) : 0};
+    const auto coordinate = [&](Index v, double high, double low) {
+        return Ball{high, low, s.rounded[v] == 2 ? ball_error(high) : 0};
     };
-    return {coordinate(s.x[p], s.x_low[p]) - coordinate(s.x[q], s.x_low[q]),
-            coordinate(s.y[p], s.y_low[p]) - coordinate(s.y[q], s.y_low[q])};
+    return {coordinate(p, s.x[p], s.x_low[p]) - coordinate(q, s.x[q], s.x_low[q]),
+            coordinate(p, s.y[p], s.y_low[p]) - coordinate(q, s.y[q], s.y_low[q])};
 }
 template <class T>
 Vec<T> edge(const Shape& s, Index e) { return difference<T>(s, s.w[e], s.v[e]); }
