@@ -1,7 +1,7 @@
 """A boundary of which one obstacle has moved: with `reuse=`, beside the same computed anew.
 
-Obstacles are those of `families.moves`: chosen by their places, shifted by decimals or doubles, or turned. Processor time
-of one thread, features of the scene included, of a new scene each time.
+Obstacles and motions are those of `families.moves`. Processor time of one thread, of a new scene each time, with its
+features.
 """
 
 from __future__ import annotations

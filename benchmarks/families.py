@@ -383,7 +383,7 @@ QUESTIONS: dict[str, Callable[[int], cfree.Scene]] = {
 
 
 def moves(scene: cfree.Scene, kind: str, count: int, seed: int = 0) -> list[tuple[int, cfree.Pose]]:
-    """Obstacles, and motions by up to a tenth of their size: shifts by decimals or doubles, or turns about their middles."""
+    """Obstacles, and motions by up to a tenth of their size: shifts by decimals or doubles, turns about the middle."""
     rng = np.random.default_rng(seed)
     result = []
     for k in rng.choice(len(scene.obstacles), min(count, len(scene.obstacles)), replace=False).tolist():

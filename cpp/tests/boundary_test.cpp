@@ -101,6 +101,23 @@ static void far_away_it_is_the_same() {
     CHECK(b->scene->frame[0] == 0x1p300);
 }
 
+static void patches_far_from_a_change_are_kept_as_they_are() {
+    const auto moved = [](int x, int y) {
+        Ring ring = box;
+        for (auto& [a, b] : ring) a += x, b += y;
+        return ring;
+    };
+    const auto old = run({robot}, {box, moved(20, 0), moved(40, 0)});
+    for (const auto& rings : {std::vector{moved(40, 0), moved(0, 1), moved(20, 0)}, std::vector{moved(20, 0), moved(40, 0), box, box}}) {
+        const auto scene = scene_of({robot}, rings);
+        const auto anew = compute_boundary(scene), reused = compute_boundary(scene, {1, false, {}, {}, old});
+        CHECK(reused->tally.kept_patches == 48 && anew->tally.kept_patches == 0);
+        const Trapezoids &a = anew->trapezoids, &b = reused->trapezoids;
+        CHECK(a.patch == b.patch && a.lower == b.lower && a.from_first == b.from_first && a.to_hi == b.to_hi);
+        CHECK(anew->tally.pairs == reused->tally.pairs && anew->tally.live_patches == reused->tally.live_patches);
+    }
+}
+
 int main() {
     one_pair_keeps_all_patches_whole();
     coincident_obstacles_count_once();
@@ -109,5 +126,6 @@ int main() {
     ties_of_small_integers_are_certain_in_balls();
     the_one_who_waits_is_asked();
     far_away_it_is_the_same();
+    patches_far_from_a_change_are_kept_as_they_are();
     return failures > 0;
 }

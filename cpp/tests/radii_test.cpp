@@ -137,7 +137,7 @@ static bool same_features(const Shape& a, const Shape& b) {
 }
 static bool same_numbers(const Shape& a, const Shape& b) {
     return a.X == b.X && a.Y == b.Y && a.x == b.x && a.y == b.y && a.x_low == b.x_low && a.y_low == b.y_low && a.xy == b.xy &&
-           a.rounded == b.rounded && a.rounded_twice == b.rounded_twice;
+           a.rounded == b.rounded;
 }
 
 static SceneShapes polygons_of_all_kinds() {

@@ -55,6 +55,27 @@ static void far_shapes_are_measured_from_near() {
     CHECK(floor_divide(-7, 2) == -4 && floor_divide(7, 2) == 3 && floor_divide(-8, 2) == -4);
 }
 
+static void doubles_of_a_short_denominator_are_those_without_the_turned_shape() {
+    const auto plain = box("0.1", "0", "2", "3"), turned = polygon({{"0", "0"}, {"1/1000003", "5"}, {"-7", "1/9999991"}});
+    const auto both = scene_features({{box("0", "0", "1", "1")}, {plain, turned}, {}, {}}).scene;
+    CHECK(both->short_part == 15625);  // decimals count by six digits
+    const auto other = with_short_doubles(*both);
+    const auto alone = with_short_doubles(*scene_features({{box("0", "0", "1", "1")}, {plain}, {}, {}}).scene);
+    CHECK(other && alone);
+    int exponent;
+    const double factor = other->obstacles.x[1] / alone->obstacles.x[1];
+    CHECK(std::frexp(factor, &exponent) == 0.5);
+    for (Index v = 0; v < 4; ++v) {
+        CHECK(other->obstacles.x[v] == alone->obstacles.x[v] * factor && other->obstacles.y[v] == alone->obstacles.y[v] * factor);
+        CHECK(other->obstacles.rounded[v] == 0 && both->obstacles.X[v] == other->obstacles.X[v]);
+    }
+    CHECK(other->obstacles.rounded[4] == 0 && other->obstacles.rounded[5] == 2 && other->obstacles.rounded[6] == 2);
+    const double third = other->obstacles.x[5], rest = other->obstacles.x_low[5];
+    const Int error = Int(third * 0x1p200) * 1000003 + Int(rest * 0x1p200) * 1000003 - (Int(15625) << (200 + static_cast<unsigned>(lsb(both->scale))));
+    CHECK(abs(error) < (Int(1) << 110));
+    CHECK(!with_short_doubles(*scene_features({{box("0", "0", "1", "1")}, {box("1/3", "0", "1", "1")}, {}, {}}).scene));
+}
+
 static void what_is_out_of_range_is_named() {
     const auto fault = range_fault({{box("0", "0", "1", "1")}, {polygon({{"0", "0"}, {"1e151", "0"}, {"0", "1"}})}, {}, {}});
     CHECK(fault && fault->kind == "obstacles" && fault->index == 0);
@@ -69,6 +90,7 @@ int main() {
     coordinates_have_one_denominator();
     bounds_and_workspace_have_a_rim();
     far_shapes_are_measured_from_near();
+    doubles_of_a_short_denominator_are_those_without_the_turned_shape();
     what_is_out_of_range_is_named();
     return failures > 0;
 }

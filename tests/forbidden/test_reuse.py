@@ -169,9 +169,13 @@ def test_moves_by_doubles_and_turns_by_any_angle_change_nothing_elsewhere(pose: 
 
 def test_longer_decimals_change_all_and_then_no_more() -> None:
     scene = Scene(BAR, [box("0.1", k * k, 2, 3) for k in range(12)])
-    longer = scene.moved(5, ("0.001", 0, 0))
+    reused(scene, scene.moved(5, ("0.000001", 0, 0)), 200)
+    longer = scene.moved(5, ("0.0000001", 0, 0))
     assert reused(scene, longer, 0).kept_patches == 0
-    reused(longer, longer.moved(6, ("0.002", 0, 0)), 200)
+    reused(longer, longer.moved(6, ("0.00000002", 0, 0)), 200)
+    whole = Scene(BAR, HOUSES)
+    assert reused(whole, whole.moved(0, ("0.1", 0, 0)), 0).kept_patches == 0
+    reused(whole.moved(0, ("0.1", 0, 0)), whole.moved(0, ("0.2", 0, 0)), 200)
 
 
 def test_simple_fractions_are_doubles_as_long_as_they_are_few() -> None:
@@ -323,3 +327,13 @@ def test_nothing_is_kept_of_a_boundary_without_its_parts_without_width(tmp_path:
 def test_reuse_takes_a_boundary() -> None:
     with pytest.raises(TypeError, match=r"reuse: .* give a Boundary"):
         boundary(Scene(BAR, HOUSES), reuse=Scene(BAR, HOUSES))  # type: ignore[arg-type]
+
+
+def test_roots_by_exact_integers_are_isolated_again_if_the_denominator_changes() -> None:
+    """Their last digits depend on it: here between the denominators 1 and 4."""
+    hook = Polygon([(9, 7), (13, 7), (13, 8), (10, 8), (10, 11), (9, 11)])
+    robot = [box(0, 0, 1, 1), box(2, 0, 1, 1)]
+    scene = Scene(robot, [box(14, 6, 1, 1), hook, box(13, 9, 4, 2), box(500, 500, 1, 1)])
+    assert boundary(scene).stats.decided_exactly
+    for denominator in (2, 4, 8, 2**30):
+        reused(scene, scene.moved(3, (Fraction(1, denominator), 0, 0)))

@@ -210,8 +210,11 @@ std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scen
         return {};
     Matching match = matching({s, t, scene.scale, before.scale}, before.unit() / scene.unit());
     const BoxTree changed(match.changed);
-    // exact integers with other factors may be rounded to other doubles
-    const bool may_be_exact = odd_part(before.scale) == odd_part(scene.scale);
+    const bool has_same_integers = before.scale == scene.scale, has_same_odd = odd_part(before.scale) == odd_part(scene.scale);
+    // True if integers have decided something whose last digits depend on them: roots, and if factors but 2 have changed, anything.
+    const auto depends_on_integers = [&](const Counters& decisions) {
+        return !has_same_integers && (has_same_odd ? decisions.exact_roots : decisions.exact) > 0;
+    };
     const double reach = diagonal(scene.robot);
     KeptPatches kept;
     kept.first_patch = first_patches(before, other.patches);
@@ -219,7 +222,7 @@ std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scen
     if (!std::is_sorted(kept.from.begin(), kept.from.end())) release_reordered(t, kept.from);
     for (Index j = 0; j < t.ring_vertices; ++j) {
         Index& from = kept.from[j];
-        if (from >= 0 && !may_be_exact && other.counted[from].decisions.exact > 0) from = -1;
+        if (from >= 0 && depends_on_integers(other.counted[from].decisions)) from = -1;
         // twice, for the rounding of both scenes
         if (from >= 0) changed.query(grown(grown(edge_box(t, j), reach)), [&](Index) { from = -1; });
         for (Index p = from < 0 ? 0 : kept.first_patch[from]; from >= 0 && p < kept.first_patch[from + 1]; ++p)

@@ -185,8 +185,8 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
     } else {
         all = settled(counters, [&]<class T>() -> std::optional<Candidates> {
             if constexpr (std::is_same_v<T, Ball>) return roots_by_balls(first, second, from.lo, to.hi);
-            else return scene.is_round ? roots_exactly_round(first, second, from.lo, to.hi)
-                                       : roots_exactly(first, second, from.lo, to.hi);
+            ++counters.exact_roots;
+            return scene.is_round ? roots_exactly_round(first, second, from.lo, to.hi) : roots_exactly(first, second, from.lo, to.hi);
         });
     }
     Roots result;

@@ -309,16 +309,19 @@ int shift_of(const Int& widest) {
     return widest.is_zero() ? 0 : std::max(0, static_cast<int>(msb(widest)) + 1 - largest_bits);
 }
 
-// Include the odd part of a denominator in the short part of a common one, unless it is long: prime factors beyond 5 make more
-// than a few bits, or doubles would have few left for coordinates.
+// Include the odd part of a denominator in the short part of a common one: decimals by six digits at a time, so that longer ones
+// rarely change it. Not if it is long: prime factors beyond 5 make more than a few bits, or doubles would have few left.
 void include_short(Int& short_part, const Int& denominator) {
-    constexpr int most_bits_beyond_5 = 16, most_bits_in_all = 40;
+    constexpr int most_bits_beyond_5 = 16, most_bits_in_all = 46;
     const Int odd = denominator >> lsb(denominator);
     if (short_part % odd == 0) return;
-    Int beyond_5 = odd;
-    while (beyond_5 % 5 == 0) beyond_5 /= 5;
+    Int beyond_5 = odd, decimals = 1;
+    for (int digit = 0; beyond_5 % 5 == 0; ++digit) {
+        if (digit % 6 == 0) decimals *= 15625;
+        beyond_5 /= 5;
+    }
     if (msb(beyond_5) >= most_bits_beyond_5) return;
-    const Int both = lcm(short_part, odd);
+    const Int both = lcm(short_part, Int(beyond_5 * decimals));
     if (msb(both) < most_bits_in_all) short_part = both;
 }
 
