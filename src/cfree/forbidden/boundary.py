@@ -80,9 +80,9 @@ def boundary(
     Time is about linear in the number of pairs of a patch and a pillar near it; memory about 90 bytes a trapezoid.
 
     Nothing is taken from the boundary given as `reuse` if it was read from a file or unpickled; if there are the first
-    decimals, or the first with more than six digits, or simple fractions such as thirds are new; or if the origin of a
-    scene far from 0 has moved. Doubles, and shapes turned by any angle, change nothing elsewhere, but where exact integers
-    decided something. `Boundary.kept_patches` counts the patches that were taken.
+    decimals, or the first with more than six digits, or new simple fractions such as thirds; or if the origin of a
+    scene far from 0 has moved. Doubles, and shapes turned by any angle, change nothing elsewhere, but where exact
+    integers decided something. `Boundary.kept_patches` counts the patches that were taken.
 
     Examples
     --------
