@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_orientations = 8;
 constexpr int checks_each = 12;           // motions checked for each pose, at most
 constexpr double off_arc = 0.05;          // radii by which a straight way may be beside an arc
-constexpr double most_parts = 8;          // of an arc
+constexpr double most_arc_parts = 8;      // of an arc
 
 bool are_parallel(const Configuration& a, const Configuration& b) { return a.hx * b.hy == a.hy * b.hx; }
 bool are_one(const Configuration& a, const Configuration& b) {
@@ -57,8 +57,8 @@ Divided divided(const Way& way, const Marked& path) {
         const double from = path.mark[k - 1], to = path.mark[k];
         const double count = std::ceil(std::sqrt(travel_between(a, b) * std::abs(turn_between(a, b)) / (8 * off_arc * way.costs.weight)));
         Marked parts{{a}, {from}};
-        for (double n = 1; n < std::min(count, most_parts); ++n) {
-            const double share = n / std::min(count, most_parts);
+        for (double n = 1; n < std::min(count, most_arc_parts); ++n) {
+            const double share = n / std::min(count, most_arc_parts);
             const auto [x, y, theta] = along(a, b, share);
             parts.route.push_back(way.grid.exact(x, y, theta)), parts.mark.push_back(from + share * (to - from));
         }
