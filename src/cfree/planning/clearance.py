@@ -29,6 +29,7 @@ from cfree.planning.goals import AllSeparated, all_separated, cheapest, name_of,
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
+from cfree.planning.rounded_cells import separated_by_cells
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.true_shapes import TrueShapes
@@ -131,6 +132,10 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
                 return cheapest(paths, larger, options.preferences)
             if proofs := _proofs(query, goal, inside, name):
                 return proofs
+            if sides == SIDES[0] and isinstance(goal, Pose):
+                proof = separated_by_cells(scene, start, goal, options)
+                if proof is not None:
+                    return [proof]
             answers = [outer.path_or_proof(start, end, options) for end in ends]
             if paths := [path for path in map(for_scene, answers) if path]:
                 return cheapest(paths, larger, options.preferences)

@@ -39,6 +39,8 @@ from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
 from cfree.planning.reach import Reach
 from cfree.planning.round_places import STRAIGHT, is_free_place
+from cfree.planning.rounded_cells import separated_by_cells
+from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.true_shapes import TruePlanner, TrueShapes
 from cfree.planning.unreachable import Unreachable
@@ -206,6 +208,7 @@ class CurvedQuery:
         self._is_limited = options.tolerance is None and options.max_seconds is None
         self._work = Work(PATCHES) if self._is_limited else options.work
         self._decided: dict[bool, Decided] = {}
+        self._is_tried = False
         has_arcs = arcs_of(near.exact) is not None
         self._true = TrueShapes(near.exact, near, options.clearance) if has_arcs else None
 
@@ -308,6 +311,9 @@ class CurvedQuery:
                 poses, is_early = [*self._poses_for(goals, true)], bool(searches)
                 if is_early and (path := self._first_path(true, poses, searches.pop(0))):
                     return path
+                by_cells = self._by_cells(goals) if is_early and not self._is_tried else None
+                if by_cells is not None:
+                    return by_cells
                 inner = self._asked(ask, outward=False)
                 if isinstance(inner, Path):
                     guides = self._guides(true, inner, poses) if self._thorough or is_early else ()
@@ -337,6 +343,15 @@ class CurvedQuery:
                 raise self._undecided("the clearance is too near to the largest; give another, or a tolerance")
             if not self.near.refine(_poses(within, ends), () if apart is None else apart.obstacles):
                 raise self._undecided(self._reason or TOUCHING)
+
+    def _by_cells(self, goals: Sequence[Goal]) -> Separated | None:
+        """Return a proof by cells among the shapes themselves, for two poses."""
+        self._is_tried = True
+        if len(goals) != 2 or not all(isinstance(goal, Pose) for goal in goals):
+            return None
+        start, goal = goals
+        assert isinstance(start, Pose) and isinstance(goal, Pose)
+        return separated_by_cells(self.near.exact, start, goal, self._within_time())
 
     def _guides(self, true: TruePlanner, inner: Path, poses: Sequence[Pose]) -> Iterator[Path]:
         """Yield a path among inner polygons; those to exact poses instead if it ends at a place in an inexact one."""

@@ -31,6 +31,7 @@ from cfree.scene.digest import Stamp, Whole
 from cfree.scene.features import SceneFeatures, unpacked
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Moved
+from cfree.scene.rounded import Cores
 from cfree.scene.scene import Bounds, Scene
 from cfree.value import Answer, Shown, Value
 from cfree.words import counted, listed
@@ -64,7 +65,8 @@ class Pieces(Value):
     Attributes
     ----------
     kind : (N,) uint8
-        Contacts: 1 a vertex of the robot on an edge of an obstacle, 2 an edge of the robot on a vertex of an obstacle.
+        Contacts: 1 a vertex of the robot on an edge of an obstacle, 2 an edge of the robot on a vertex of an obstacle;
+        among grown cores 3 plus 16 times the quadrant: discs about two vertices.
     robot, obstacle : (N, 2) int32
         Polygon, and its vertex or the one where its edge begins. -1 is the bounds, and the reference point. -2 is the
         workspace's complement: vertices are the workspace's, and its edges run against the workspace's rings.
@@ -155,6 +157,9 @@ class Separated(Shown, Answer):
         The requested start and goal, if they were moved to free poses.
     whole : Whole, optional
         The scene of which `scene` has only some obstacles, if a folder was asked.
+    rounded : Cores, optional
+        The grown cores whose contacts form the surface, instead of `robot`; discs of theirs are smaller than the
+        scene's, or than a clearance.
     """
 
     start: Pose
@@ -172,6 +177,7 @@ class Separated(Shown, Answer):
     curved: Scene | None = field(default=None, compare=False, repr=False)
     moved: Moved | None = field(default=None, repr=False)
     whole: Whole | None = field(default=None, compare=False, repr=False)
+    rounded: Cores | None = field(default=None, repr=False)
 
     def __bool__(self) -> NoReturn:
         raise TypeError(f"{type(self).__name__}: {NO_TRUTH_VALUE}")

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 Point = tuple[int, int]
 BODY, REFERENCE = 0, 1  # layers
-MOST_ROBOT_FEATURES, MOST_OBSTACLE_FEATURES = 2**30, 2**31  # a packed pair has 30 and 31 bits for them
+MOST_ROBOT_FEATURES, MOST_OBSTACLE_FEATURES = 2**28, 2**31  # a packed pair has 28 and 31 bits for them
 MOST_PATCHES = 2**31  # numbered by int32
 
 BOUNDS, WORKSPACE = -1, -2  # owners that are not polygons of the user's robot or obstacles
@@ -138,7 +138,12 @@ class SceneFeatures:
 
 def unpacked(code: Any) -> tuple[Any, Any, Any]:
     """Return kind, robot feature and obstacle feature of a packed pair, an int or an array of uint64."""
-    return code >> 61, code >> 31 & 0x3FFFFFFF, code & 0x7FFFFFFF
+    return code >> 61, code >> 31 & 0xFFFFFFF, code & 0x7FFFFFFF
+
+
+def branch_bits(code: int) -> int:
+    """Return the branch of a curve, or the end of a quadrant, that a packed pair has among grown cores; 3 is -1."""
+    return code >> 59 & 3
 
 
 def scene_features(scene: Scene) -> SceneFeatures:

@@ -46,6 +46,21 @@ class Rounded:
         return thin
 
 
+@dataclass(frozen=True)
+class Cores:
+    """Rounded shapes in place of those of a scene.
+
+    Attributes
+    ----------
+    robot : tuple of Rounded
+        Its parts, of one radius.
+    obstacles : tuple of Rounded
+    """
+
+    robot: tuple[Rounded, ...]
+    obstacles: tuple[Rounded, ...]
+
+
 def rounded(shape: AnyShape) -> Rounded | None:
     """Return a shape as a grown core; None if it is none, or its radius is irrational.
 
@@ -112,12 +127,12 @@ def _direction(piece: Piece, *, at_end: bool) -> ExactPoint:
     return -piece.sense * y, piece.sense * x
 
 
-def rounded_shapes(scene: Scene) -> tuple[list[Rounded], list[Rounded]] | None:
-    """Return the robot's parts, grown by one radius, and the obstacles; None if a shape is not rounded."""
+def rounded_shapes(scene: Scene) -> Cores | None:
+    """Return the cores of a scene's robot and obstacles; None if a shape is not rounded."""
     if isinstance(scene.workspace, Curved):
         return None
     robot, obstacles = ([rounded(shape) for shape in shapes] for shapes in (scene.robot, scene.obstacles))
     parts, others = [x for x in robot if x], [x for x in obstacles if x]
     if len(parts) < len(robot) or len(others) < len(obstacles) or len({part.radius for part in parts}) > 1:
         return None
-    return parts, others
+    return Cores(tuple(parts), tuple(others))

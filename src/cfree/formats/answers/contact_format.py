@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import PlainValidator
+from pydantic import Field, PlainValidator
 
 from cfree.formats.scenes.json_types import Strict
 from cfree.formats.scenes.scene_values import Fault
@@ -24,3 +24,12 @@ class ContactModel(Strict):
     kind: Literal["vertex-edge", "edge-vertex"]
     robot: Annotated[tuple[int, int], PlainValidator(_feature)]
     obstacle: Annotated[tuple[int, int], PlainValidator(_feature)]
+
+
+class PieceContactModel(Strict):
+    """The two features whose contacts are a piece of a surface; among grown cores perhaps discs about two vertices."""
+
+    kind: Literal["vertex-edge", "edge-vertex", "vertex-vertex"]
+    robot: Annotated[tuple[int, int], PlainValidator(_feature)]
+    obstacle: Annotated[tuple[int, int], PlainValidator(_feature)]
+    quadrant: Annotated[int, Field(strict=True, ge=0, le=3)] = 0

@@ -13,26 +13,30 @@ import numpy as np
 from pydantic import BeforeValidator, Field, PlainValidator, model_validator
 
 from cfree.forbidden.columns import CODED, COLUMNS, Trapezoids
-from cfree.formats.answers.contact_format import ContactModel
+from cfree.formats.answers.contact_format import PieceContactModel
 from cfree.formats.answers.path_format import AnswerModel, Length
-from cfree.formats.answers.separation_text import KINDS
+from cfree.formats.answers.separation_text import KINDS, QUADRANT
 from cfree.formats.answers.stuck_format import StuckModel
 from cfree.formats.answers.unreachable_format import UnreachableModel
-from cfree.formats.scenes.json_types import Point, Strict
+from cfree.formats.scenes.json_types import Coordinate, Point, Strict
 from cfree.formats.scenes.scene_format import Bounds, PolygonModel, Version
 from cfree.formats.scenes.scene_values import Fault
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Auxiliary, Pieces, Separated
+from cfree.polygons.polygon import Polygon
 from cfree.scene.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES
+from cfree.scene.rounded import Cores, Rounded
 
 
 def _code(value: Any) -> int:
     """Return a packed pair of features."""
-    if isinstance(value, list) and len(value) == 3 and all(type(part) is int for part in value):
-        kind, i, j = value
-        if 1 <= kind <= 4 and 0 <= i < MOST_ROBOT_FEATURES and 0 <= j < MOST_OBSTACLE_FEATURES:
-            return int(kind << 61 | i << 31 | j)
-    raise Fault("expected [kind, robot feature, obstacle feature], kind from 1 to 4, got {got}")
+    if isinstance(value, list) and len(value) in (3, 4) and all(type(part) is int for part in value):
+        kind, i, j, branch = [*value, 0][:4]
+        if not (1 <= kind <= 5 and 0 <= branch <= 3):
+            pass
+        elif 0 <= i < MOST_ROBOT_FEATURES and 0 <= j < MOST_OBSTACLE_FEATURES:
+            return int(kind << 61 | branch << 59 | i << 31 | j)
+    raise Fault("expected [kind, robot feature, obstacle feature], kind from 1 to 5, and perhaps a branch, got {got}")
 
 
 def _interval(value: Any) -> tuple[float, float]:
@@ -66,7 +70,7 @@ class AngleModel(Strict):
 class PieceModel(Strict):
     """A trapezoid of a contact surface."""
 
-    contact: ContactModel
+    contact: PieceContactModel
     chart: Annotated[Literal[0, 1], BeforeValidator(_whole)]
     from_: Annotated[AngleModel, Field(alias="from")]
     to: AngleModel
@@ -102,6 +106,38 @@ class AuxiliaryModel(Strict):
         return Auxiliary(self.of, self.kind, self.number, tuple(self.points))
 
 
+class RoundedModel(Strict):
+    """A grown core: a polygon, or one or two points."""
+
+    outer: list[Point] | None = None
+    holes: Annotated[list[list[Point]], Field(default_factory=list)]
+    points: Annotated[list[Point], Field(max_length=2)] | None = None
+    radius: Coordinate
+
+    @model_validator(mode="after")
+    def _fits(self) -> RoundedModel:
+        if (self.outer is None) == (not self.points):
+            raise Fault('expected "outer" with or without "holes", or "points", one or two, got {got}')
+        if self.radius < 0:
+            raise Fault("expected a radius of 0 or more, got {got}")
+        return self
+
+    @property
+    def result(self) -> Rounded:
+        return Rounded(tuple(self.points) if self.points else Polygon(self.outer or [], self.holes), self.radius)
+
+
+class CoresModel(Strict):
+    """The grown cores of a proof among rounded shapes."""
+
+    robot: Annotated[list[RoundedModel], Field(min_length=1)]
+    obstacles: list[RoundedModel]
+
+    @property
+    def result(self) -> Cores:
+        return Cores(tuple(part.result for part in self.robot), tuple(part.result for part in self.obstacles))
+
+
 class SeparationModel(AnswerModel):
     """A separation: two poses, and a closed surface that separates them."""
 
@@ -112,16 +148,17 @@ class SeparationModel(AnswerModel):
     larger_bounds: Bounds | None = None
     clearance: Length | None = None
     cores: Annotated[list[PolygonModel], Field(default_factory=list)]
+    rounded: CoresModel | None = None
     auxiliary: Annotated[list[AuxiliaryModel], Field(default_factory=list)]
     surface: list[PieceModel]
 
     @model_validator(mode="after")
     def _fits(self) -> SeparationModel:
-        if (self.of == "closed") != bool(self.smaller_robot):
-            raise Fault('"smaller_robot" belongs to "of": "closed" only; correct one of them')
+        if (self.of == "closed") != bool(self.smaller_robot or self.rounded) or (self.smaller_robot and self.rounded):
+            raise Fault('either "smaller_robot" or "rounded" belongs to "of": "closed" only; correct one of them')
         if self.of == "interior" and (self.larger_bounds or self.clearance):
             raise Fault('"larger_bounds" and "clearance" belong to "of": "closed"; leave them out')
-        if len(self.cores) != (len(self.smaller_robot) if self.clearance else 0):
+        if len(self.cores) != (len(self.smaller_robot) if self.clearance and not self.rounded else 0):
             raise Fault('"clearance" belongs to as many "cores" as "smaller_robot" has polygons; correct one of them')
         if sorted(set(self.obstacles)) != sorted({piece.contact.obstacle[0] for piece in self.surface}):
             raise Fault('"obstacles" are not those of the surface; correct one of them')
@@ -141,6 +178,7 @@ class SeparationModel(AnswerModel):
             bounds=self.larger_bounds,
             clearance=self.clearance or Fraction(0),
             cores=tuple(part.polygon for part in self.cores),
+            rounded=None if self.rounded is None else self.rounded.result,
             scene=self._of_polygons,
             **self.context,
         )
@@ -177,7 +215,7 @@ class AllSeparatedModel(Strict):
 
 def _pieces(models: list[PieceModel], auxiliary: tuple[Auxiliary, ...]) -> Pieces:
     of_kind = {name: kind for kind, name in KINDS.items()}
-    kind = np.array([of_kind[m.contact.kind] for m in models], np.uint8)
+    kind = np.array([of_kind[m.contact.kind] | m.contact.quadrant << QUADRANT for m in models], np.uint8)
     robot, obstacle = (
         np.array([getattr(m.contact, name) for m in models], np.int32).reshape(-1, 2) for name in ("robot", "obstacle")
     )

@@ -17,10 +17,14 @@ from cfree.planning.proof import Proof
 from cfree.planning.separation import Pieces, Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.unreachable import Unreachable
+from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import Stamp
-from cfree.scene.features import unpacked
+from cfree.scene.features import branch_bits, unpacked
+from cfree.scene.rounded import Rounded
 
-KINDS = {1: "vertex-edge", 2: "edge-vertex"}
+KINDS = {1: "vertex-edge", 2: "edge-vertex", 3: "vertex-vertex"}
+KIND, QUADRANT = 15, 4  # bits of a contact's kind, and bits below its quadrant
+VERTEX_VERTEX = 3
 ENDS = ("from", "to")
 
 
@@ -37,7 +41,14 @@ def separation_text(proof: Separated, stamp: Stamp) -> str:
     if proof.bounds:
         head["larger_bounds"] = [*map(str, proof.bounds)]
     if proof.clearance:
-        head |= {"clearance": str(proof.clearance), "cores": [polygon_record(part) for part in proof.cores]}
+        head["clearance"] = str(proof.clearance)
+    if proof.cores:
+        head["cores"] = [polygon_record(part) for part in proof.cores]
+    if proof.rounded:
+        head["rounded"] = {
+            name: [_rounded_record(part) for part in parts]
+            for name, parts in (("robot", proof.rounded.robot), ("obstacles", proof.rounded.obstacles))
+        }
     if proof.pieces.auxiliary:
         head["auxiliary"] = [
             {"of": a.of, "kind": a.kind, "number": a.number, "points": [[str(x), str(y)] for x, y in a.points]}
@@ -106,11 +117,26 @@ def _records(pieces: Pieces) -> list[dict[str, Any]]:
     columns = zip(*(getattr(t, name).tolist() for name in COLUMNS), strict=True)
     for (kind, robot, obstacle), values in zip(rows, columns, strict=True):
         row = dict(zip(COLUMNS, values, strict=True))
-        record: dict[str, Any] = {"contact": {"kind": KINDS[kind], "robot": robot, "obstacle": obstacle}}
+        contact = {"kind": KINDS[kind & KIND], "robot": robot, "obstacle": obstacle}
+        is_circle = kind & KIND == VERTEX_VERTEX
+        record: dict[str, Any] = {"contact": contact | ({"quadrant": kind >> QUADRANT} if is_circle else {})}
         record["chart"] = row["chart"]
         for end in ENDS:
             codes = [row[f"{end}_first"], row[f"{end}_second"]]
-            angle = {"names": [unpacked(c) for c in codes if c], "tau": [row[f"{end}_lo"], row[f"{end}_hi"]]}
+            angle = {"names": [_parts(c) for c in codes if c], "tau": [row[f"{end}_lo"], row[f"{end}_hi"]]}
             record[end] = angle | ({"place": row[f"{end}_place"]} if row[f"{end}_place"] else {})
-        records.append(record | {side: unpacked(row[side]) for side in ("lower", "upper")})
+        records.append(record | {side: _parts(row[side]) for side in ("lower", "upper")})
     return records
+
+
+def _parts(code: int) -> list[int]:
+    """Return kind, robot feature, obstacle feature and, if it is not 0, the branch of a packed pair."""
+    branch = branch_bits(code)
+    return [*unpacked(code), *([branch] if branch else [])]
+
+
+def _rounded_record(shape: Rounded) -> dict[str, Any]:
+    radius = {"radius": str(shape.radius)}
+    if isinstance(shape.core, Polygon):
+        return polygon_record(shape.core) | radius
+    return {"points": [[str(x), str(y)] for x, y in shape.core]} | radius
