@@ -95,6 +95,7 @@ void LevelGluer<At>::glue(Index rank, std::span<const Index> sides) {
         const CriticalAngle angle = is_above ? angle_from(on, trapezoids, k) : angle_to(on, trapezoids, k);
         if constexpr (!is_round) know(at, scene, angle);
         else if (angle.first.kind == Kind::edge_edge) at.know_parallel(angle.first.robot, angle.first.obstacle);
+        else if (angle.second.kind != Kind::none) at.know_meeting(on.contact, angle.first, angle.second);
         const Code low = code(scene, unpacked(trapezoids.lower[k])), high = code(scene, unpacked(trapezoids.upper[k]));
         levels.push_back({k, is_above, on.contact, low, high, 0, 0, 1, 0, 0});
     }

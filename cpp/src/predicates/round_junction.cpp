@@ -14,6 +14,23 @@ RoundJunction::RoundJunction(const Scene& s, int in, double from, double to, std
 
 void RoundJunction::know_parallel(Index g, Index f) { known.insert({0, 0, code(scene, {Kind::edge_edge, g, f})}); }
 
+void RoundJunction::know_meeting(const Feature& on, const Feature& first, const Feature& second) {
+    MeetingNames::Name name{code(scene, on), code(scene, first), code(scene, second)};
+    std::sort(name.begin(), name.end());
+    known.insert(name);
+}
+
+// True if features that meet here prove two places equal: two curves; joints of a circle with parallel lines, in one quadrant.
+bool RoundJunction::is_known(const Feature& surface, const Spot& p, const Spot& q) const {
+    MeetingNames::Name name{code(scene, surface), p.code, q.code};
+    std::sort(name.begin(), name.end());
+    if (known.contains(name)) return true;
+    if (!is_circle(surface) || !is_smooth(scene, p.curve, surface) || !is_smooth(scene, q.curve, surface)) return false;
+    if (p.curve.kind == q.curve.kind) return false;
+    const Feature &ve = p.curve.kind == Kind::vertex_edge ? p.curve : q.curve, &ev = p.curve.kind == Kind::vertex_edge ? q.curve : p.curve;
+    return known.contains({0, 0, code(scene, {Kind::edge_edge, ev.robot, ve.obstacle})});
+}
+
 LongRoot& RoundJunction::here() {
     if (!root) root = exact();
     return *root;
@@ -167,6 +184,7 @@ int RoundJunction::order(const Feature& surface, const Spot& p, const Spot& q) {
             if (first && second && first->hi < second->lo) return -1;
             if (first && second && second->hi < first->lo) return 1;
         }
+    if (!p.jumps && !q.jumps && !p.given && !q.given && is_known(surface, p, q)) return 0;
     const auto x = place_exactly(surface, p, 0), y = place_exactly(surface, q, 0);
     const Radicals difference{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}};
     return sign_at(difference, here()) * sign_at(x.c, here()) * sign_at(y.c, here());

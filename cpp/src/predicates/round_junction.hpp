@@ -26,6 +26,9 @@ public:
     // Enter an edge of the robot and one of the obstacles that are parallel here.
     void know_parallel(Index g, Index f);
 
+    // Enter two curves of a surface that meet here.
+    void know_meeting(const Feature& on, const Feature& first, const Feature& second);
+
     // See Junction.
     int turn(const Feature& x, const Feature& y);
     int parallel(const Feature& x, const Feature& y);
@@ -59,7 +62,8 @@ private:
     double lo, hi, kappa;
     std::function<LongRoot()> exact;
     std::optional<LongRoot> root;  // computed when needed
-    MeetingNames known;            // codes of parallel edges
+    bool is_known(const Feature& surface, const Spot& p, const Spot& q) const;
+    MeetingNames known;            // parallel edges; two curves that meet, and their surface
 };
 
 }  // namespace cfree

@@ -97,9 +97,13 @@ int RoundOrders::order_at(const Feature& p, const Feature& q, LongRoot& root) co
 }
 
 int RoundOrders::turn(const Feature& f, const Feature& g, const Dyadic& tau) const {
-    const RoundSurfaces<RootSum> of(scene);
-    const auto direction = [&](const Feature& to) { return to.kind == Kind::seam ? quarter_turn(of.axis(to.branch)) : of.along(to); };
-    return sign_at(AsSurdPoly{kappa}(cross(direction(f), direction(g))), tau);  // both a quarter turn on
+    const auto form = [&]<class K>(const RoundSurfaces<K>& of) {  // of both, a quarter turn on
+        const auto direction = [&](const Feature& to) { return to.kind == Kind::seam ? quarter_turn(of.axis(to.branch)) : of.along(to); };
+        return cross(direction(f), direction(g));
+    };
+    const Ball near = InBalls(ball(tau.n, static_cast<int>(tau.k)), kappa)(form(RoundSurfaces<Ball>(scene)));
+    if (const auto sign = certain_sign(near)) return *sign;
+    return sign_at(AsSurdPoly{kappa}(form(RoundSurfaces<RootSum>(scene))), tau);
 }
 
 int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Dyadic& tau) const {
