@@ -135,15 +135,28 @@ int RoundOrders::joint_branch(const Feature& line, const Feature& circle, LongRo
     return sign_at(AsSurdPoly{kappa}(joint_direction<RootSum>(line, circle)), root);
 }
 
-template <class K, class Ring>
-auto RoundOrders::event(const Feature& first, const Feature& second, const Ring& in) const {
+template <class K>
+std::optional<Trig<K>> RoundOrders::quadratic(const Feature& first, const Feature& second) const {
     const RoundSurfaces<K> of(scene);
     if (first.kind == Kind::edge_edge)
-        return in(Predicates::parallel_trig(edge<K>(scene.robot, first.robot), edge<K>(scene.obstacles, first.obstacle)));
-    if (second.kind == Kind::none) return in(of.tangency(surface.contact, first, first.branch));
-    if (second.branch == 2 && is_circle(second)) return in(dot(of.along(first), of.between(surface.contact, second)));  // see Event
-    if (second.kind == Kind::seam) return in(of.end_of_quadrant(surface.contact, second.branch, first));
-    return meeting(of, scene, surface.contact, first, second, in);
+        return Predicates::parallel_trig(edge<K>(scene.robot, first.robot), edge<K>(scene.obstacles, first.obstacle));
+    if (second.kind == Kind::none) return of.tangency(surface.contact, first, first.branch);
+    if (second.branch == 2 && is_circle(second)) return dot(of.along(first), of.between(surface.contact, second));  // see Event
+    if (second.kind == Kind::seam) return of.end_of_quadrant(surface.contact, second.branch, first);
+    return joint_of_three(of, scene, surface.contact, first, second);
+}
+
+template <class K, class Ring>
+auto RoundOrders::event(const Feature& first, const Feature& second, const Ring& in) const {
+    if (const auto trig = quadratic<K>(first, second)) return in(*trig);
+    return meeting(RoundSurfaces<K>(scene), surface.contact, first, second, in);
+}
+
+std::optional<Filtered> RoundOrders::filtered(const Feature& first, const Feature& second) const {
+    constexpr double error = 0x1p-45;  // of at most 200 roundings
+    const auto f = quadratic<Approx>(first, second);
+    if (!f) return {};
+    return Filtered{f->a.v, kappa * f->b.v, kappa * f->c.v, error * (f->a.m + f->b.m + f->c.m) + tiny};
 }
 
 Coefficients<Ball> RoundOrders::in_balls(const Feature& first, const Feature& second) const {

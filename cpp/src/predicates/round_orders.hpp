@@ -36,6 +36,8 @@ public:
     int coordinate_sign(const Feature& curve, int axis, const Dyadic& tau) const;
 
     // Polynomial of an event's features, times a power of 1 + tau^2.
+    // The same in doubles, if it is a quadratic.
+    std::optional<Filtered> filtered(const Feature& first, const Feature& second) const;
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
     SurdPoly exactly(const Feature& first, const Feature& second) const;
 
@@ -46,6 +48,8 @@ private:
         SurdPoly first, second;
     };
     Difference difference(const Feature& p, const Feature& q) const;
+    template <class K>
+    std::optional<Trig<K>> quadratic(const Feature& first, const Feature& second) const;
     template <class K, class Ring>
     auto event(const Feature& first, const Feature& second, const Ring& in) const;
     template <class K>

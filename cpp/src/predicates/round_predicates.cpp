@@ -23,6 +23,8 @@ Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, con
 }
 
 int Predicates::event_sign(const Feature& first, const Feature& second, const Sample& at) {
+    if (const auto f = at.fine ? std::nullopt : RoundOrders(scene, surface).filtered(first, second))
+        if (const int sign = sign_on(*f, at.tau, at.tau); sign != 0) return ++counters.filter, sign;
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(coefficients<Ball>(first, second), at.ball());
         else return cfree::sign_at(RoundOrders(scene, surface).exactly(first, second), at.exact());
@@ -33,6 +35,8 @@ Predicates::Roots Predicates::event_roots(const Feature& first, const Feature& s
 }
 
 int Predicates::event_sign_on(const Feature& first, const Feature& second, double lo, double hi) const {
+    if (const auto f = RoundOrders(scene, surface).filtered(first, second))
+        if (const int sign = sign_on(*f, lo, hi); sign != 0) return sign;
     const Balls p(coefficients<Ball>(first, second));
     int sign[7], sum = 0;
     p.signs(lo, hi, sign);

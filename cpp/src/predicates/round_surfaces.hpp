@@ -40,6 +40,13 @@ inline bool is_smooth(const Scene& scene, const Feature& line, const Feature& ci
 template <>
 inline Vec<RootSum> difference(const Shape& s, Index p, Index q) { return {RootSum(s.X[p] - s.X[q]), RootSum(s.Y[p] - s.Y[q])}; }
 
+// A whole number in a number type.
+template <class K>
+K whole(int n) {
+    if constexpr (std::is_same_v<K, Approx>) return {static_cast<double>(n), std::abs(static_cast<double>(n))};
+    else return K(n);
+}
+
 // The surfaces' data in a number type.
 template <class K>
 class RoundSurfaces {
@@ -86,17 +93,17 @@ public:
         if (is_line(other)) return {quarter_turn(along(other)), -offset(other, circle), constant(square_of_length(other))};
         const MovingVector<K> d = between(other, circle);
         const Trig<K> square = dot(d, d);
-        const K two = K(2), r = rho(circle), s = rho(other);
-        return {{{two * d.p.x, two * d.p.y}, {two * d.q.x, two * d.q.y}}, square + (r * r - s * s), K(4) * square};
+        const K two = whole<K>(2), r = rho(circle), s = rho(other);
+        return {{{two * d.p.x, two * d.p.y}, {two * d.q.x, two * d.q.y}}, square + (r * r - s * s), whole<K>(4) * square};
     }
 
     // Quadratic of the angles at which two surfaces touch: on the left (1) or right (-1) of the first line; two circles, of which
     // none is a line, touch from outside (1) or inside (-1).
     Trig<K> tangency(const Feature& f, const Feature& g, int side) const {
-        if (is_line(f)) return offset(f, g) + K(side) * rho(g) * length(f);
+        if (is_line(f)) return offset(f, g) + whole<K>(side) * rho(g) * length(f);
         if (is_line(g)) return tangency(g, f, side);
         const MovingVector<K> d = between(g, f);
-        const K sum = rho(f) + K(side) * rho(g);
+        const K sum = rho(f) + whole<K>(side) * rho(g);
         return dot(d, d) - sum * sum;
     }
     // Quadratic of the angles at which the joint of a line and a circle is on another surface, positive on a line's left and
@@ -106,7 +113,7 @@ public:
         if (is_line(on)) return length_of_line * offset(on, circle) - r * dot(along(on), along(line));
         const MovingVector<K> d = between(circle, on);
         const K s = rho(on);
-        return length_of_line * (dot(d, d) + (r * r - s * s)) - K(2) * r * cross(along(line), d);
+        return length_of_line * (dot(d, d) + (r * r - s * s)) - whole<K>(2) * r * cross(along(line), d);
     }
     // Quadratic of the angles at which the end C + rho e of a quadrant is on another surface; positive on a line's left and
     // outside a circle. The joint of a line that is smooth with the circle is in the end where V . e = 0.
@@ -116,27 +123,33 @@ public:
         if (is_line(on)) return offset(on, circle) + rho(circle) * cross(along(on), e);
         const MovingVector<K> d = between(on, circle);
         const K r = rho(circle), s = rho(on);
-        return dot(d, d) + (r * r - s * s) - K(2) * r * dot(d, e);
+        return dot(d, d) + (r * r - s * s) - whole<K>(2) * r * dot(d, e);
     }
     // Unit vector, a number of quarter turns from the x axis.
     static MovingVector<K> axis(int turns) {
         constexpr int x[4] = {1, 0, -1, 0};
-        return {{K(x[turns & 3]), K(x[(turns + 3) & 3])}, zero()};
+        return {{whole<K>(x[turns & 3]), whole<K>(x[(turns + 3) & 3])}, zero()};
     }
-    static Trig<K> constant(const K& k) { return {k, K(0), K(0)}; }
+    static Trig<K> constant(const K& k) { return {k, whole<K>(0), whole<K>(0)}; }
 
 private:
-    static Vec<K> zero() { return {K(0), K(0)}; }
+    static Vec<K> zero() { return {whole<K>(0), whole<K>(0)}; }
     const Scene& scene;
 };
 
-// Polynomial of the angles at which three surfaces meet in a point, from the ring of `in`: numbers at an angle, or polynomials.
-// All its terms are homogeneous in 1, cos and sin, so it is the true one times a power of 1 + tau^2.
-template <class K, class Ring>
-auto meeting(const RoundSurfaces<K>& of, const Scene& scene, const Feature& x, const Feature& y, const Feature& z, const Ring& in) {
+// Quadratic of the angles at which a joint of two of three surfaces is on the third one, if two are smooth.
+template <class K>
+std::optional<Trig<K>> joint_of_three(const RoundSurfaces<K>& of, const Scene& scene, const Feature& x, const Feature& y, const Feature& z) {
     for (const auto& [line, circle, on] : {std::array{&x, &y, &z}, std::array{&y, &x, &z}, std::array{&x, &z, &y},
                                            std::array{&z, &x, &y}, std::array{&y, &z, &x}, std::array{&z, &y, &x}})
-        if (is_smooth(scene, *line, *circle)) return in(of.joint(*line, *circle, *on));
+        if (is_smooth(scene, *line, *circle)) return of.joint(*line, *circle, *on);
+    return {};
+}
+
+// Polynomial of the angles at which three surfaces without a joint meet in a point, from the ring of `in`: numbers at an angle, or polynomials.
+// All its terms are homogeneous in 1, cos and sin, so it is the true one times a power of 1 + tau^2.
+template <class K, class Ring>
+auto meeting(const RoundSurfaces<K>& of, const Feature& x, const Feature& y, const Feature& z, const Ring& in) {
     if (is_line(x) && is_line(y) && is_line(z)) {
         const auto U = of.along(x), V = of.along(y), W = of.along(z);
         const auto from_x = RoundSurfaces<K>::constant(of.rho(x) * of.length(x));
