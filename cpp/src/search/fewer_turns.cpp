@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_orientations = 8;
 constexpr int checks_each = 12;           // motions checked for each pose, at most
-constexpr double off_arc = 0.05;          // radii by which a straight way may be beside an arc
+constexpr double off_arc = 0.0625;        // radii by which a straight way may be beside an arc
 constexpr double most_arc_parts = 8;      // of an arc
 
 bool are_parallel(const Configuration& a, const Configuration& b) { return a.hx * b.hy == a.hy * b.hx; }
