@@ -118,10 +118,11 @@ public:
 
     // Go on until the surfaces decide, or the search finds a way.
     Connection::Verdict decide(Connecting& joined) {
-        std::size_t trimmed = joined.around->trimmed_patches();
+        std::size_t trimmed = joined.around->trimmed_patches(), met = joined.around->met_patches();
         return joined.decide([&](Index) {
             const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
-            const int guesses = std::min(left, guesses_each * static_cast<int>(trimmed - before));
+            const std::size_t met_before = std::exchange(met, joined.around->met_patches());
+            const int guesses = std::min(left, guesses_each * static_cast<int>(met - met_before));
             left -= guesses;
             way = guess(guesses);
             if (way) return false;
@@ -157,7 +158,7 @@ std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal,
     if (const auto inner = insets().scene(insets().first())) {
         Connecting joined = inner->connecting(start.pose, goal.pose);
         if (auto answer = by_smaller_robot(inner, joined, turns)) return answer;
-        if (static_cast<double>(joined.around->trimmed_patches()) > most_few * static_cast<double>(scene->patches())) return {};
+        if (static_cast<double>(joined.around->met_patches()) > most_few * static_cast<double>(scene->patches())) return {};
     }
     Connecting joined = scene->connecting(start.pose, goal.pose);
     return by_robot_itself(joined, turns);
