@@ -249,13 +249,11 @@ void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
 
 // Glue a surface; return it if nothing is missing or the target is reached. Else exploration continues from the missing
 // trapezoids, and forgets those that only seemed to be across sides. Gluing takes the trapezoids within reach of the seed over
-// sides: those explored from it, and once the target is reached also those explored from there. Those of earlier questions are
+// sides: those explored from it, or on the way to a target all that this question has explored. Those of earlier questions are
 // left out, or each question would cost more than the one before.
 GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     const bool is_reached = g.has(target);
-    const auto other_growth = growing.find(target);
-    const Growth* from_target = is_reached && other_growth != growing.end() ? &other_growth->second : nullptr;
-    const auto is_whole = [&](Index k) { return g.has(k) || (from_target && from_target->has(k)); };
+    const auto is_whole = [&](Index k) { return is_reached ? met_row[k] == question : g.has(k); };
     std::vector<Index> chosen{seed};
     number[seed] = 0;
     for (std::size_t n = 0; n < chosen.size(); ++n) {
