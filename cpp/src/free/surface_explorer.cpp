@@ -41,9 +41,10 @@ struct Growth {
         bool operator>(const Item& o) const { return cost > o.cost || (cost == o.cost && trapezoid > o.trapezoid); }
     };
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    enum class Seen : char { no, queued, explored };
     struct Visit {
-        bool is_explored = false;  // else it waits in the queue
-        double way = 0;            // to an explored trapezoid
+        Seen seen = Seen::no;
+        double way = 0;  // when it was explored last
     };
     std::unordered_map<Index, Visit> visits;  // of the trapezoids that were looked at: few, however many there are
     Index target = -1;
@@ -53,7 +54,7 @@ struct Growth {
     Index trust = least_trust;  // number of further ones before the next gluing
     bool has(Index k) const {
         const auto visit = visits.find(k);
-        return visit != visits.end() && visit->second.is_explored;
+        return visit != visits.end() && visit->second.seen == Seen::explored;
     }
 };
 
@@ -242,7 +243,9 @@ Growth& SurfaceExplorer::State::growth(Index seed) {
 }
 
 void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
-    if (!g.visits.try_emplace(k).second) return;
+    Growth::Visit& visit = g.visits[k];
+    if (visit.seen != Growth::Seen::no) return;
+    visit.seen = Growth::Seen::queued;
     constexpr double haste = 2;  // the way need not be the shortest
     g.queue.push({g.target < 0 ? way : way + haste * apart(middle(k), g.goal), way, k});
 }
@@ -274,9 +277,9 @@ GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     if (part.missing.empty() || part.complex) return part;
     const std::size_t surely = part.faces.size();
     const bool has_leaked = 10 * static_cast<Index>(surely) < 9 * g.explored;
-    std::unordered_map<Index, Growth::Visit> visits;
-    for (const Index k : part.faces) visits[chosen[k]] = {true, g.visits[chosen[k]].way};
-    g.visits = std::move(visits), g.queue = {};
+    for (auto& [k, visit] : g.visits) visit.seen = Growth::Seen::no;
+    for (const Index k : part.faces) g.visits[chosen[k]].seen = Growth::Seen::explored;
+    g.queue = {};
     g.explored = g.surely = static_cast<Index>(surely), g.trust = std::max(Growth::least_trust, (has_leaked ? 2 : 8) * g.surely);
     std::unordered_set<Index> is_missing;
     for (const Index k : part.missing) is_missing.insert(chosen[k]);
@@ -341,7 +344,7 @@ SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index targe
         else if (!is_met)
             for (const Index other : s.around[k].all) s.meet(s.rows.patch[other]);
         s.met_row[k] = s.question;
-        g.visits[k] = {true, way}, ++g.explored;
+        g.visits[k] = {Growth::Seen::explored, way}, ++g.explored;
         const Vec<double> here = s.middle(k);
         for (const Index next : s.around[k].beside) s.look_at(g, next, way + s.step(g, here, next));
     }
