@@ -8,7 +8,7 @@ from pathlib import Path
 
 from measure import SCENES, Report, timed
 
-AT_MOST = {"import cfree": 0.3, "cfree --help": 0.3, "cfree plan": 0.35}
+AT_MOST = {"import cfree": 0.3, "cfree --help": 0.3, "cfree plan": 0.2}
 COMMAND = str(Path(sys.executable).with_name("cfree"))
 
 

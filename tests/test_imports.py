@@ -15,7 +15,7 @@ CPP = SOURCE.parent / "cpp"
 PAGE = (SOURCE.parent / "docs" / "architecture.md").read_text()
 CORE = "cfree._core"
 ORDER = """
-    lazy errors collector value arguments palette words
+    lazy libraries errors collector value arguments palette words
     exact vehicles polygons curves scene contact collision forbidden geometry free paths planning analysis formats
     verify distributed rational arrangements ompl plot figures film viewer cli __main__
 """.split()  # noqa: SIM905

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
+from typing import get_args, get_type_hints
 
+import numpy as np
 import pytest
+from numpy.typing import ArrayLike, NDArray
 
 import cfree
 from cfree import lazy
@@ -25,6 +29,36 @@ def test_cfree_is_imported_without_what_it_registers() -> None:
     assert "cfree.lazy" in modules
     assert "viewer" not in modules
     assert "plot" not in modules
+
+
+LIBRARIES = ("numpy", "shapely", "flint", "pydantic")
+LOADED = f"[name for name in {LIBRARIES} if name in sys.modules]"
+PARKING = Path(__file__).parents[1] / "examples" / "scenes" / "benchmr_parking1.json"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options", [[], ["--json"], ["-o", "path.json"], ["--improve", "0"]])
+def test_a_plain_plan_loads_no_large_library(options: list[str], tmp_path: Path) -> None:
+    """Loading numpy alone takes longer than the plan; the rest of the process is measured in `bench_start.py`."""
+    code = f"import sys; from cfree.cli.app import app; app(sys.argv[1:], standalone_mode=False); print({LOADED})"
+    command = [sys.executable, "-c", code, "plan", str(PARKING), *options]
+    run = subprocess.run(command, check=True, capture_output=True, text=True, cwd=tmp_path)
+    assert run.stdout.splitlines()[-1] == "[]"
+
+
+def test_a_library_is_imported_when_an_attribute_is_used() -> None:
+    code = (
+        "import sys; from cfree.libraries import np, is_array; assert not is_array([1]);"
+        f"before = {LOADED}; a = np.zeros(1); assert is_array(a); print(before, {LOADED}, type(np).__name__)"
+    )
+    run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert run.stdout.strip() == "[] ['numpy'] module"
+
+
+def test_hints_of_arrays_are_those_of_numpy() -> None:
+    hints = get_type_hints(cfree.is_free)
+    assert set(get_args(ArrayLike)) <= set(get_args(hints["poses"]))
+    assert get_type_hints(cfree.Pose.apply)["return"] == NDArray[np.float64]
 
 
 @pytest.mark.parametrize("name", " ".join(cfree._MOVED.values()).split())

@@ -12,6 +12,7 @@
 #include "cfree/arcs/motion_checker.hpp"
 #include "cfree/collision/edge_distances.hpp"
 #include "cfree/collision/motion_checker.hpp"
+#include "cfree/polygons/polygon.hpp"
 #include "cfree/support/elementary.hpp"
 #include "given_motions.hpp"
 #include "given_poses.hpp"
@@ -84,17 +85,24 @@ static std::optional<Collision> first_collision(const MotionChecker& checker, bo
 
 using cfree::EdgeDistances;
 
-static std::vector<EdgeDistances::Segment> segments_of(const In<double, 2>& ends) {
-    require(ends.shape(1) == 4, "segments must have four columns");
+static double rounded(const cfree::Ratio& x) { return cfree::nearest(x.n, x.d); }
+
+// The edges of polygons, rounded.
+static std::vector<EdgeDistances::Segment> segments_of(const std::vector<const cfree::Polygon*>& polygons) {
     std::vector<EdgeDistances::Segment> segments;
-    for (std::size_t k = 0; k < ends.shape(0); ++k) {
-        const double* s = ends.data() + 4 * k;
-        segments.push_back({s[0], s[1], s[2], s[3]});
+    for (const cfree::Polygon* p : polygons) {
+        const auto end = [&](cfree::Index k) -> std::array<double, 2> {
+            return {cfree::nearest(p->vertices.X[k], p->denominator), cfree::nearest(p->vertices.Y[k], p->denominator)};
+        };
+        for (std::size_t ring = 0; ring + 1 < p->offsets.size(); ++ring)
+            for (cfree::Index k = p->offsets[ring]; k < p->offsets[ring + 1]; ++k) {
+                const auto [x, y] = end(k);
+                const auto [u, v] = end(k + 1 < p->offsets[ring + 1] ? k + 1 : p->offsets[ring]);
+                segments.push_back({x, y, u, v});
+            }
     }
     return segments;
 }
-
-static double rounded(const cfree::Ratio& x) { return cfree::nearest(x.n, x.d); }
 
 static cfree::MeasuredPose measured(const cfree::GivenPose& pose) {
     const auto& [x, y, q, p, theta] = pose;
@@ -109,7 +117,8 @@ static double signed_angle(const Int& q, const Int& p) {
     return 2 * half;
 }
 
-// The motions from pose to pose; `robot` are points of the robot, of which slides are asked how far they move.
+// The motions from pose to pose; `robot` are points of the robot, of which slides are asked how far they move;
+// None if there are no slides.
 static std::tuple<double, double, int, double, int, int> least(const EdgeDistances& distances, nb::handle poses, nb::handle motions,
                                                                nb::handle robot, double tolerance) {
     static const Attribute kind("kind"), pole("pole"), turn("turn"), tau("tau"), clockwise("clockwise"), reach("reach");
@@ -159,10 +168,11 @@ void bind_checkers(nb::module_& m) {
         .def("sweep_is_free", &PoseChecker::sweep_is_free, "start"_a, "by"_a)
         .def("is_free", &is_free, "poses"_a, "is_within"_a = false);
     nb::class_<EdgeDistances>(m, "EdgeDistances")
-        .def("__init__", [](EdgeDistances* x, const In<double, 2>& robot, const In<double, 2>& others) {
+        .def("__init__", [](EdgeDistances* x, const std::vector<const cfree::Polygon*>& robot,
+                            const std::vector<const cfree::Polygon*>& others) {
             new (x) EdgeDistances(segments_of(robot), segments_of(others));
         }, "robot"_a, "others"_a)
-        .def("least", &least, "poses"_a, "motions"_a, "robot"_a, "tolerance"_a);
+        .def("least", &least, "poses"_a, "motions"_a, "robot"_a.none(), "tolerance"_a);
     nb::class_<MotionChecker>(m, "MotionChecker")
         .def(nb::init<std::shared_ptr<const cfree::Scene>, std::shared_ptr<const cfree::ArcMotionChecker>>(), "scene"_a,
              "round"_a = nb::none())

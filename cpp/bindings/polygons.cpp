@@ -6,6 +6,8 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+
 #include "arrays.hpp"
 #include "cfree/curves/containment.hpp"
 #include "cfree/scene/coordinate_range.hpp"
@@ -184,6 +186,12 @@ void bind_polygons(nb::module_& m) {
             nb::capsule owner(kept, [](void* q) noexcept { delete static_cast<std::vector<double>*>(q); });
             return Made<const double, 2>(kept->data(), {kept->size() / 2, 2}, owner);
         }, nb::rv_policy::automatic)
+        .def_prop_ro("box", [](const Polygon& p) {  // least x, least y, greatest x, greatest y
+            const auto [x0, x1] = std::minmax_element(p.vertices.X.begin(), p.vertices.X.end());
+            const auto [y0, y1] = std::minmax_element(p.vertices.Y.begin(), p.vertices.Y.end());
+            const auto rounded = [&](const Int& c) { return cfree::nearest(c, p.denominator); };
+            return std::tuple(rounded(*x0), rounded(*y0), rounded(*x1), rounded(*y1));
+        })
         .def_prop_ro("convex", [](const Polygon& p) {
             return Made<const bool>(reinterpret_cast<const bool*>(p.convex.data()), {p.convex.size()});
         })

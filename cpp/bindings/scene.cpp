@@ -6,6 +6,8 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+
 #include "arrays.hpp"
 #include "cfree/forbidden/columns.hpp"
 #include "integers.hpp"
@@ -52,6 +54,10 @@ void bind_scene(nb::module_& m) {
              "piece_vertex"_a, "piece_edge"_a, "piece_layer"_a)
         .def_prop_ro("vertices", [](const cfree::Shape& s) { return integers(s.X, s.Y); },
                      nb::for_getter(nb::sig("def vertices(self) -> tuple[tuple[int, int], ...]")))
+        .def_prop_ro("counts",
+                     [](const cfree::Shape& s) {  // of vertices, of convex ones, of vertices of pieces
+                         return std::tuple(s.convex.size(), std::count(s.convex.begin(), s.convex.end(), 1), s.piece_vertex.size());
+                     })
         .def_prop_ro("convex", [](const cfree::Shape& s) { return flags(s.convex); })
         .def_prop_ro("emit", [](const cfree::Shape& s) { return flags(s.emit); });
     rows<2>(shape, "xy", &cfree::Shape::xy);

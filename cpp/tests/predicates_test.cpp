@@ -51,6 +51,38 @@ static void identical_curves_compare_equal() {
     CHECK(p.compare(next, high, first, last).sign[0] == 0);
 }
 
+// Angles 1e-17 apart, and equal ones of different names: whatever has been asked before, the answers are those of a new object.
+static void close_angles_are_ordered_as_if_asked_alone() {
+    const long far = 30'000'000'000'000'000;
+    std::vector<Ring> rings;
+    for (long k = 0; k < 6; ++k) {
+        const long x = 5 * far / 30 + k % 3, y = 5 * far / 30 - k / 2;
+        rings.push_back({{x, y}, {x + far / 10, y}, {x + far / 30, y + far / 15 + k}});
+    }
+    const Scene s{shape_of({{{0, 0}, {far / 15, 0}, {0, far / 30}}}), shape_of(rings)};
+    const Surface on{{Kind::vertex_edge, 0, 1}, 0};
+    Predicates kept(s, on);
+    std::vector<Event> angles;
+    for (Index vertex = 0; vertex < 18; ++vertex)
+        for (Index mine = 0; mine < 3; ++mine)
+            for (const Event& x : kept.offset_roots(mine, vertex, kept.offset(mine, vertex), first, last).at)
+                if (x.fine < 0) angles.push_back(x);
+    int close = 0;
+    for (int round = 0; round < 3; ++round)
+        for (const Event& x : angles)
+            for (const Event& y : angles) {
+                Predicates alone(s, on);
+                const int order = kept.order(x, y);
+                CHECK(order == alone.order(x, y) && order == -kept.order(y, x));
+                if (order >= 0) continue;
+                close += !(x.hi < y.lo);
+                const Sample at = kept.between(x, y), own = alone.between(x, y);
+                CHECK(at.tau == own.tau && compare(at.exact(), own.exact()) == 0);
+                CHECK(kept.order(x, at) < 0 && kept.order(y, at) > 0);
+            }
+    CHECK(close > 32);
+}
+
 static void ranges_begin_and_end_on_walls_exactly() {
     Counters c;
     const Scene boxes{shape_of({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}), shape_of({{{5, 5}, {8, 5}, {8, 7}, {5, 7}}})};
@@ -68,6 +100,7 @@ int main() {
     equal_features_have_equal_codes();
     parallels_are_found_and_ordered();
     a_sample_lies_between();
+    close_angles_are_ordered_as_if_asked_alone();
     identical_curves_compare_equal();
     ranges_begin_and_end_on_walls_exactly();
     return failures > 0;

@@ -9,6 +9,7 @@ from __future__ import annotations
 import collections.abc
 import os
 import reprlib
+import sys
 from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
@@ -17,14 +18,12 @@ from numbers import Integral, Real
 from types import FunctionType, NoneType, UnionType
 from typing import Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
-import numpy as np
-from numpy.typing import ArrayLike
+from cfree.libraries import is_array, is_numpy, np
 
 T = TypeVar("T", bound=Callable[..., Any])
-_ARRAY = frozenset(get_args(ArrayLike))
 _NUMBER = frozenset({int, float, Fraction, Decimal, str})  # a text is a number as well
 _NAMES: dict[Any, str] = {
-    NoneType: "None", float: "a number", int: "an int", str: "a str", bool: "True or False", np.ndarray: "an array",
+    NoneType: "None", float: "a number", int: "an int", str: "a str", bool: "True or False",
     os.PathLike: "a path", collections.abc.Callable: "a function", collections.abc.Mapping: "a dict",
 }  # fmt: skip
 _SEQUENCES = (collections.abc.Sequence, collections.abc.Iterable, list)
@@ -142,6 +141,7 @@ def fits(hint: Any, value: Any) -> bool:
 
     Examples
     --------
+    >>> from numpy.typing import ArrayLike
     >>> fits(int | None, np.int64(3)), fits(int, True), fits(tuple[int, int], (1, 2, 3)), fits(ArrayLike, [[1, "x"]])
     (True, False, False, False)
     """
@@ -157,12 +157,14 @@ def _test_of(hint: Any) -> Callable[[Any], bool]:
     if hint is float or hint is int:
         number = Real if hint is float else Integral
         return lambda value: isinstance(value, number) and not isinstance(value, bool)
+    if hint is bool:
+        return lambda value: isinstance(value, bool) or is_numpy(value, "bool_")
     if isinstance(hint, type) and not parts:
-        kinds = (bool, np.bool_) if hint is bool else hint
-        return lambda value: isinstance(value, kinds)
+        return lambda value: isinstance(value, hint)
     if origin is Union or origin is UnionType:
-        numbers = set(parts) >= _ARRAY
-        tests = [_test_of(part) for part in parts if not (numbers and part in _ARRAY)]
+        arrays = _arrays()
+        numbers = arrays and arrays <= set(parts)
+        tests = [_test_of(part) for part in parts if not (numbers and part in arrays)]
         tests += [_is_numbers] if numbers else []
         return lambda value: any(test(value) for test in tests)
     if origin is Literal:
@@ -176,12 +178,17 @@ def _test_of(hint: Any) -> Callable[[Any], bool]:
     return lambda value: not isinstance(origin, type) or isinstance(value, origin)
 
 
+def _arrays() -> frozenset[Any]:
+    """Members of the union `ArrayLike`; none before numpy is imported, which reading such a hint does."""
+    return frozenset(get_args(np.typing.ArrayLike)) if "numpy" in sys.modules else frozenset()
+
+
 def _is_many(value: Any) -> bool:
     return isinstance(value, collections.abc.Iterable) and not isinstance(value, str | bytes | collections.abc.Mapping)
 
 
 def _is_row(value: Any, tests: list[Callable[[Any], bool]], endless: bool) -> bool:
-    if isinstance(value, str) or not isinstance(value, tuple | collections.abc.Sequence | np.ndarray):
+    if isinstance(value, str) or not (isinstance(value, tuple | collections.abc.Sequence) or is_array(value)):
         return False
     tests = tests * len(value) if endless else tests
     return len(value) == len(tests) and all(test(part) for test, part in zip(tests, value, strict=True))
@@ -203,6 +210,7 @@ def expected(hint: Any) -> str:
 
     Examples
     --------
+    >>> from numpy.typing import ArrayLike
     >>> expected(tuple[float, float] | None), expected(list[str] | ArrayLike)
     ('(a number, a number) or None', 'numbers or a sequence of a str')
     >>> expected(int | float | Fraction | Decimal | str | dict)
@@ -218,14 +226,15 @@ def expected(hint: Any) -> str:
     if origin in _SEQUENCES:
         return f"a sequence of {'these' if parts[0] is Any else expected(parts[0])}"
     kind = origin or hint
-    return _NAMES.get(kind) or _article(getattr(kind, "__name__", str(kind)))
+    name = getattr(kind, "__name__", str(kind))
+    return _NAMES.get(kind) or ("an array" if name == "ndarray" else _article(name))
 
 
 def _either(parts: Sequence[Any]) -> str:
     """Describe the members of a union in words."""
     words = list[str]()
-    for kinds, name in ((_ARRAY, "numbers"), (_NUMBER, "a number")):
-        if kinds <= set(parts):
+    for kinds, name in ((_arrays(), "numbers"), (_NUMBER, "a number")):
+        if kinds and kinds <= set(parts):
             words.append(name)
             parts = [part for part in parts if part not in kinds]
     return " or ".join(dict.fromkeys([*words, *map(expected, parts)]))

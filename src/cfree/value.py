@@ -6,9 +6,8 @@ from collections.abc import Callable
 from dataclasses import fields
 from typing import Any, TypeVar
 
-import numpy as np
-
 from cfree.lazy import registered
+from cfree.libraries import is_array, np
 
 V = TypeVar("V", bound="Keeping")
 T = TypeVar("T")
@@ -41,7 +40,7 @@ class Value:
         return self is other or _same(self._content, other._content)
 
     def __hash__(self) -> int:
-        return hash(tuple(part.shape if isinstance(part, np.ndarray) else part for part in self._content))
+        return hash(tuple(part.shape if is_array(part) else part for part in self._content))
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(map(_shown, self._content))})"
@@ -112,15 +111,15 @@ def kept(value: V, make: Callable[[V], T]) -> T:
 
 def _shown(part: Any) -> str:
     """Text of a part in one line; an array is shown by its type and shape."""
-    return f"{part.dtype}{list(part.shape)}" if isinstance(part, np.ndarray) else repr(part)
+    return f"{part.dtype}{list(part.shape)}" if is_array(part) else repr(part)
 
 
 def _same(one: Any, other: Any) -> bool:
     """True if two parts are equal; a NaN equals itself."""
     if isinstance(one, tuple) and isinstance(other, tuple):
         return len(one) == len(other) and all(map(_same, one, other))
-    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+    if is_array(one) and is_array(other):
         return one.dtype == other.dtype and np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
-    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+    if is_array(one) or is_array(other):
         return False
     return bool(one == other or (one != one and other != other))

@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+import pathlib
 import random
+import time
 from collections.abc import Iterable
+from copy import copy
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import cfree
-from cfree import FreeSpace, MotionChecker, Pose, Scene, boundary, free_space, load_scene, plan
+from cfree import (
+    FreeSpace,
+    MotionChecker,
+    Path,
+    Planner,
+    Pose,
+    PoseChecker,
+    Scene,
+    boundary,
+    free_space,
+    load_scene,
+    plan,
+)
 from cfree._core import Connecting, Verdict
 from cfree.planning.core_ways import numbers_of, way_of
 from cfree.planning.separation import known_scene
@@ -21,7 +35,7 @@ from questions import random_question
 from shapes import KINDS, random_scene
 from spaces import INSIDE, OUTSIDE, room
 
-ROOT = Path(__file__).parents[2]
+ROOT = pathlib.Path(__file__).parents[2]
 
 
 def connected(scene: Scene, start: Pose, goal: Pose) -> tuple[Connecting, Verdict]:
@@ -111,3 +125,35 @@ def test_answers_are_those_of_a_built_space() -> None:
         built = plan(free_space(boundary(scene)), scene.start, scene.goal, improve=0)
         assert type(fresh) is type(built)
         assert cfree.verify.answer(scene, fresh).verified
+
+
+def random_free(rng: random.Random, checker: PoseChecker) -> Pose:
+    x, y = zip(*(point for part in checker.scene.obstacles for point in part.exact_vertices), strict=True)
+    while True:
+        pose = Pose(
+            rng.uniform(float(min(x)), float(max(x))), rng.uniform(float(min(y)), float(max(y))), rng.uniform(0, 6)
+        )
+        if checker.is_free(pose):
+            return pose
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["nest_shirts", "nest_swim"])
+def test_a_kept_planner_answers_as_fresh_ones_do_and_gets_no_slower(name: str) -> None:
+    """Trimmed patches and explored trapezoids are kept; a question's work follows the question, not those before it."""
+    scene, rng, count = load_scene(ROOT / f"examples/scenes/{name}.json"), random.Random(5), 24
+    checker = PoseChecker(scene)
+    asked = [(random_free(rng, checker), random_free(rng, checker)) for _ in range(count)]
+    kept, times, same = Planner(scene), np.zeros((2, count)), 0
+    for k, (start, goal) in enumerate(asked):
+        answers = []
+        for row, planner in enumerate((Planner(copy(scene)), kept)):
+            begin = time.process_time()
+            answers.append(planner.plan(start, goal, improve=0))
+            times[row, k] = time.process_time() - begin
+        one, other = answers
+        assert type(one) is type(other)
+        same += len(one) == len(other) if isinstance(one, Path) and isinstance(other, Path) else 1
+    assert same >= 0.9 * count
+    fresh, ours = times[:, count // 2 :].sum(axis=1)
+    assert times[1].sum() < 1.1 * times[0].sum() and ours < 1.1 * fresh

@@ -172,7 +172,35 @@ Poly derivative(const Poly& p) {
     return d;
 }
 
+// The sign that balls are certain of, in sums of two doubles without radii; nothing if it is not clear that they are.
+//
+// A step of Horner's scheme is one product without the product of the rests, and one sum (Joldes, Muller and Popescu 2017), and
+// loses at most 9 v^2 of the magnitudes m, v = 2^-53; four steps lose 2^-100 m. Balls lose less than 2^-98 m beside the radii of
+// the coefficients, which are multiplied as here. A value beyond 2^-96 m and three times these radii is certain in both.
+// 2^-900 is more than underflow loses.
+static std::optional<int> clear_sign(const Coefficients<Ball>& p, const Ball& tau) {
+    const double size = std::abs(tau.hi);
+    const Ball& last = p.c[p.count - 1];
+    double hi = last.hi, lo = last.lo, m = std::abs(hi), radius = last.radius;
+    for (int i = p.count - 1; i-- > 0;) {
+        const double q = hi * tau.hi, rest = std::fma(hi, tau.hi, -q) + (hi * tau.lo + lo * tau.hi);
+        const double h = q + rest, l = rest - (h - q);
+        const Ball& c = p.c[i];
+        const auto [s, e] = two_sum(h, c.hi);
+        const auto [t, f] = two_sum(l, c.lo);
+        const double x = e + t, v = s + x, w = x - (v - s), y = f + w;
+        hi = v + y, lo = y - (hi - v);
+        m = m * size + std::abs(c.hi), radius = radius * size + c.radius;
+    }
+    const double bound = m * 0x1p-96 + 3 * radius + 0x1p-900;
+    if (hi > bound) return 1;
+    if (hi < -bound) return -1;
+    return {};
+}
+
 std::optional<int> sign_at(const Coefficients<Ball>& p, const Ball& tau) {
+    if (tau.radius == 0 && std::abs(tau.hi) <= 1)
+        if (const auto sign = clear_sign(p, tau)) return sign;
     Ball r = p.c[p.count - 1];
     for (int i = p.count - 1; i-- > 0;) r = r * tau + p.c[i];
     return certain_sign(r);

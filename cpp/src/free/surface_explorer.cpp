@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 #include <queue>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/support/elementary.hpp"
@@ -39,14 +42,20 @@ struct Growth {
     };
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
     enum class Seen : char { no, queued, explored };
-    std::vector<Seen> seen;
-    std::vector<double> way;  // way to each explored trapezoid
+    struct Visit {
+        Seen seen = Seen::no;
+        double way = 0;  // when it was explored last
+    };
+    std::unordered_map<Index, Visit> visits;  // of the trapezoids that were looked at: few, however many there are
     Index target = -1;
     Vec<double> goal{};
     Index explored = 0, surely = 0;  // numbers explored, and of these confirmed by gluing
     static constexpr Index least_trust = 512;
     Index trust = least_trust;  // number of further ones before the next gluing
-    bool has(Index k) const { return k >= 0 && k < static_cast<Index>(seen.size()) && seen[k] == Seen::explored; }
+    bool has(Index k) const {
+        const auto visit = visits.find(k);
+        return visit != visits.end() && visit->second.seen == Seen::explored;
+    }
 };
 
 }  // namespace
@@ -54,12 +63,13 @@ struct Growth {
 struct SurfaceExplorer::State {
     State(std::shared_ptr<const Scene> s, bool regularized)
         : given(std::move(s)), scene(given->near()), one(scene, regularized), touching(*given, one), names(scene),
-          faces_of(one.patches.size(), {-1, -1}), trimmed(one.patches.size(), 0) {
+          faces_of(one.patches.size(), {-1, -1}), trimmed(one.patches.size(), 0), met_patch(one.patches.size(), -1) {
         for (std::size_t v = 0; v < scene.robot.x.size(); ++v)
             nearness = std::max({nearness, std::abs(scene.robot.x[v]), std::abs(scene.robot.y[v])});
         nearness *= 1e-7;
     }
 
+    void meet(Index patch) { patches_met += std::exchange(met_patch[patch], question) != question; }
     void trim(Index patch);
     void trim(std::vector<Index>& patches);
     void explore(Index k);
@@ -86,6 +96,11 @@ struct SurfaceExplorer::State {
     Trapezoids rows;                               // trapezoids of patches in the order of trimming
     std::vector<std::array<Index, 2>> faces_of;    // each patch's rows
     std::vector<std::uint8_t> trimmed;
+    // The question that is answered now, the last one that met each patch and each row, and how many patches it has met. What
+    // it costs is counted as if nothing were kept: so it makes as many guesses, and has the answer that it has alone.
+    int question = 0;
+    std::vector<int> met_patch, met_row;
+    std::size_t patches_met = 0, patches_trimmed = 0;
     std::vector<Sheet> sheets;                     // one per row
     std::vector<char> whole;                       // true for each row with all patches trimmed that its sides meet
     struct Neighbours {
@@ -93,7 +108,8 @@ struct SurfaceExplorer::State {
         std::vector<Index> beside;  // trapezoids that seem to be across them
     };
     std::vector<Neighbours> around;                // then
-    std::map<Index, Growth> growing;               // one per seed
+    std::map<Index, Growth> growing;               // one per seed, of one question
+    std::vector<Index> number;                     // scratch of gluing: -1 for each row
     double nearness = 0;                           // distance of points that may be equal; it decides only the order
     Index pillars_of = -1;
     Shadows pillars = one.shadows();
@@ -101,6 +117,7 @@ struct SurfaceExplorer::State {
 };
 
 void SurfaceExplorer::State::trim(Index patch) {
+    meet(patch);
     if (trimmed[patch]) return;
     const Feature contact = one.patches.contact(patch);
     if (contact.obstacle != pillars_of) {
@@ -109,7 +126,7 @@ void SurfaceExplorer::State::trim(Index patch) {
     }
     std::vector<Trapezoid> found, thin;
     one.trim(patch, pillars, found, thin, count);
-    trimmed[patch] = 1;
+    trimmed[patch] = 1, ++patches_trimmed;
     const std::size_t before = rows.size();
     const ContactLine<double> line(scene, contact, Doubles{});
     for (const Trapezoid& x : found) {
@@ -119,7 +136,7 @@ void SurfaceExplorer::State::trim(Index patch) {
     }
     for (auto* column : rows.features())
         for (std::size_t k = before; k < rows.size(); ++k) (*column)[k] = named(names, (*column)[k]);
-    whole.resize(rows.size(), 0), around.resize(rows.size());
+    whole.resize(rows.size(), 0), around.resize(rows.size()), number.resize(rows.size(), -1), met_row.resize(rows.size(), -1);
     faces_of[patch] = {static_cast<Index>(before), static_cast<Index>(rows.size())};
 }
 
@@ -226,20 +243,21 @@ Growth& SurfaceExplorer::State::growth(Index seed) {
 }
 
 void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
-    if (g.seen.size() < rows.size()) g.seen.resize(rows.size()), g.way.resize(rows.size());
-    if (g.seen[k] != Growth::Seen::no) return;
-    g.seen[k] = Growth::Seen::queued;
+    Growth::Visit& visit = g.visits[k];
+    if (visit.seen != Growth::Seen::no) return;
+    visit.seen = Growth::Seen::queued;
     constexpr double haste = 2;  // the way need not be the shortest
     g.queue.push({g.target < 0 ? way : way + haste * apart(middle(k), g.goal), way, k});
 }
 
 // Glue a surface; return it if nothing is missing or the target is reached. Else exploration continues from the missing
 // trapezoids, and forgets those that only seemed to be across sides. Gluing takes the trapezoids within reach of the seed over
-// sides: the explored ones, or on the way to a target all whole ones.
+// sides: those explored from it, or on the way to a target all that this question has explored. Those of earlier questions are
+// left out, or each question would cost more than the one before.
 GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     const bool is_reached = g.has(target);
-    const auto is_whole = [&](Index k) { return is_reached ? whole[k] != 0 : g.has(k); };
-    std::vector<Index> number(rows.size(), -1), chosen{seed};
+    const auto is_whole = [&](Index k) { return is_reached ? met_row[k] == question : g.has(k); };
+    std::vector<Index> chosen{seed};
     number[seed] = 0;
     for (std::size_t n = 0; n < chosen.size(); ++n) {
         if (!is_whole(chosen[n])) continue;
@@ -253,19 +271,23 @@ GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     std::vector<char> some_whole;
     for (const Index k : chosen)
         number[k] = static_cast<Index>(some.size()), some.push_row(rows, k), some_whole.push_back(is_whole(k));
-    GluedPart part = glue_part(boundary(std::move(some)), std::move(some_whole), {number[seed]}, is_reached ? number[target] : -1);
+    const Index first = number[seed], last = is_reached ? number[target] : -1;
+    for (const Index k : chosen) number[k] = -1;
+    GluedPart part = glue_part(boundary(std::move(some)), std::move(some_whole), {first}, last);
     if (part.missing.empty() || part.complex) return part;
-    g.seen.assign(rows.size(), Growth::Seen::no), g.way.resize(rows.size()), g.queue = {};
-    g.surely = static_cast<Index>(part.faces.size());
-    const bool has_leaked = 10 * g.surely < 9 * g.explored;
-    g.explored = g.surely, g.trust = std::max(Growth::least_trust, (has_leaked ? 2 : 8) * g.surely);
-    std::vector<char> is_missing(rows.size(), 0);
-    for (const Index k : part.missing) is_missing[chosen[k]] = 1;
-    for (const Index k : part.faces) g.seen[chosen[k]] = Growth::Seen::explored;
+    const std::size_t surely = part.faces.size();
+    const bool has_leaked = 10 * static_cast<Index>(surely) < 9 * g.explored;
+    for (auto& [k, visit] : g.visits) visit.seen = Growth::Seen::no;
+    for (const Index k : part.faces) g.visits[chosen[k]].seen = Growth::Seen::explored;
+    g.queue = {};
+    g.explored = g.surely = static_cast<Index>(surely), g.trust = std::max(Growth::least_trust, (has_leaked ? 2 : 8) * g.surely);
+    std::unordered_set<Index> is_missing;
+    for (const Index k : part.missing) is_missing.insert(chosen[k]);
     for (const Index k : part.faces) {
         const Vec<double> here = middle(chosen[k]);
+        const double way = g.visits[chosen[k]].way;
         for (const Index next : around[chosen[k]].beside)
-            if (is_missing[next]) look_at(g, next, g.way[chosen[k]] + step(g, here, next));
+            if (is_missing.contains(next)) look_at(g, next, way + step(g, here, next));
     }
     for (const Index k : part.missing) look_at(g, chosen[k], 0);
     return part;
@@ -296,8 +318,12 @@ std::optional<Index> SurfaceExplorer::trapezoid_at(const ExactPose& pose, Index 
 }
 
 std::size_t SurfaceExplorer::trimmed_patches() const {
-    return static_cast<std::size_t>(std::count(state->trimmed.begin(), state->trimmed.end(), 1));
+    return state->patches_trimmed;
 }
+
+std::size_t SurfaceExplorer::met_patches() const { return state->patches_met; }
+
+void SurfaceExplorer::begin() { ++state->question, state->patches_met = 0, state->growing.clear(); }
 
 SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index target) {
     State& s = *state;
@@ -311,10 +337,14 @@ SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index targe
             if (GluedPart part = s.glued(g, seed, target); part.complex) return {part.complex, part.missing.empty()};
         }
         const auto [cost, way, k] = g.queue.top();
-        if (!s.whole[k] && most-- == 0) return {};
+        const bool is_met = s.met_row[k] == s.question;
+        if (!is_met && most-- == 0) return {};
         g.queue.pop();
         if (!s.whole[k]) s.explore(k);
-        g.seen[k] = Growth::Seen::explored, g.way[k] = way, ++g.explored;
+        else if (!is_met)
+            for (const Index other : s.around[k].all) s.meet(s.rows.patch[other]);
+        s.met_row[k] = s.question;
+        g.visits[k] = {Growth::Seen::explored, way}, ++g.explored;
         const Vec<double> here = s.middle(k);
         for (const Index next : s.around[k].beside) s.look_at(g, next, way + s.step(g, here, next));
     }

@@ -13,11 +13,17 @@ namespace cfree {
 
 namespace {
 
-constexpr int search_guesses = 40000;  // most guesses of motions: each scans all of the trees
+constexpr int search_guesses = 40000;  // most guesses of motions, if there are not many patches
+constexpr int patches_each = 4;        // else one guess for as many
+constexpr int all_guesses = 1 << 21;   // in any case: trees take memory
 constexpr int quick_guesses = 2000;    // guesses before any exact work
 constexpr int round_guesses = 16000;   // among round shapes
 constexpr int straight_guesses = 500;  // there, of motions without turns, which come first
-constexpr int guesses_each = 45;       // guesses that take no longer than a patch of a surface
+constexpr int guesses_each = 45;       // guesses that take no longer than a patch of a surface, of a robot of few vertices
+constexpr int few_vertices = 16, most_vertices = 256;
+// A pair of trees may go astray: one in eight took ten times the guesses of others of other seeds. So after as many guesses in
+// turns new trees begin where patches are dear, each of twice as many as the one before, up to a limit.
+constexpr int first_trees = 20000, least_trees = 4000, most_trees = 16000;
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
 bool is_before(const RationalPose& a, const RationalPose& b) {
@@ -110,20 +116,25 @@ int Planner::most_guesses() const {
 // as take no longer.
 class Planner::Turns {
 public:
-    Turns(const Planner& planner, const End& start, const End& goal, const Listener& to)
-        : listener(to), deadline(to), searcher(planner.scene, std::array{start.place, goal.place}, {planner.angle_scale}),
-          search(searcher.search(start, goal)) {}
+    Turns(const Planner& planner, const End& from, const End& until, const Listener& to)
+        : listener(to), deadline(to), searcher(planner.scene, std::array{from.place, until.place}, {planner.angle_scale}),
+          start(from), goal(until), search(searcher.search(start, goal)) {
+        const auto vertices = static_cast<int>(planner.scene->scene().robot.convex.size());
+        each = guesses_each * std::clamp(vertices, few_vertices, most_vertices) / few_vertices;
+        left = static_cast<int>(std::clamp<std::int64_t>(planner.scene->patches() / patches_each, search_guesses, all_guesses));
+    }
 
     std::optional<Poses> search_alone() { return guess(quick_guesses); }
 
     // Go on until the surfaces decide, or the search finds a way.
     Connection::Verdict decide(Connecting& joined) {
-        std::size_t trimmed = joined.around->trimmed_patches();
+        std::size_t trimmed = joined.around->trimmed_patches(), met = joined.around->met_patches();
         return joined.decide([&](Index) {
             const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
-            const int guesses = std::min(left, guesses_each * static_cast<int>(trimmed - before));
-            left -= guesses;
-            way = guess(guesses);
+            const std::size_t met_before = std::exchange(met, joined.around->met_patches());
+            const int guesses = static_cast<int>(std::min<std::int64_t>(left, each * static_cast<std::int64_t>(met - met_before)));
+            left -= guesses, made += guesses;
+            way = in_turn(guesses);
             if (way) return false;
             deadline.heed();
             if (listener.spend) listener.spend(static_cast<std::int64_t>(trimmed - before));
@@ -134,8 +145,25 @@ public:
     std::optional<Poses> way;  // the search's
 
 private:
-    std::optional<Poses> guess(int guesses) {
-        const Route route = search.run_on(guesses);
+    std::optional<Poses> guess(int guesses) { return poses(search.run_on(guesses)); }
+
+    // The first trees go on. Once they have had their time, others get as much, from new seeds.
+    std::optional<Poses> in_turn(int guesses) {
+        if (auto found = guess(guesses)) return found;
+        if (made <= first_trees || each < 2 * guesses_each) return {};  // else they cost more than the surfaces
+        for (int rest = guesses; rest > 0;) {
+            if (of_others <= 0) {
+                others.emplace(searcher.search(start, goal, ++seed));
+                of_others = size, size = std::min(2 * size, most_trees);
+            }
+            const int part = std::min(rest, of_others);
+            rest -= part, of_others -= part;
+            if (auto found = poses(others->run_on(part))) return found;
+        }
+        return {};
+    }
+
+    std::optional<Poses> poses(const Route& route) const {
         if (route.empty()) return {};
         return searcher.poses(route);
     }
@@ -143,8 +171,11 @@ private:
     const Listener& listener;
     const Deadline deadline;
     const Searcher searcher;
+    const End start, goal;
     RrtConnect search;
-    int left = search_guesses;
+    std::optional<RrtConnect> others;
+    std::uint64_t seed = 0;
+    int each, left, made = 0, of_others = 0, size = least_trees;
 };
 
 std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal, const Listener& listener) {
@@ -157,7 +188,7 @@ std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal,
     if (const auto inner = insets().scene(insets().first())) {
         Connecting joined = inner->connecting(start.pose, goal.pose);
         if (auto answer = by_smaller_robot(inner, joined, turns)) return answer;
-        if (static_cast<double>(joined.around->trimmed_patches()) > most_few * static_cast<double>(scene->patches())) return {};
+        if (static_cast<double>(joined.around->met_patches()) > most_few * static_cast<double>(scene->patches())) return {};
     }
     Connecting joined = scene->connecting(start.pose, goal.pose);
     return by_robot_itself(joined, turns);

@@ -159,6 +159,7 @@ std::optional<bool> Surroundings::is_around(Index surface, const Search& search)
 
 Connecting::Connecting(std::shared_ptr<Surroundings> of, const RationalPose& start, const RationalPose& goal)
     : around(std::move(of)), ends{around->search(start.exact(*around->scene)), around->search(goal.exact(*around->scene))} {
+    around->begin();
     result.start = start, result.goal = goal;
 }
 

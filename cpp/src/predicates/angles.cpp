@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "cfree/support/elementary.hpp"
+#include "predicates/close_angles.hpp"
 #include "predicates/form.hpp"
 
 namespace cfree {
@@ -215,7 +216,7 @@ std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
 }
 
 const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
-    constexpr std::size_t least = 16, most = 256;  // most patches have few such angles
+    constexpr std::size_t least = 16, most = 4096;  // most patches have few such angles
     const auto empty_of = [this](std::size_t size) { recent.assign(size, {{{}, {}, 2, 2}, {}}), misses = 0; };
     if (recent.empty()) empty_of(least);
     const auto mixed = [](const Feature& f) {
@@ -269,8 +270,26 @@ bool Predicates::are_one_of_few_digits(const Event& x, const Predicates& other, 
            cfree::sign_at(other.coefficients<Ball>(y.first, y.second), t) == 0;
 }
 
-// Order of two angles whose intervals overlap.
+Predicates::Predicates(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
+Predicates::~Predicates() = default;
+
+// Order of two angles whose intervals overlap. Where there are many such questions, most are asked again and again.
 int Predicates::order_of_close(const Event& x, const Event& y) {
+    constexpr int few = 32;
+    if (!close && ++close_questions > few) close = std::make_unique<CloseAngles>();
+    if (!close || x.fine >= 0 || y.fine >= 0) return decided_order(x, y);
+    if (const int* known_order = close->order(x, y)) return ++counters.identity, *known_order;
+    const int order = decided_order(x, y);
+    close->keep(x, y, order);
+    return order;
+}
+
+// Exact root of an angle that is alone in its interval.
+RealRoot& Predicates::kept_root(const Event& x) {
+    return close->root(x, [&] { return root_of(x); });
+}
+
+int Predicates::decided_order(const Event& x, const Event& y) {
     const auto sign = [](double d) { return (d > 0) - (d < 0); };
     if (double_only) return ++counters.filter, sign((x.lo + x.hi) - (y.lo + y.hi));
     // One root in each of two overlapping intervals: of one polynomial, opposite signs around both mean one root in all.
@@ -303,8 +322,13 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
         if (!first || !second) return {};
         if ((*first && alone(y)) || (*second && alone(x))) return 0;
         if constexpr (std::is_same_v<T, Ball>) return {};
-        RealRoot p = root_of(x), q = root_of(y);
-        return cfree::compare(p, q);
+        if (!close || !are_narrow) {
+            RealRoot p = root_of(x), q = root_of(y);
+            return cfree::compare(p, q);
+        }
+        close->trim();
+        RealRoot &p = kept_root(x), &q = kept_root(y);
+        return &p == &q ? 0 : cfree::compare(p, q);
     });
 }
 
@@ -352,6 +376,24 @@ Sample finely(const Dyadic& lo, const Dyadic& hi, int attempt) {
 
 }  // namespace
 
+// Halve an interval as `halve` does, by a narrower one of the same root instead of the polynomial's sign.
+static void halve(RealRoot& x, RealRoot& narrow) {
+    constexpr unsigned closest = 64;  // bits beyond it: the root may be the middle
+    if (x.is_dyadic()) return;
+    const Dyadic mid = Dyadic::middle(x.lo, x.hi);
+    for (const unsigned most = x.digits() + closest;; narrow.narrow()) {
+        if (cfree::compare(narrow.hi, mid) < 0) {
+            x.hi = mid;
+            return;
+        }
+        if (cfree::compare(mid, narrow.lo) < 0) {
+            x.lo = mid;
+            return;
+        }
+        if (narrow.is_dyadic() || narrow.digits() > most) return x.halve();
+    }
+}
+
 Sample Predicates::between(const Event& x, const Event& y, int attempt) {
     if (x.hi < y.lo) return within(x.hi, y.lo, attempt);
     // intervals that overlap: narrow them until they part
@@ -366,7 +408,13 @@ Sample Predicates::between(const Event& x, const Event& y, int attempt) {
                 while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
                 return {p.hi, q.lo};
             };
-            return scene.is_round ? apart(long_root_of(x), long_root_of(y)) : apart(root_of(x), root_of(y));
+            if (scene.is_round) return apart(long_root_of(x), long_root_of(y));
+            if (!close || x.fine >= 0 || y.fine >= 0) return apart(root_of(x), root_of(y));
+            close->trim();
+            RealRoot &narrow_x = kept_root(x), &narrow_y = kept_root(y);
+            RealRoot p = root_of(x), q = root_of(y);
+            while (cfree::compare(p.hi, q.lo) >= 0) halve(p, narrow_x), halve(q, narrow_y);
+            return {{p.hi, q.lo}};
         }
     });
     const double lo = below.rounded_up(), hi = above.rounded_down();

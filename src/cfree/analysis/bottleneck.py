@@ -17,7 +17,8 @@ import numpy as np
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
-from cfree.forbidden.columns import Floats, Ints
+from cfree.forbidden.columns import Ints
+from cfree.libraries import Floats
 from cfree.scene.naming import placed
 from cfree.scene.scene import default_name
 

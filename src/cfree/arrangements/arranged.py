@@ -24,9 +24,10 @@ from cfree.errors import InvariantError, UnsupportedError
 from cfree.exact.half_angle import Angle
 from cfree.exact.pose import PoseLike, to_pose
 from cfree.forbidden.boundary import memory_used
-from cfree.forbidden.columns import Floats, Ints
+from cfree.forbidden.columns import Ints
 from cfree.forbidden.record import BoundaryRecord, Stats
 from cfree.forbidden.slice import Slice
+from cfree.libraries import Floats
 from cfree.scene.features import BOUNDS, WORKSPACE, scene_features
 from cfree.scene.scene import Scene
 from cfree.value import Value

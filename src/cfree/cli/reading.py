@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -109,6 +108,8 @@ def report(notes: Sequence[Note], source: Path, most: int | None = MOST_LINES) -
             BAD_INPUT,
         )
     if len(shown) < len(texts):
+        import shlex
+
         again = shlex.join(["cfree", "check", str(source), *drawing.words()])
         tell(f"and {len(texts) - len(shown):,} more: {again}")
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 import threading
 import time
@@ -109,6 +108,8 @@ def columns(rows: Sequence[Sequence[str]], sides: str, width: int = 0) -> list[s
 
 def terminal_width() -> int:
     """Return the columns of the terminal, or of a wide one if there is none."""
+    import shutil
+
     return shutil.get_terminal_size((NO_TERMINAL, 24)).columns
 
 

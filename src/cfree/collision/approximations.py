@@ -6,13 +6,9 @@ from collections.abc import Iterable
 from contextlib import suppress
 from functools import cached_property
 
-import numpy as np
-import shapely
-from numpy.typing import NDArray
-from shapely.affinity import affine_transform
-
 from cfree.curves.curved import Curved
 from cfree.errors import InvalidPolygonError, UndecidedError
+from cfree.libraries import NDArray, np, shapely
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import AnyShape, Scene, polygons_for, shapes_of, size_of, with_polygons
@@ -114,6 +110,8 @@ class Approximations:
 
     def _overlapping(self, poses: NDArray[np.float64]) -> set[tuple[int, int]]:
         """Return pairs of shapes, one of them round, whose outer polygons overlap at one of the poses."""
+        from shapely.affinity import affine_transform
+
         parts, count = len(self.exact.robot), len(self.exact.robot) + len(self.exact.obstacles)
         geometries = [
             shapely.union_all([polygon.to_shapely() for polygon in _polygons_for(shape, error, k < count)])

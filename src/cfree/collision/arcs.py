@@ -13,9 +13,6 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
 
-import numpy as np
-from numpy.typing import NDArray
-
 import cfree._core as _core
 from cfree.collision.motion import Motion, Rotation
 from cfree.collision.slide import Slide
@@ -25,6 +22,7 @@ from cfree.curves.rings import Piece, Span
 from cfree.errors import UnsupportedError
 from cfree.exact.number import ExactPoint, common_denominator
 from cfree.exact.pose import Pose
+from cfree.libraries import NDArray, np
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import AnyShape, Scene

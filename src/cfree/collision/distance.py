@@ -6,21 +6,23 @@ import math
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 import cfree._core as _core
 from cfree.exact.pose import Poses
+from cfree.libraries import Floats, Ints, np
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from cfree.collision.motion import Motion
+    from cfree.exact.pose import Pose
     from cfree.polygons.polygon import Polygon
     from cfree.scene.scene import Scene
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 Name = tuple[int, int]  # polygon and edge
+Least = tuple[float, float, int, float, int, int]
+"""A certified lower bound of a distance, the least one found, its motion, its share of it, and the two edges."""
 
 
 class EdgeDistances:
@@ -28,29 +30,44 @@ class EdgeDistances:
 
     Attributes
     ----------
-    robot : (e, 2, 2) float64
-        Ends of the robot's edges at rest.
     robot_names : list of (polygon, edge)
     radius : float
         Radius of the robot about its reference point.
-    segments : (w, 2, 2) float64
-        Ends of the edges of obstacles and workspace.
     names : list of (obstacle, edge)
         -2 stands for the workspace.
     """
 
     def __init__(self, scene: Scene) -> None:
-        shapes = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
-        self.robot, self.robot_names = _edges(list(enumerate(scene.robot)))
+        self._robot = [*enumerate(scene.robot)]
+        self._others = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
         self.radius = robot_radius(scene)
-        self.segments, self.names = _edges(shapes)
-        # a power of two near their size, so that squares of tiny and huge numbers stay in range
-        self._unit = 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])
+        self.robot_names, self.names = _names(self._robot), _names(self._others)
+
+    @cached_property
+    def robot(self) -> Floats:
+        """Ends (e, 2, 2) of the robot's edges at rest."""
+        return _ends(self._robot)
+
+    @cached_property
+    def segments(self) -> Floats:
+        """Ends (w, 2, 2) of the edges of obstacles and workspace."""
+        return _ends(self._others)
+
+    @cached_property
+    def _unit(self) -> float:
+        """A power of two near their size, so that squares of tiny and huge numbers stay in range."""
+        return 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])
+
+    def least(self, poses: Sequence[Pose], motions: Sequence[Motion], tolerance: float) -> Least:
+        """Return the least distance along free motions from pose to pose; see `Least`."""
+        robot = self.robot if any(motion.kind == "slide" for motion in motions) else None
+        return self._handle.least(poses, motions, robot, tolerance)
 
     @cached_property
     def _handle(self) -> _core.EdgeDistances:
         """The same edges, for distances along motions."""
-        return _core.EdgeDistances(self.robot.reshape(-1, 4), self.segments.reshape(-1, 4))
+        robot, others = ([shape._handle for _, shape in shapes] for shapes in (self._robot, self._others))
+        return _core.EdgeDistances(robot, others)
 
     @cached_property
     def _tree(self) -> Any:
@@ -93,7 +110,12 @@ class EdgeDistances:
         return self._unit * np.asarray(shapely.get_coordinates(shapely.shortest_line(*pair)))
 
 
-def _edges(shapes: list[tuple[int, Polygon]]) -> tuple[Floats, list[Name]]:
-    """Return the ends of all edges, (n, 2, 2), and their names."""
+def _ends(shapes: list[tuple[int, Polygon]]) -> Floats:
+    """Return the ends of all edges, (n, 2, 2)."""
     ends = [np.stack((shape.vertices, shape.vertices[shape.next]), axis=1) for _, shape in shapes]
-    return np.concatenate([np.empty((0, 2, 2)), *ends]), [(k, i) for k, shape in shapes for i in range(len(shape))]
+    return np.concatenate([np.empty((0, 2, 2)), *ends])
+
+
+def _names(shapes: list[tuple[int, Polygon]]) -> list[Name]:
+    """Return the names of all edges."""
+    return [(k, i) for k, shape in shapes for i in range(len(shape))]

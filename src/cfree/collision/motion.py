@@ -28,9 +28,6 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar, Literal
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from cfree.arguments import checked
 from cfree.collision.slide import Slide, Touch
 from cfree.errors import InvalidPoseError
@@ -38,8 +35,8 @@ from cfree.exact.half_angle import Angle, half_angle_rotation, number_and_unit, 
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.number import angle as angle_of
 from cfree.exact.pose import Pose, PoseLike, Poses, pose_at, to_pose
+from cfree.libraries import ArrayLike, np
 
-Floats = NDArray[np.float64]
 MOST_HALVES = 1000
 ROTATION = ("pole", "tau", "clockwise", "angle_error")  # attributes of a rotation
 

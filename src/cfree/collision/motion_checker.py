@@ -24,7 +24,7 @@ from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.kind import Kind
 from cfree.errors import UnsupportedError
 from cfree.exact.number import common_denominator
-from cfree.exact.pose import PLAIN, Pose, PoseLike, for_core, to_pose
+from cfree.exact.pose import Pose, PoseLike, for_core, is_plain, to_pose
 from cfree.exact.surd import Surd
 from cfree.scene.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
 from cfree.scene.scene import Scene
@@ -121,7 +121,7 @@ class MotionChecker(Value):
         >>> checker.is_free(Pose(0, 0), Rotation((0, "1e-30"), "90deg"))
         False
         """
-        if type(pose) in PLAIN and type(motion) in PLAIN_MOTIONS:
+        if is_plain(pose) and type(motion) in PLAIN_MOTIONS:
             free = _of_one(self._handle, pose, motion)
             if free is not None:
                 return free
@@ -227,7 +227,7 @@ def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
     >>> is_free_motion(scene, Pose("0.6", 0), Rotation(("0.6", 0), "90deg"))
     False
     """
-    if type(pose) in PLAIN and type(motion) in PLAIN_MOTIONS and isinstance(scene, Scene) and not scene.curved:
+    if is_plain(pose) and type(motion) in PLAIN_MOTIONS and isinstance(scene, Scene) and not scene.curved:
         free = _of_one(kept(scene, _prepared), pose, motion)
         if free is not None:
             return free

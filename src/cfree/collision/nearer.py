@@ -5,19 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
+from cfree.libraries import Floats, Ints, np
 from cfree.scene.features import WORKSPACE
 from cfree.scene.naming import placed
 from cfree.scene.scene import Scene
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 ROUNDING = 2.0**-40  # relative to the coordinates: exceeds the rounding of the boxes
 
 

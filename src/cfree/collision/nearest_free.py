@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from cfree.arguments import checked
 from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.collision.motion import Translation
@@ -21,6 +19,7 @@ from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import normalize_angles, sum_of_angles
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, PoseLike, pose_at, to_pose
+from cfree.libraries import np
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.naming import placed
 from cfree.scene.scene import AnyShape, Scene, box_of, robot_radius, size_of
@@ -28,7 +27,7 @@ from cfree.scene.scene import AnyShape, Scene, box_of, robot_radius, size_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from cfree.exact.pose import Floats
+    from cfree.libraries import Floats
 
 DIRECTIONS, GROWTH = 32, 1.5  # directions in which places are tried on circles, and ratio of successive radii
 NEAREST, FARTHEST = 1e-6, 10.0  # least and greatest radius, in lengths of the robot

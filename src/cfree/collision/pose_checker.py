@@ -13,15 +13,13 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, overload
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.errors import InvalidPoseError, UndecidedError
-from cfree.exact.pose import PLAIN, Floats, OnePose, Pose, PoseLike, Poses, for_core, one_pose, to_pose
+from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, for_core, is_plain, one_pose, to_pose
+from cfree.libraries import ArrayLike, Floats, NDArray, is_array, np
 from cfree.scene.features import SceneFeatures, scene_features
 from cfree.scene.scene import Scene
 from cfree.value import Value, kept
@@ -99,7 +97,7 @@ def is_free(
     >>> is_free(disc, Pose(0, 0)), is_free(disc, Pose("1e-30", 0))
     (True, False)
     """
-    if tolerance is None and type(poses) in PLAIN and _is_count(threads):
+    if tolerance is None and is_plain(poses) and _is_count(threads):
         if type(scene) is PoseChecker:
             return scene.is_free(poses, threads=threads)
         if isinstance(scene, Scene) and not scene.curved:
@@ -220,7 +218,7 @@ class PoseChecker(Value):
         self, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
     ) -> bool | NDArray[np.bool_]:
         """See `cfree.is_free`."""
-        if type(poses) in PLAIN and _is_count(threads):
+        if is_plain(poses) and _is_count(threads):
             free = _of_one(self._handle, poses)
             if free is not None:
                 return free
@@ -327,7 +325,9 @@ def rows_of(poses: Any) -> Floats | list[Pose]:
 
 def _is_table(rows: Sequence[Any]) -> bool:
     """True if these are rows of plain numbers, which are poses in double precision."""
-    return all(isinstance(row, Sequence | np.ndarray) and all(isinstance(c, int | float) for c in row) for row in rows)
+    return all(
+        (isinstance(row, Sequence) or is_array(row)) and all(isinstance(c, int | float) for c in row) for row in rows
+    )
 
 
 def _table(poses: Any) -> Floats:

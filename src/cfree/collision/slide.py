@@ -12,22 +12,18 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-import numpy as np
-from numpy.polynomial import polynomial
-from numpy.typing import ArrayLike, NDArray
-
 from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import to_rational
 from cfree.exact.number import ExactPoint, Number, angle, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
+from cfree.libraries import ArrayLike, Floats, np
 
 if TYPE_CHECKING:
     from flint import fmpq_poly
 
 DEGREE = 4
 PARTS = 16  # parts of a slide for which speeds are bounded
-Floats = NDArray[np.float64]
 Terms = tuple[Fraction, ...]  # of a polynomial, the constant first
 Feature = tuple[int, int]  # polygon, and vertex; an edge by the vertex where it begins
 
@@ -259,7 +255,9 @@ def _value(terms: Terms, t: Fraction) -> Fraction:
 def _values(slide: Slide, t: Floats, derivative: int = 0) -> Floats:
     """Return x, y, d or their derivatives, (3, n), in doubles."""
     rows = np.array([[float(c) for c in terms] for terms in (slide.x, slide.y, slide.d)])
-    return np.asarray(polynomial.polyval(t, polynomial.polyder(rows.T, derivative)), np.float64)
+    return np.asarray(
+        np.polynomial.polynomial.polyval(t, np.polynomial.polynomial.polyder(rows.T, derivative)), np.float64
+    )
 
 
 def _beyond(terms: Terms, s: Fraction) -> fmpq_poly:

@@ -20,9 +20,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeVar
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from cfree.arguments import checked
 from cfree.contact.contact import AngleRange, EdgeVertex, VertexEdge
 from cfree.contact.features import ArcFeature, EdgeFeature, ShapeFeatures, shape_features, signed_root
@@ -32,10 +29,10 @@ from cfree.exact.half_angle import Angle, normalize_angles
 from cfree.exact.number import ExactPoint, IntPoint, Number, angle, finite
 from cfree.exact.orientation import Location, Vector
 from cfree.exact.pose import Pose
+from cfree.libraries import ArrayLike, Floats, np
 from cfree.polygons.polygon import Polygon
 
 F = TypeVar("F", ArcFeature, EdgeFeature)
-Floats = NDArray[np.float64]
 Shape = Polygon | Curved
 ZERO = (Fraction(0), Fraction(0))
 ROBOT_ARC, ROBOT_EDGE = "arc of the robot", "edge of the robot"

@@ -18,9 +18,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.contact.contact import (
@@ -35,9 +32,8 @@ from cfree.contact.contact import (
 from cfree.exact.half_angle import Angle, normalize_angles
 from cfree.exact.number import ExactPoint, Number, angle, finite, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.libraries import ArrayLike, Floats, np
 from cfree.polygons.polygon import Polygon
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

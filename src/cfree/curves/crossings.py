@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-import shapely
-
 from cfree.curves.drawn import Line
 from cfree.curves.pieces import Curve
 from cfree.curves.rings import Cubic, GivenRing, Piece, items_of
+from cfree.libraries import shapely
 
 CHORDS = 256  # of each piece
 JOINT = 1e-6  # pieces that follow each other may meet this near to their joint, relative to the shape

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from cfree.collision.pose_checker import PoseChecker, clamped
 from cfree.distributed.planning import Surroundings, plan_among
 from cfree.distributed.tasks import Work, opened
-from cfree.exact.pose import Floats, Pose
+from cfree.exact.pose import Pose
+from cfree.libraries import Floats
 from cfree.paths.path import Path
 from cfree.planning.proof import Proof
 

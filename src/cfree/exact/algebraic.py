@@ -14,7 +14,7 @@ from itertools import pairwise
 from math import floor, inf, log2, nextafter
 from typing import Any
 
-from flint import fmpq, fmpq_poly, fmpz_poly
+from cfree.libraries import flint
 
 Coefficients = tuple[int, ...]  # constant term first
 Exact = Any  # int, Fraction or Number
@@ -28,7 +28,7 @@ class Root:
 
     Examples
     --------
-    >>> (negative, _), (positive, _) = roots(fmpz_poly([-2, 0, 1]), Fraction(-2), Fraction(2))
+    >>> (negative, _), (positive, _) = roots(flint.fmpz_poly([-2, 0, 1]), Fraction(-2), Fraction(2))
     >>> negative < positive, positive.key
     (True, ((-2, 0, 1), 1))
     """
@@ -48,11 +48,11 @@ class Root:
     @cached_property
     def value(self) -> Exact:
         """The number, for arithmetic."""
-        return self.lo if len(self.poly) == 2 else Number(self, fmpq_poly([0, 1]))
+        return self.lo if len(self.poly) == 2 else Number(self, flint.fmpq_poly([0, 1]))
 
     @cached_property
-    def modulus(self) -> fmpq_poly:
-        return fmpq_poly(list(self.poly))
+    def modulus(self) -> flint.fmpq_poly:
+        return flint.fmpq_poly(list(self.poly))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Root) and self.key == other.key
@@ -88,7 +88,7 @@ class Number:
 
     Examples
     --------
-    >>> ((root, _),) = roots(fmpz_poly([-1, 0, 2]), Fraction(0), Fraction(1))
+    >>> ((root, _),) = roots(flint.fmpz_poly([-1, 0, 2]), Fraction(0), Fraction(1))
     >>> x = root.value
     >>> x * x * 2 == 1, 1 / x == 2 * x, 7 < 10 * x < 8
     (True, True, True)
@@ -96,7 +96,7 @@ class Number:
 
     __slots__ = ("_bounds", "_hash", "poly", "root")
 
-    def __init__(self, root: Root, poly: fmpq_poly) -> None:
+    def __init__(self, root: Root, poly: flint.fmpq_poly) -> None:
         self.root, self.poly = root, poly
         self._bounds: tuple[float, float] | None = None
         self._hash: int | None = None
@@ -131,7 +131,7 @@ class Number:
         return Number(self.root, self.poly * inverse % self.root.modulus)
 
     def __rtruediv__(self, other: Fraction | int) -> Number:
-        return Number(self.root, fmpq_poly([_poly(other)])) / self
+        return Number(self.root, flint.fmpq_poly([_poly(other)])) / self
 
     __radd__, __rmul__ = __add__, __mul__
 
@@ -171,7 +171,7 @@ class Number:
 def _poly(other: Any) -> Any:
     if type(other) is Number:
         return other.poly
-    return fmpq(other.numerator, other.denominator) if type(other) is Fraction else other
+    return flint.fmpq(other.numerator, other.denominator) if type(other) is Fraction else other
 
 
 def _bounds_of(x: Exact) -> tuple[float, float]:
@@ -205,10 +205,10 @@ def rounded(x: Exact) -> float:
     return float(near(x, bits))
 
 
-def at(poly: fmpz_poly, x: Exact) -> Exact:
+def at(poly: flint.fmpz_poly, x: Exact) -> Exact:
     """Value of a polynomial."""
     if isinstance(x, Number):
-        return Number(x.root, fmpq_poly(poly) % x.root.modulus)
+        return Number(x.root, flint.fmpq_poly(poly) % x.root.modulus)
     return Fraction(*homogeneous([int(c) for c in poly.coeffs()], x))
 
 
@@ -232,14 +232,14 @@ def sign(poly: Sequence[int], x: Fraction) -> int:
 @lru_cache(maxsize=1 << 14)
 def factors(poly: Coefficients) -> tuple[tuple[Coefficients, int], ...]:
     """Irreducible factors that are not constant, and their multiplicities."""
-    _, powers = fmpz_poly(list(poly)).factor()
+    _, powers = flint.fmpz_poly(list(poly)).factor()
     return tuple((tuple(map(int, f.coeffs())), int(k)) for f, k in powers)
 
 
 @lru_cache(maxsize=1 << 14)
 def sturm_chain(poly: Coefficients) -> tuple[Coefficients, ...]:
     """Sturm's chain of a polynomial without multiple roots."""
-    chain = [fmpq_poly(list(poly)), fmpq_poly(list(poly)).derivative()]
+    chain = [flint.fmpq_poly(list(poly)), flint.fmpq_poly(list(poly)).derivative()]
     while chain[-1].degree() > 0:
         chain.append(-(chain[-2] % chain[-1]))
     return tuple(tuple(map(int, p.numer().coeffs())) for p in chain)  # denominators are positive
@@ -250,7 +250,7 @@ def variations(poly: Coefficients, x: Fraction) -> int:
     return sum(a != b for a, b in pairwise(signs))
 
 
-def roots(poly: fmpz_poly, lo: Fraction, hi: Fraction) -> list[tuple[Root, int]]:
+def roots(poly: flint.fmpz_poly, lo: Fraction, hi: Fraction) -> list[tuple[Root, int]]:
     """Roots in a closed interval within (-2, 2), each once, in order, with their multiplicities."""
     result: list[tuple[Root, int]] = []
     for factor, multiplicity in factors(tuple(map(int, poly.coeffs()))):

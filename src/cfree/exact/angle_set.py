@@ -12,18 +12,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, cmp_to_key
 
-import numpy as np
-from flint import fmpz_poly
-from numpy.typing import NDArray
-
 from cfree.exact.algebraic import roots
 from cfree.exact.angle_interval import AlgebraicAngle
 from cfree.exact.orientation import Order
 from cfree.exact.surd import Surd
+from cfree.libraries import Flags, flint, np
 
 CLOSE = 1e-13  # far above the error of an end's double: closer ends are compared exactly
 Form = tuple[int, int, int]
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +49,7 @@ class End:
     def exact(self) -> AlgebraicAngle:
         chart, tau = self.place
         A, B, C = _in_chart(self.form, chart)
-        near = roots(fmpz_poly([A + B, 2 * C, A - B]), Fraction(-3, 2), Fraction(3, 2))
+        near = roots(flint.fmpz_poly([A + B, 2 * C, A - B]), Fraction(-3, 2), Fraction(3, 2))
         (root,) = (x for x, _ in near if tau.compare(x.lo) is not Order.BEFORE and tau.compare(x.hi) is not Order.AFTER)
         return AlgebraicAngle(chart, root)
 

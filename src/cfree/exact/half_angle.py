@@ -13,15 +13,12 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Literal
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 import cfree._core as _core
 from cfree.errors import InvalidPoseError
 from cfree.exact.arctangent import pi
 from cfree.exact.number import ExactPoint, Number, simplest_between, to_fraction
+from cfree.libraries import ArrayLike, Floats, NDArray, np
 
-Floats = NDArray[np.float64]
 MOST_EXACT = 2**53  # all integers up to it are doubles
 Rate = float | str  # an angle a second: radians, or a text such as "30deg" or "0.5rad"
 # radians, also as "1.5rad"; degrees as in "90deg" or "90°"; or the half-angle tangent: {"tau": "1/3"}, {"tau": "inf"},

@@ -12,9 +12,9 @@ import reprlib
 from collections.abc import Iterable
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
+from typing import cast
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from cfree.libraries import ArrayLike, Floats, is_numpy, np
 
 Number = int | float | Fraction | Decimal | str
 ExactPoint = tuple[Fraction, Fraction]
@@ -65,14 +65,15 @@ def to_ratio(value: Number) -> tuple[int, int]:
         return value.as_integer_ratio()
     if type(value) is Decimal:
         return _decimal_ratio(value)
-    if isinstance(value, (bool, np.bool_)):
+    if isinstance(value, bool) or is_numpy(value, "bool_"):
         raise ValueError(f"{value} is a truth value; give a number")
-    if isinstance(value, (int, np.integer)):
+    if isinstance(value, int) or is_numpy(value, "integer"):
         return int(value), 1
-    if isinstance(value, (float, np.floating)):
-        if not math.isfinite(value):
+    if isinstance(value, float) or is_numpy(value, "floating"):
+        number = cast(float, value)
+        if not math.isfinite(number):
             raise ValueError(f"{value} is not finite; give a finite number")
-        return value.as_integer_ratio()
+        return number.as_integer_ratio()
     if isinstance(value, Fraction):
         return value.numerator, value.denominator
     if isinstance(value, Decimal):
@@ -80,6 +81,17 @@ def to_ratio(value: Number) -> tuple[int, int]:
     if isinstance(value, str):
         return _string_ratio(value)
     raise ValueError(f"{_excerpt(value)} is no number; give one, or a string like '1/3'")
+
+
+def is_single(value: object) -> bool:
+    """True if a value has no parts: a number of any kind, not a row of them.
+
+    Examples
+    --------
+    >>> is_single(1), is_single("1/3"), is_single([1, 2])
+    (True, True, False)
+    """
+    return isinstance(value, int | float | Fraction | Decimal | str) or bool(np.ndim(value) == 0)  # type: ignore[arg-type]
 
 
 def common_denominator(fractions: Iterable[Fraction]) -> int:
@@ -145,7 +157,7 @@ def angle(x: int, y: int) -> float:
     return math.atan2(y / size, x / size)
 
 
-def finite(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def finite(name: str, values: ArrayLike) -> Floats:
     """Convert values to doubles; NaN and infinity are errors."""
     array = np.asarray(values, dtype=np.float64)
     if not np.isfinite(array).all():

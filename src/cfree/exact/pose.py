@@ -13,9 +13,6 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import (
@@ -28,11 +25,10 @@ from cfree.exact.half_angle import (
     to_chart,
     to_rational,
 )
-from cfree.exact.number import ExactPoint, Number
+from cfree.exact.number import ExactPoint, Number, is_single
 from cfree.exact.orientation import Vector
+from cfree.libraries import ArrayLike, Floats, NDArray, is_array, np
 from cfree.value import Value
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -181,7 +177,17 @@ PoseLike = Pose | Sequence[Any]  # or (x, y, theta), as `Pose` takes them
 OnePose = Pose | tuple[Number, Number, Angle]  # the same, for functions that also take many poses
 
 
-PLAIN = frozenset({tuple, list, np.ndarray, Pose})  # kinds of poses that the core is asked about first
+PLAIN = frozenset({tuple, list, Pose})  # kinds of poses that the core is asked about first, beside arrays
+
+
+def is_plain(poses: object) -> bool:
+    """True if the core is asked about these poses first."""
+    return type(poses) in PLAIN or is_plain_array(poses)
+
+
+def is_plain_array(value: object) -> bool:
+    """True if a value is an array and of no subclass."""
+    return is_array(value) and type(value) is np.ndarray
 
 
 def for_core(poses: Any) -> Any:
@@ -192,7 +198,7 @@ def for_core(poses: Any) -> Any:
     >>> for_core(np.array([1, 2, 0.5])), for_core((1, 2, 0)), for_core(np.zeros((9, 3)))
     ([1.0, 2.0, 0.5], (1, 2, 0), ())
     """
-    if type(poses) is not np.ndarray:
+    if not is_plain_array(poses):
         return poses
     return poses.tolist() if poses.size == 3 else ()
 
@@ -207,9 +213,9 @@ def one_pose(value: object, name: str) -> Pose | None:
     """
     if isinstance(value, Pose):
         return value
-    if not isinstance(value, Sequence | np.ndarray) or isinstance(value, str) or len(value) != 3:
+    if not (isinstance(value, Sequence) or is_array(value)) or isinstance(value, str) or len(value) != 3:
         return None
-    is_one = all(np.ndim(part) == 0 and not isinstance(part, Pose) for part in value)
+    is_one = all(is_single(part) and not isinstance(part, Pose) for part in value)
     return to_pose(value, name) if is_one else None  # type: ignore[arg-type]
 
 

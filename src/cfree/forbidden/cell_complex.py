@@ -13,12 +13,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cfree.arguments import checked
 from cfree.errors import InvariantError
-from cfree.forbidden.columns import Floats, Ints
+from cfree.forbidden.columns import Ints
+from cfree.libraries import Floats, NDArray, np
 from cfree.value import Value
 
 if TYPE_CHECKING:

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cfree.exact.half_angle import theta_in
+from cfree.libraries import Codes, Floats, Int32s, NDArray, np
 from cfree.value import Value
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int32]
-Codes = NDArray[np.uint64]
+Ints = Int32s
 CURVE, SEGMENT, POINT = 1, 2, 3
 
 

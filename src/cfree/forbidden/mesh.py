@@ -12,20 +12,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 import cfree._core as _core
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.record import BoundaryRecord
+from cfree.libraries import Floats, Int32s, NDArray, np
 from cfree.scene.scene import robot_radius
 from cfree.value import Shown, Value
 from cfree.words import counted
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int32]
+Ints = Int32s
 
 
 MOST_TRIANGLES = 10_000_000

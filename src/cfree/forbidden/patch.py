@@ -6,14 +6,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, overload
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from cfree.contact.kind import Kind
 from cfree.contact.surface import evaluate
 from cfree.errors import InvariantError
 from cfree.exact.half_angle import theta_in
 from cfree.forbidden.kinds import KINDS, PatchKind
+from cfree.libraries import ArrayLike, NDArray, np
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
 from cfree.value import Value
 

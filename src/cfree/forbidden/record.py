@@ -10,16 +10,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple, Self
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.contact.kind import Kind
 from cfree.errors import IncompleteError, InvariantError
 from cfree.exact.half_angle import tau_in
-from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
+from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, Ints, IsolatedParts, Trapezoids
 from cfree.forbidden.kinds import PatchKind
+from cfree.libraries import ArrayLike, Floats, NDArray, np
 from cfree.scene.features import BOUNDS, SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.value import Value

@@ -6,11 +6,9 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cfree.exact.half_angle import Angle, place_of
 from cfree.forbidden.record import BoundaryRecord
+from cfree.libraries import NDArray, np
 from cfree.value import Shown, Value
 from cfree.words import counted
 

@@ -14,19 +14,17 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, overload
 
-import numpy as np
-from numpy.typing import NDArray
-
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.errors import InvalidPoseError, InvariantError
 from cfree.exact.half_angle import chart_of, tau_in_chart
-from cfree.exact.pose import PLAIN, OnePose, Pose, PoseLike, Poses, for_core, one_pose, to_pose
+from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, for_core, is_plain, one_pose, to_pose
 from cfree.forbidden.boundary import Boundary, boundary_of, regularize_by
 from cfree.forbidden.cell_complex import CellComplex
-from cfree.forbidden.columns import Floats, Ints
+from cfree.forbidden.columns import Ints
 from cfree.forbidden.record import glue_by
+from cfree.libraries import Floats, NDArray, np
 from cfree.scene.features import SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.value import Shown, Value
@@ -270,7 +268,7 @@ class FreeSpace(Value, Shown):
         Time per free pose is about proportional to the faces at its height to the left of it, at its orientation.
         Forbidden poses are mostly recognised as by `is_free`. Each pose takes some microseconds.
         """
-        if type(poses) in PLAIN and (threads is None or (type(threads) is int and threads > 0)):
+        if is_plain(poses) and (threads is None or (type(threads) is int and threads > 0)):
             cell = self._handle.locate_one(self.boundary.checker._handle, for_core(poses))
             if cell is not None:
                 return cell

@@ -7,14 +7,13 @@ from dataclasses import dataclass, replace
 from decimal import ROUND_FLOOR, Context
 from fractions import Fraction
 
-import numpy as np
-
 from cfree.arguments import checked
 from cfree.collision.arcs import ArcScene, arcs_of
-from cfree.collision.distance import EdgeDistances, Floats, Ints
+from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Motion
 from cfree.collision.motion_checker import is_free_motion
 from cfree.exact.pose import Pose
+from cfree.libraries import Floats, Ints, np
 from cfree.paths.path import STILL, Path
 from cfree.paths.travel import Travel
 from cfree.scene.scene import Scene
@@ -172,10 +171,9 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
     if not distances.names:
         return None
     motions, poses = (path.motions, path.poses) if path.motions else ((STILL,), 2 * path.poses)
-    core, robot = distances._handle, distances.robot
-    result = core.least(poses, motions, robot, 1e-3 * distances.radius if tolerance is None else float(tolerance))
+    result = distances.least(poses, motions, 1e-3 * distances.radius if tolerance is None else float(tolerance))
     if tolerance is None and result[0] == 0 < result[1]:
-        result = core.least(poses, motions, robot, result[1] / 4)
+        result = distances.least(poses, motions, result[1] / 4)
     least, there, motion, share, edge, other = result
     return Clearance(least, there, motion, share, distances.robot_names[edge], distances.names[other])
 
@@ -219,7 +217,7 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
     if count < 0:
         raise ValueError(f"count: {count}; give 0 or more")
     distances, travel = distances_beside(path, scene), Travel(path, scene)
-    if not path.motions or not len(distances.segments):
+    if not path.motions or not distances.names:
         whole = least_clearance(path, distances, None)
         return () if whole is None else (whole,)
     steps = np.linspace(0, travel.total, min(math.ceil(100 * travel.total / distances.radius) + 2, MOST_SAMPLES))

@@ -13,14 +13,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Literal, overload
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cfree.arguments import checked
 from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
+from cfree.libraries import Floats, np
 from cfree.paths.driven import Driven, cusps, first_fault, parts_of
 from cfree.paths.stops import joints, usual_wheelbase
 from cfree.scene.digest import Stamp, Whole
@@ -32,7 +30,6 @@ from cfree.words import counted
 
 STILL = Translation((0, 0))  # stands for the motion of a path that has none
 Objective = Literal["balanced", "short", "clear"]
-Floats = NDArray[np.float64]
 
 
 @checked

@@ -11,9 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-import numpy as np
-
 from cfree.arguments import checked
+from cfree.libraries import np
 from cfree.paths.path import Path
 from cfree.paths.stops import joints, usual_wheelbase
 from cfree.scene.scene import Scene, polygons_around, robot_radius

@@ -7,12 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from cfree.arguments import checked
 from cfree.exact.half_angle import Rate, to_rate
 from cfree.exact.pose import Poses
+from cfree.libraries import ArrayLike, Floats, Ints, np
 from cfree.paths.path import Path
 from cfree.paths.ramps import Ramp, ramp_length
 from cfree.paths.stops import Joint, Stop, Stops, joints, usual_wheelbase
@@ -21,8 +19,6 @@ from cfree.scene.smooth import smooth
 from cfree.vehicles.vehicle import Vehicle
 from cfree.words import counted
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 TOO_LONG = "the drive would take longer than numbers go; give larger limits"
 
 

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from cfree.libraries import ArrayLike, Floats, Ints, np
 
 if TYPE_CHECKING:
     from cfree.paths.path import Path
     from cfree.scene.scene import Scene
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 GHOSTS, APART = 15, 0.6  # most poses of a path in a picture, and least distance of two in robot radii
 SAME = 1e-9  # in robot radii: a picture shows less as no motion

@@ -13,13 +13,11 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import chain, combinations, islice, product
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cfree.collision.arcs import Curve, curves_of
 from cfree.exact.half_angle import half_angle_rotation
 from cfree.exact.number import ExactPoint, rational_root, simplest_between
-from cfree.exact.pose import Floats, Pose, pose_at
+from cfree.exact.pose import Pose, pose_at
+from cfree.libraries import Floats, NDArray, np
 from cfree.scene.scene import AnyShape, Scene
 
 MOST_CONTACTS = 40  # contacts near one place that are paired

@@ -17,9 +17,6 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cfree.arguments import checked
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import arcs_of
@@ -29,6 +26,7 @@ from cfree.exact.number import Number
 from cfree.exact.pose import Pose, PoseLike, pose_at, to_pose
 from cfree.free.space import FreeSpace
 from cfree.free.turn_in_place import free_orientations
+from cfree.libraries import NDArray, np
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.caller import OutOfWork, Work

@@ -11,7 +11,6 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
 from itertools import pairwise
 from typing import Any
 
@@ -175,6 +174,8 @@ class Improver:
                     while best and not self._is_over(end):
                         best.run(BLOCK)
                     return own
+
+                from concurrent.futures import ThreadPoolExecutor, wait
 
                 with ThreadPoolExecutor(cores) as pool:
                     futures = [pool.submit(work, core) for core in range(cores)]

@@ -12,13 +12,12 @@ from fractions import Fraction
 from functools import cache
 from itertools import pairwise
 
-import numpy as np
-
 from cfree.collision.motion import joining
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.pose_checker import PoseChecker, are_free, is_free_at
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose, pose_at
+from cfree.libraries import np
 from cfree.scene.dilation import grown
 from cfree.scene.scene import Scene, with_robot
 

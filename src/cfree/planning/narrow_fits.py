@@ -13,11 +13,10 @@ from fractions import Fraction
 from itertools import chain, islice, pairwise, product
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from cfree.collision.motion import Translation
 from cfree.exact.number import ExactPoint, simplest_between
 from cfree.exact.pose import Pose, pose_at
+from cfree.libraries import np
 
 if TYPE_CHECKING:
     from cfree.paths.path import Path

@@ -11,8 +11,6 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from cfree.collision.motion import Rotation, joining
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.number import ExactPoint
@@ -68,9 +66,15 @@ def _centres(scene: Scene) -> Iterator[ExactPoint]:
 
 def _size(scene: Scene, poses: Sequence[Pose]) -> Fraction:
     """Return the longer side, about, of the box around the world and the ends of a path, or around the robot."""
-    corners = [np.array([[float(q.x), float(q.y)] for q in (poses[0], poses[-1])])]
-    corners += [polygon.vertices for polygon in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
+    world = [polygon.bounds for polygon in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
+    world += [(float(q.x), float(q.y)) * 2 for q in (poses[0], poses[-1])]
     if scene.bounds is not None:
-        corners.append(np.array(scene.bounds, float).reshape(2, 2))
-    robot = np.concatenate([part.vertices for part in scene.robot])
-    return Fraction(max(float(np.ptp(points, axis=0).max()) for points in (np.concatenate(corners), robot)))
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        world.append((x0, y0, x1, y1))
+    return Fraction(max(_side(world), _side([part.bounds for part in scene.robot])))
+
+
+def _side(boxes: Sequence[tuple[float, float, float, float]]) -> float:
+    """Return the longer side of the box around some."""
+    x0, y0, x1, y1 = zip(*boxes, strict=True)
+    return float(max(max(x1) - min(x0), max(y1) - min(y0)))

@@ -6,8 +6,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 
-import numpy as np
-
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.errors import UndecidedError
@@ -15,6 +13,7 @@ from cfree.exact.angle_interval import AngleInterval
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, pose_at
 from cfree.free.turn_in_place import free_orientations
+from cfree.libraries import np
 from cfree.planning.contact_fits import Fits
 from cfree.planning.goals import pose_in
 from cfree.planning.narrow_fits import NEAR

@@ -12,9 +12,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Literal, NoReturn
 
-import numpy as np
-from numpy.typing import NDArray
-
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.motion_checker import MotionChecker
@@ -24,6 +21,7 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.columns import CODED, COLUMNS, Ints, Trapezoids
 from cfree.free.space import FORBIDDEN, FreeSpace
+from cfree.libraries import NDArray, np
 from cfree.planning.caller import Caller
 from cfree.planning.core_ways import numbers_of
 from cfree.polygons.polygon import Polygon, polygon_of

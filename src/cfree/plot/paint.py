@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
-from cfree.forbidden.mesh import Floats, Mesh
+from cfree.forbidden.mesh import Mesh
 from cfree.free.space import FreeSpace
 from cfree.geometry.local import LocalGeometry, local_geometry
+from cfree.libraries import Floats
 from cfree.palette import CATEGORIES, DIVERGING, SEQUENTIAL
 
 

@@ -9,21 +9,19 @@ from __future__ import annotations
 
 import math
 import reprlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError
 from cfree.exact.half_angle import Angle, half_angle_rotation, normalize_angles, read_angle
 from cfree.exact.number import ExactPoint, IntPoint, Number, angle, to_fraction
+from cfree.libraries import Floats, Ints, NDArray, np
 from cfree.polygons.rings import Points, Removed, read_rings, restored
 from cfree.value import Shown
 from cfree.words import counted
@@ -34,9 +32,7 @@ if TYPE_CHECKING:
 else:
     ShapelyGeometry = ShapelyPolygon = Any  # shapely is imported where it is used
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-T = TypeVar("T", bound=np.generic)
+T = TypeVar("T", bound="np.generic")
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -126,6 +122,11 @@ class Polygon(Shown):
     def vertices(self) -> Floats:
         """Vertices rounded to the nearest doubles, (n, 2)."""
         return self._handle.vertices
+
+    @property
+    def doubles(self) -> Iterator[tuple[float, float]]:
+        """The same one after the other: of few vertices, sooner than numpy is imported."""
+        return ((x / self.denominator, y / self.denominator) for x, y in self.numerators)
 
     @property
     def rings(self) -> list[Floats]:
@@ -253,8 +254,7 @@ class Polygon(Shown):
     @property
     def bounds(self) -> tuple[float, float, float, float]:
         """Least x, least y, greatest x, greatest y."""
-        low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
-        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        return self._handle.box
 
     @cached_property
     def pieces(self) -> tuple[tuple[int, ...], ...]:

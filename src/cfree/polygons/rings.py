@@ -9,15 +9,13 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 import cfree._core as _core
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, Number, to_fraction
+from cfree.libraries import Array, is_array
 from cfree.words import counted
 
-Points = Sequence[Sequence[Number]] | NDArray[Any]
+Points = Sequence[Sequence[Number]] | Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +40,7 @@ def read_rings(outer: Points, holes: Sequence[Points]) -> _core.Polygon:
     """
     if isinstance(holes, str | bytes | Mapping) or not isinstance(holes, Iterable):
         raise InvalidPolygonError(f"holes: {type(holes).__name__} is no list of rings; give one, or nothing")
-    rings = [points.tolist() if isinstance(points, np.ndarray) else points for points in (outer, *holes)]
+    rings = [points.tolist() if is_array(points) else points for points in (outer, *holes)]
     read = _core.Polygon.of(rings)
     if read is None:  # rare or wrong input
         read = _core.Polygon.of([plain_ring(r, points) for r, points in enumerate(rings)])

@@ -14,11 +14,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 import cfree._core as _core
 from cfree.errors import UnsupportedError
+from cfree.libraries import ArrayLike, Floats, Int32s, NDArray, np
 from cfree.scene.core_shapes import core_shapes
 from cfree.value import kept
 
@@ -44,23 +42,46 @@ class ShapeFeatures:
         Its columns, read only; ``cpp/include/cfree/scene/scene.hpp`` defines them.
     scale : int
         Common denominator of all coordinates.
-    xy : (n, 2) float64
-        Vertices in the user's units, correctly rounded.
-    near : (n, 2) float64
-        The same from the frame's origin, so that no digits are lost far away from (0, 0).
-    v, w : (e,) int32
-        Ends of the directed edges: edge k of a ring starts at vertex k; the pieces' diagonals come last.
-    previous : (r,) int32
-        The vertex before, for the vertices of rings, which come first.
-    owner_polygon, owner_vertex : (r,) int32
-        Polygon and vertex that each belongs to; polygon is `BOUNDS` or `WORKSPACE` if the user gave no such polygon.
     """
 
     def __init__(self, core: _core.Shape, near: _core.Shape, owners: _core.Owners, scale: int) -> None:
         self.core, self.scale = core, scale
-        self.xy, self.near = core.xy, near.xy
-        self.v, self.w, self.previous = core.v, core.w, core.previous
-        self.owner_polygon, self.owner_vertex = owners.polygon, owners.vertex
+        self._near, self._owners = near, owners
+
+    @cached_property
+    def xy(self) -> Floats:
+        """Vertices (n, 2) in the user's units, correctly rounded."""
+        return self.core.xy
+
+    @cached_property
+    def near(self) -> Floats:
+        """The same from the frame's origin, so that no digits are lost far away from (0, 0)."""
+        return self._near.xy
+
+    @cached_property
+    def v(self) -> Int32s:
+        """Beginnings (e,) of the directed edges: edge k of a ring starts at vertex k; pieces' diagonals last."""
+        return self.core.v
+
+    @cached_property
+    def w(self) -> Int32s:
+        """Ends (e,) of the directed edges."""
+        return self.core.w
+
+    @cached_property
+    def previous(self) -> Int32s:
+        """The vertex before, (r,), for the vertices of rings, which come first."""
+        return self.core.previous
+
+    @cached_property
+    def owner_polygon(self) -> Int32s:
+        """Polygon (r,) of each; `BOUNDS` or `WORKSPACE` if the user gave no such polygon."""
+        return self._owners.polygon
+
+    @cached_property
+    def owner_vertex(self) -> Int32s:
+        """Vertex (r,) of that polygon."""
+        return self._owners.vertex
 
     @cached_property
     def vertices(self) -> tuple[Point, ...]:
@@ -132,8 +153,8 @@ class SceneFeatures:
     @property
     def patches(self) -> int:
         """The number of contact patches."""
-        n, m = (shape.core.convex for shape in (self.robot, self.obstacles))
-        return int(n.sum()) * len(m) + len(n) * int(m.sum())
+        (n, convex, _), (m, others, _) = (shape.core.counts for shape in (self.robot, self.obstacles))
+        return convex * m + n * others
 
 
 def unpacked(code: Any) -> tuple[Any, Any, Any]:
@@ -164,10 +185,11 @@ def refuse_too_many(features: SceneFeatures) -> None:
         ("robot", features.robot, MOST_ROBOT_FEATURES),
         ("obstacles", features.obstacles, MOST_OBSTACLE_FEATURES),
     ):
-        if (count := len(shape.previous) + len(shape.core.piece_vertex)) >= most:
+        vertices, _, of_pieces = shape.core.counts
+        if (count := vertices + of_pieces) >= most:
             raise UnsupportedError(f"{name}: {count:,} edges and diagonals; fewer than {most:,} have numbers: simplify")
     if (patches := features.patches) >= MOST_PATCHES:
-        n, m = len(features.robot.previous), len(features.obstacles.previous)
+        n, m = features.robot.core.counts[0], features.obstacles.core.counts[0]
         raise UnsupportedError(
             f"{n:,} vertices of the robot and {m:,} of the obstacles: {patches:,} contact patches; "
             f"fewer than {MOST_PATCHES:,} have numbers: simplify, or divide the obstacles"

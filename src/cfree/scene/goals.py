@@ -8,12 +8,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
-from cfree.exact.number import ExactPoint, to_fraction
+from cfree.exact.number import ExactPoint, is_single, to_fraction
 from cfree.exact.pose import Pose, to_pose
+from cfree.libraries import is_array
 
 Goal = Pose | ExactPoint
 
@@ -85,7 +84,8 @@ def to_goals(value: Any) -> tuple[Goal, ...] | Pose:
         return to_pose(value, "goal")
     if _is_row(value) and len(value) == 2:
         return (_place(value, "goal"),)
-    if not isinstance(value, Sequence | np.ndarray) or isinstance(value, str) or _is_row(value) or len(value) == 0:
+    are_many = (isinstance(value, Sequence) and not isinstance(value, str)) or is_array(value)
+    if not are_many or _is_row(value) or len(value) == 0:
         to_pose(value, "goal")
     return tuple(
         _place(item, f"goal {k}") if _is_row(item) and len(item) == 2 else to_pose(item, f"goal {k}")
@@ -96,10 +96,10 @@ def to_goals(value: Any) -> tuple[Goal, ...] | Pose:
 def _is_row(value: Any) -> bool:
     """True if a value is one goal, not several."""
     return (
-        isinstance(value, Sequence | np.ndarray)
+        (isinstance(value, Sequence) or is_array(value))
         and not isinstance(value, str)
         and len(value) > 0
-        and all(np.ndim(part) == 0 and not isinstance(part, Pose) for part in value)
+        and all(is_single(part) and not isinstance(part, Pose) for part in value)
     )
 
 

@@ -16,8 +16,6 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any, Literal
 
-import numpy as np
-
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
@@ -25,9 +23,10 @@ from cfree.curves.curved import Curved
 from cfree.curves.rings import Circle
 from cfree.curves.similar import moved_shape
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UndecidedError, UnsupportedError
-from cfree.exact.number import Number, to_fraction
+from cfree.exact.number import Number, is_single, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.lazy import registered
+from cfree.libraries import is_array
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import range_fault
 from cfree.scene.goals import Goal, to_goals
@@ -561,12 +560,14 @@ def robot_radius(scene: Scene) -> float:
 
 @lru_cache
 def _radius(part: AnyShape) -> float:
-    return max(math.hypot(x, y) for polygon in polygons_around(part) for x, y in polygon.vertices.tolist())
+    return max(math.hypot(x, y) for polygon in polygons_around(part) for x, y in polygon.doubles)
 
 
 def polygons_around(part: AnyShape) -> Sequence[Polygon]:
     """Return polygons whose outer rings are around a shape, with few sides if it is round; holes may be left out."""
-    if isinstance(part, Curved) and part.holes and not part.grown:
+    if isinstance(part, Polygon):
+        return [part]
+    if part.holes and not part.grown:
         part = Curved(part.path)
     return polygons_for(part, size_of(part) / SIDES_OF_ROUND, True)
 
@@ -655,14 +656,14 @@ def _items(value: Any, name: str) -> list[Any]:
 
 def _is_ring(value: Any) -> bool:
     """True if a value is a ring of points, not several rings."""
-    if isinstance(value, np.ndarray):
+    if is_array(value):
         return value.ndim == 2
     return (
         isinstance(value, Sequence)
         and len(value) > 0
-        and isinstance(value[0], (Sequence, np.ndarray))
+        and (isinstance(value[0], Sequence) or is_array(value[0]))
         and not isinstance(value[0], str)
-        and all(np.ndim(coordinate) == 0 for coordinate in value[0])
+        and all(is_single(coordinate) for coordinate in value[0])
         and len(value[0]) > 0
     )
 

@@ -23,8 +23,12 @@ public:
     };
     Grown grow(Index seed, Index most, Index target = -1);
 
-    // Number of patches trimmed so far.
+    // Begin another question: what is trimmed and explored stays, but no surface is grown from where an earlier one ended.
+    void begin();
+
+    // Number of patches trimmed so far, and of those that this question has met.
     std::size_t trimmed_patches() const;
+    std::size_t met_patches() const;
 
 private:
     struct State;

@@ -45,7 +45,11 @@ public:
     std::optional<bool> is_around(Index surface, const Search& search) const;
     const std::shared_ptr<const CellComplex>& surface(Index k) const { return surfaces[k].complex; }
 
+    // Begin another question.
+    void begin() { explorer.begin(); }
+
     std::size_t trimmed_patches() const { return explorer.trimmed_patches(); }
+    std::size_t met_patches() const { return explorer.met_patches(); }
     // An x, in the scene's integers, where the robot is to the left of everything.
     Int far_left() const { return left - 4 * radius; }
 

@@ -11,6 +11,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -102,7 +103,8 @@ struct Counters {
 
 class Predicates {
 public:
-    Predicates(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
+    Predicates(const Scene& s, const Surface& on);
+    ~Predicates();
 
     // The quadratics. offset: of vertex b_v - R a_s from the surface's line, positive on its left (forbidden) side.
     Filtered offset(Index s, Index v) const;
@@ -236,6 +238,8 @@ private:
     template <class T>
     std::optional<bool> meets_parallel(const Event& parallel, const Event& x) const;
     int order_of_close(const Event& x, const Event& y);
+    int decided_order(const Event& x, const Event& y);
+    RealRoot& kept_root(const Event& x);
 
     const Scene& scene;
     Surface surface;
@@ -247,6 +251,9 @@ private:
     };
     std::vector<Narrowed> recent;  // table by features, as one angle is compared with many; empty at first
     std::size_t misses = 0;        // misses since the last resize
+    struct CloseAngles;
+    std::unique_ptr<CloseAngles> close;  // none until there are many
+    int close_questions = 0;
 };
 
 // --- the most frequent quadratics, one formula for every number type; the others are in predicates.cpp ---

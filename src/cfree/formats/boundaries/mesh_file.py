@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from cfree.errors import UnsupportedError
 from cfree.forbidden.kinds import COLOURS, KINDS
-from cfree.forbidden.mesh import Floats, Mesh, unit_vectors
+from cfree.forbidden.mesh import Mesh, unit_vectors
 from cfree.formats.text.atomic import checked_suffix, replacing
+from cfree.libraries import Floats
 
 MESH_SUFFIXES = (".glb", ".ply", ".obj", ".stl")
 

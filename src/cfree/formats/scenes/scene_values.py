@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Set
 from decimal import Decimal
-from difflib import get_close_matches
 from fractions import Fraction
 from math import isfinite
 from typing import Any
@@ -106,6 +105,8 @@ def vehicle(value: Any) -> Vehicle:
     keys = VEHICLES[kind]
     for key in value:
         if key not in keys:
+            from difflib import get_close_matches
+
             guess = get_close_matches(key, keys, 1)
             remedy = f'did you mean "{guess[0]}"?' if guess else f"the keys here are {', '.join(keys)}"
             raise Fault(f'unknown key "{key[:40]}"; {remedy}', (key,))

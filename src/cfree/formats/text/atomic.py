@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -90,7 +89,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 @contextmanager
 def _beside(target: Path) -> Iterator[Path]:
     """Yield a new file in the same folder, which is renamed to `target` at the end."""
-    spare = target.with_name(f".{target.stem[:50]}.{secrets.token_hex(4)}{target.suffix}")
+    spare = target.with_name(f".{target.stem[:50]}.{os.urandom(4).hex()}{target.suffix}")
     nameless = getattr(os, "O_TMPFILE", None)
     try:
         handle = os.open(target.parent, os.O_RDWR | nameless, 0o666) if nameless else -1
