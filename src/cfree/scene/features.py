@@ -10,6 +10,7 @@ reference point, as a shape of its own, meets the complement of `bounds`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 import cfree._core as _core
 from cfree.errors import UnsupportedError
 from cfree.scene.core_shapes import core_shapes
+from cfree.scene.rounded import rounded_shapes, why_not_rounded
 from cfree.value import kept
 
 if TYPE_CHECKING:
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 
 Point = tuple[int, int]
 BODY, REFERENCE = 0, 1  # layers
-MOST_ROBOT_FEATURES, MOST_OBSTACLE_FEATURES = 2**30, 2**31  # a packed pair has 30 and 31 bits for them
+MOST_ROBOT_FEATURES, MOST_OBSTACLE_FEATURES = 2**28, 2**31  # a packed pair has 28 and 31 bits for them
 MOST_PATCHES = 2**31  # numbered by int32
 
 BOUNDS, WORKSPACE = -1, -2  # owners that are not polygons of the user's robot or obstacles
@@ -54,13 +56,22 @@ class ShapeFeatures:
         The vertex before, for the vertices of rings, which come first.
     owner_polygon, owner_vertex : (r,) int32
         Polygon and vertex that each belongs to; polygon is `BOUNDS` or `WORKSPACE` if the user gave no such polygon.
+        Vertices of a rounded shape are those of its core.
+    radius : (r,) float64
+        Radius by which each is grown, in the user's units.
     """
 
-    def __init__(self, core: _core.Shape, near: _core.Shape, owners: _core.Owners, scale: int) -> None:
+    def __init__(
+        self, core: _core.Shape, near: _core.Shape, owners: _core.Owners, scale: int, radii: Sequence[float] = ()
+    ) -> None:
         self.core, self.scale = core, scale
         self.xy, self.near = core.xy, near.xy
         self.v, self.w, self.previous = core.v, core.w, core.previous
         self.owner_polygon, self.owner_vertex = owners.polygon, owners.vertex
+        self.radius = np.zeros(len(self.previous))
+        if len(radii):
+            own = self.owner_polygon >= 0
+            self.radius[own] = np.array(radii)[self.owner_polygon[own]]
 
     @cached_property
     def vertices(self) -> tuple[Point, ...]:
@@ -74,11 +85,14 @@ class ShapeFeatures:
 
     @cached_property
     def turning(self) -> NDArray[np.float64]:
-        """Pi minus the interior angle, radians, (r,)."""
+        """Pi minus the interior angle, radians, (r,): pi at the ends of a segment, 2 pi at a point."""
         edges = self.near[self.w] - self.near[self.v]
         before, after = edges[self.previous], edges[: len(self.previous)]
         cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-        turning: NDArray[np.float64] = np.arctan2(cross, (before * after).sum(axis=1))
+        dot = (before * after).sum(axis=1)
+        turning: NDArray[np.float64] = np.arctan2(cross, dot)
+        turning[(cross == 0) & (dot < 0)] = np.pi
+        turning[~after.any(axis=1)] = 2 * np.pi
         return turning
 
 
@@ -106,11 +120,13 @@ class SceneFeatures:
     made: _core.SceneFeatures
 
     @classmethod
-    def of(cls, made: _core.SceneFeatures) -> SceneFeatures:
-        """Wrap the features that the core has made of a scene."""
+    def of(
+        cls, made: _core.SceneFeatures, robot_radii: Sequence[float] = (), obstacle_radii: Sequence[float] = ()
+    ) -> SceneFeatures:
+        """Wrap the features that the core has made of a scene; with radii if its shapes are grown."""
         core, scale = made.scene, made.scene.scale
-        robot = ShapeFeatures(core.robot, core.near.robot, made.robot, scale)
-        obstacles = ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale)
+        robot = ShapeFeatures(core.robot, core.near.robot, made.robot, scale, robot_radii)
+        obstacles = ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale, obstacle_radii)
         return cls(robot, obstacles, core, scale, made.rim, made)
 
     @property
@@ -138,12 +154,38 @@ class SceneFeatures:
 
 def unpacked(code: Any) -> tuple[Any, Any, Any]:
     """Return kind, robot feature and obstacle feature of a packed pair, an int or an array of uint64."""
-    return code >> 61, code >> 31 & 0x3FFFFFFF, code & 0x7FFFFFFF
+    return code >> 61, code >> 31 & 0xFFFFFFF, code & 0x7FFFFFFF
 
 
 def scene_features(scene: Scene) -> SceneFeatures:
-    """Number the features of a scene for the core; the scene caches the result."""
+    """Number the features of a scene of polygons for the core; the scene caches the result."""
     return kept(scene, _numbered)
+
+
+def grown_features(scene: Scene) -> SceneFeatures:
+    """Number the features of a scene of rounded shapes: those of their cores, with radii.
+
+    Raises
+    ------
+    UnsupportedError
+        If a shape is not rounded, or parts of the robot have different radii; the message names the shape.
+    """
+    return kept(scene, _grown) if scene.curved else scene_features(scene)
+
+
+def _grown(scene: Scene) -> SceneFeatures:
+    shapes = rounded_shapes(scene)
+    if shapes is None:
+        raise UnsupportedError(why_not_rounded(scene))
+    parts, others = shapes
+    radii = [parts[0].radius, *(shape.radius for shape in others)]
+    _, _, workspace, bounds = core_shapes((), (), scene.workspace, scene.bounds)
+    handles = [part.handle for part in parts], [shape.handle for shape in others]
+    made = _core.SceneFeatures(*handles, workspace, bounds, None, radii)
+    robot, *obstacles = map(float, radii)
+    features = SceneFeatures.of(made, [robot] * len(parts), obstacles or [0.0])
+    refuse_too_many(features)
+    return features
 
 
 def _numbered(scene: Scene) -> SceneFeatures:
