@@ -170,7 +170,7 @@ FIGURES = (
         ),
     ),
     Entry(
-        24, "rounded-boundary", "The boundary of a rounded triangle and of a disc among rounded triangles.", (10.4, 7.4),
+        24, "rounded-boundary", "The boundary of a rounded triangle, and of a disc.", (10.4, 7.4),
         (
             Panel("rounded.shapes_in_the_plane", (0.2, 0.78, 0.6, 0.21)),
             Panel("rounded.rounded_triangles", (0.025, 0.07, 0.475, 0.72), True),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
+import numpy as np
 from matplotlib.axes import Axes
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
@@ -47,7 +48,7 @@ def shapes_in_the_plane(ax: Axes) -> Axes:
         shape(ax, outline(obstacle), OBSTACLE)
         label(ax, outline(obstacle).mean(axis=0), f"$O_{k + 1}$", colour=OBSTACLE, size=14)
     for dx, name, robot in ((-3.6, "$A$", ROBOT_TRIANGLE), (-6.6, "$D$", DISC)):
-        points = outline(robot) + (dx, 0)
+        points = outline(robot) + np.array([dx, 0.0])
         shape(ax, points, ROBOT)
         label(ax, points.mean(axis=0), name, colour=ROBOT, size=14)
     return ax

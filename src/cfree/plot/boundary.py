@@ -28,8 +28,9 @@ from cfree.formats.text.atomic import checked_suffix, replacing
 from cfree.palette import FAINT, FORBIDDEN, GREY, INK, MARK, ROBOT, WALL
 from cfree.plot.labels import BODY, GHOST, MAY, Labels
 from cfree.plot.strips import THIN, strips
-from cfree.plot.workspace import Window, draw_robot, draw_surroundings, drawn, path_of, rings_of_geometry, roomiest
+from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry, roomiest
 from cfree.scene.scene import Scene
+from cfree.scene.smooth import smooth
 from cfree.words import counted
 
 CORNER = 0.9  # share of an axis that has numbers
@@ -56,7 +57,7 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
     """
     from cfree.exact.pose import Pose
 
-    scene = drawn(scene)
+    scene = smooth(scene)
     ax = ax or new_axes((7, 6))
     boxes = draw_surroundings(ax, scene)
     ends = {"start": scene.start, "goal": scene.goal}
@@ -109,7 +110,7 @@ def _draw_slice(cut: Slice, ax: Axes) -> None:
     workspace = boundary.scene.workspace
     inside = cut.forbidden if workspace is None else cut.forbidden.intersection(workspace.to_shapely())
     region = path_of(rings_of_geometry(inside))
-    draw_surroundings(ax, drawn(boundary.scene), frame=False)
+    draw_surroundings(ax, smooth(boundary.scene), frame=False)
     ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", zorder=0.6, label="forbidden"))
     kinds = boundary.patch_kind[cut.patches]
     width = min(1.2, max(0.3, math.sqrt(2000 / max(1, len(kinds)))))
@@ -132,7 +133,7 @@ def _draw_inside(ax: Axes, cut: Slice, window: Window) -> None:
     """Draw the robot where its reference point has most room, with a label that explains the place."""
     import shapely
 
-    scene = drawn(cut.boundary.scene)
+    scene = smooth(cut.boundary.scene)
     labels = Labels(ax, scene)
     labels.avoid(shapely.get_parts(cut.forbidden), GHOST)
     pose = roomiest(cut, window)

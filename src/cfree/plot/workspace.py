@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.palette import GHOST, GREY, OBSTACLE, OBSTACLE_RIM, ROBOT
-from cfree.scene.scene import size_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,14 +21,6 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Window = tuple[float, float, float, float]
-FINE = 2000  # parts of the smallest round shape that a picture shows
-
-
-def drawn(scene: Scene) -> Scene:
-    """Return the scene with polygons for round shapes, fine enough for a picture."""
-    if not scene.curved:
-        return scene
-    return scene.outer(min(size_of(shape) for shape in (*scene.robot, *scene.obstacles)) / FINE)
 
 
 def draw_surroundings(ax: Axes, scene: Scene, *, frame: bool = True) -> list[Window]:
