@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+import random
 from fractions import Fraction
 from typing import Any
 
@@ -98,6 +99,42 @@ def test_slices_are_the_grown_sums_of_the_cores(name: str) -> None:
             continue  # a gap without width has two sides here
         length = sum(shapely.LineString(line).length for line in cut.lines)
         assert math.isclose(length, around.length, rel_tol=1e-3), (name, theta)
+
+
+def random_scene(seed: int) -> Scene:
+    """Two to five rounded shapes; even seeds are on a lattice of halves, and so full of ties."""
+    rng = random.Random(seed)
+    step = 2 if seed % 2 == 0 else 1000
+    one = Fraction(rng.randint(1, 4), 4)
+
+    def radius() -> Fraction:
+        return one if seed % 3 else Fraction(rng.randint(1, 8), 8)
+
+    def shape(far: int) -> Any:
+        x, y = (Fraction(rng.randint(-far * step, far * step), step) for _ in range(2))
+        ring = rng.choice([SQUARE, TRIANGLE, ELL, None])
+        return disc(x, y, radius()) if ring is None else grown(ring, radius(), x, y)
+
+    return Scene(shape(1), [shape(5) for _ in range(rng.randint(2, 5))])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(8))
+def test_random_scenes_have_the_slices_of_their_cores(seed: int) -> None:
+    scene = random_scene(seed)
+    result = boundary(scene)
+    space = free_space(result)
+    assert np.all(result.complex.euler % 2 == 0)
+    rng = random.Random(seed)
+    for _ in range(4):
+        theta = rng.uniform(0, math.tau)
+        cut, expected = result.slice(theta), region(scene, theta)
+        assert cut.forbidden.symmetric_difference(expected).area < 3 * expected.length * (cut.error + 1e-4)
+        x0, y0, x1, y1 = expected.bounds
+        for _ in range(10):
+            x, y = rng.uniform(x0, x1), rng.uniform(y0, y1)
+            if shapely.boundary(expected).distance(shapely.Point(x, y)) > 1e-2:
+                assert (space.locate((x, y, theta)) == -1) == expected.contains(shapely.Point(x, y))
 
 
 def test_boundary_has_the_same_bytes_for_any_number_of_threads() -> None:
@@ -255,6 +292,14 @@ def test_poses_are_located_in_cells() -> None:
     assert [space.locate(pose) for pose in poses] == [1, 0, 1, -1, -1]
     assert space.reachable(Pose(0, 0)).index == 1
     assert space.common_cell(Pose(0, 0), Pose(9, 0)) is None
+
+
+def test_a_corridor_as_wide_as_a_disc_is_a_cell_of_volume_0_in_each_half_turn() -> None:
+    walls = [Polygon([(x, -2), (x + 3, -2), (x + 3, 2), (x, 2)]) for x in (-4, 1)]
+    space = free_space(boundary(Scene(disc(0, 0, 1), walls)))
+    assert len(space) == 3
+    assert space.volumes[1:].tolist() == [0, 0]
+    assert space.locate([(0, 0, 0), (0, 0, math.pi), (0, 3, 0)]).tolist() == [1, 2, 0]
 
 
 def test_rounded_robot_stays_in_a_workspace_of_lines() -> None:

@@ -284,6 +284,7 @@ class BoundaryRecord(Value):
             x, y = x + rho * np.cos(psi), y + rho * np.sin(psi)
         return np.stack([x, y], axis=-1)
 
+    @checked
     def require_polygons(self, name: str) -> None:
         """Raise `UnsupportedError` if the scene has round shapes; `name` says what does not take them."""
         if self.scene.curved:

@@ -272,11 +272,8 @@ class FreeSpace(Value, Shown):
         Time per free pose is about proportional to the faces at its height to the left of it, at its orientation.
         Forbidden poses are mostly recognised as by `is_free`. Each pose takes some microseconds.
         """
-        if (
-            not self.boundary.scene.curved
-            and type(poses) in PLAIN
-            and (threads is None or (type(threads) is int and threads > 0))
-        ):
+        is_plain = type(poses) in PLAIN and (threads is None or (type(threads) is int and threads > 0))
+        if is_plain and not self.boundary.scene.curved:
             cell = self._handle.locate_one(self.boundary.checker._handle, for_core(poses))
             if cell is not None:
                 return cell
@@ -404,6 +401,10 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
         If the boundary is incomplete.
     InvariantError
         If the computation contradicts itself: a fault of cfree.
+
+    Notes
+    -----
+    Among rounded shapes a corridor exactly as wide as the robot is a cell of volume 0, one for each half turn.
 
     Examples
     --------
