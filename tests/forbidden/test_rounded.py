@@ -179,8 +179,9 @@ def test_trapezoids_name_their_curves_and_angles() -> None:
     assert {part.upper.obstacle.name for part in parts} == {"obstacle 0", "obstacle 1", "obstacle 2"}
 
 
-def test_live_parts_are_within_the_ranges_of_their_patches() -> None:
-    result = boundary(MIXED)
+@pytest.mark.parametrize("name", SCENES)
+def test_live_parts_are_within_the_ranges_of_their_patches(name: str) -> None:
+    result = boundary(SCENES[name])
     table = result.trapezoids
     middle = (table.theta_from + table.theta_to) / 2
     start, width = (x[table.patch] for x in (result.phi_min, result.phi_range))
