@@ -35,7 +35,8 @@ static void bind_columns(nb::module_& m) {
         .value("VERTEX_EDGE", Kind::vertex_edge)
         .value("EDGE_VERTEX", Kind::edge_vertex)
         .value("VERTEX_VERTEX", Kind::vertex_vertex)
-        .value("EDGE_EDGE", Kind::edge_edge);
+        .value("EDGE_EDGE", Kind::edge_edge)
+        .value("SEAM", Kind::seam);
     nb::class_<Patches> patches(m, "Patches");
     patches.def("__init__", [](Patches* p, Bytes kind, Ints robot, Ints obstacle) {
         new (p) Patches{vector_of(kind), vector_of(robot), vector_of(obstacle)};

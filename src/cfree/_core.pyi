@@ -317,6 +317,8 @@ class Kind(enum.IntEnum):
 
     EDGE_EDGE = 4
 
+    SEAM = 5
+
 class Patches:
     def __init__(self, kind: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], robot: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], obstacle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 

@@ -22,7 +22,9 @@ Places::Parts Places::parts(const Feature& f) const {
     const ContactLine<double> line(scene, f, *this);
     const Complex edge = complex(line.E);
     const double length = std::abs(edge);
-    return {complex(line.a), complex(line.b), edge / length, length};
+    Complex a = complex(line.a), b = complex(line.b);
+    if (scene.is_round) (line.on_edge ? b : a) -= sum_of_radii(scene, f) * scene.unit() * i_unit * edge / length;  // outwards
+    return {a, b, edge / length, length};
 }
 
 ContactCurve::ContactCurve(const Places& places, const Feature& on, const Feature& other, double from, double to) {

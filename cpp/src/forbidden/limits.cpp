@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cfree/support/elementary.hpp"
+#include "predicates/round_surfaces.hpp"
 
 namespace cfree {
 
@@ -33,8 +34,28 @@ std::array<Limits::Meeting, 2> Limits::crossings(Index trapezoid, double tau) co
 }
 
 Limits::Line Limits::line(const Feature& contact, const Rotation<double>& r) const {
+    if (scene.is_round) return round_line(contact, r);
     const ContactLine<double> l(scene, contact, UserUnits{});
     return {l.start(r), l.direction(r)};
+}
+
+Limits::Line Limits::round_line(const Feature& contact, const Rotation<double>& r) const {
+    const double rho = sum_of_radii(scene, contact) * unit;
+    if (is_circle(contact)) {
+        const UserUnits of;
+        return {of.vertex(scene.obstacles, contact.obstacle) - r(of.vertex(scene.robot, contact.robot)), {0, 0}, rho, contact.branch};
+    }
+    const ContactLine<double> l(scene, contact, UserUnits{});
+    const auto p = l.start(r), u = l.direction(r);
+    const double scale = rho / norm(u.x, u.y);
+    return {{p.x + scale * u.y, p.y - scale * u.x}, u};
+}
+
+Vec<double> Limits::Line::at(double t) const {
+    if (!is_circle()) return {p.x + t * u.x, p.y + t * u.y};
+    Vec<double> outwards{(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)};
+    for (int k = 0; k < quadrant; ++k) outwards = {-outwards.y, outwards.x};
+    return {p.x + radius * outwards.x, p.y + radius * outwards.y};
 }
 
 // Place of the vertex along the edge; 0 and 1 for the edge's own ends.
@@ -52,12 +73,48 @@ double Limits::helix_at(const Feature& contact, const Feature& helix) const {
 
 Limits::Meeting Limits::meets(const Feature& contact, const Line& l, std::uint64_t curve, const Rotation<double>& r) const {
     const Feature f = unpacked(curve);
+    if (scene.is_round && !(is_line(contact) && is_line(f))) return meets_round(contact, l, f, r);
     if (f.kind == Kind::vertex_vertex) return {helix_at(contact, f), 1};
-    const auto [q, v] = line(f, r);
+    const Line other = line(f, r);
+    const auto &q = other.p, &v = other.u;
     const double across = v.x * l.u.y - v.y * l.u.x;
     const double t = -(v.x * (l.p.y - q.y) - v.y * (l.p.x - q.x)) / across;
     const double sine = std::abs(across) / (norm(v.x, v.y) * norm(l.u.x, l.u.y));
     return {t > 0 ? std::min(t, 1.0) : 0.0, sine};  // rounding may lead out of the patch
+}
+
+// A line with a circle, or a circle with any surface: the formulas of predicates/round_surfaces.hpp.
+Limits::Meeting Limits::meets_round(const Feature& contact, const Line& l, const Feature& f, const Rotation<double>& r) const {
+    const auto within = [](double t, double sine) { return Meeting{t > 0 ? std::min(t, 1.0) : 0.0, sine}; };
+    const auto dot_of = [](const Vec<double>& x, const Vec<double>& y) { return x.x * y.x + x.y * y.y; };
+    const auto cross_of = [](const Vec<double>& x, const Vec<double>& y) { return x.x * y.y - x.y * y.x; };
+    const auto root_of = [](double whole, double part) { return std::sqrt(std::max(0.0, (whole - part) * (whole + part))); };
+    if (f.kind == Kind::seam) return {f.branch == contact.branch ? 0.0 : 1.0, 1};
+    const Line other = line(f, r);
+    if (is_line(contact)) {
+        if (is_smooth(scene, contact, f)) return {helix_at(contact, f), 1};
+        const Vec<double> d = other.p - l.p;
+        const double length = norm(l.u.x, l.u.y), root = root_of(other.radius, cross_of(l.u, d) / length);
+        return within(dot_of(d, l.u) / (length * length) + f.branch * root / length, other.radius > 0 ? root / other.radius : 1);
+    }
+    Vec<double> outwards, d = other.p - l.p;
+    double sine = 1;
+    if (is_smooth(scene, f, contact)) {
+        const double length = norm(other.u.x, other.u.y);
+        outwards = {other.u.y / length, -other.u.x / length};
+    } else {
+        // n and delta, divided by the length of n
+        Vec<double> n = is_line(f) ? Vec<double>{-other.u.y, other.u.x} : d;
+        const double length = norm(n.x, n.y);
+        n = {n.x / length, n.y / length};
+        const double delta = is_line(f) ? cross_of(other.u, d) / length
+                                        : 0.5 * (length + (l.radius - other.radius) * (l.radius + other.radius) / length);
+        const double cosine = delta / l.radius, root = root_of(1, cosine);
+        outwards = {cosine * n.x - f.branch * root * n.y, cosine * n.y + f.branch * root * n.x};
+        sine = is_line(f) ? root : other.radius > 0 ? std::min(1.0, std::abs(cross_of(outwards, d)) / other.radius) : 1;
+    }
+    for (int k = 0; k < l.quadrant; ++k) outwards = {outwards.y, -outwards.x};
+    return within(outwards.y / (1 + std::max(0.0, outwards.x)), sine);
 }
 
 }  // namespace cfree

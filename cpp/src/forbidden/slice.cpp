@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <unordered_map>
 
 #include "cfree/support/elementary.hpp"
 #include "cfree/support/lookout.hpp"
+#include "forbidden/round_names.hpp"
 
 namespace cfree {
 
@@ -77,10 +79,18 @@ Slicer::Segments Slicer::near(int c, double tau) const {
         if (!(tau_from[x] <= tau && tau < tau_to[x])) continue;
         const Feature contact = boundary->patches.contact(t.patch[x]);
         const Line l = lines.line(contact, asked), beyond = stepped ? lines.line(contact, r) : l;
-        for (const std::uint64_t curve : {t.lower[x], t.upper[x]}) {
+        std::array<double, 2> ends{};
+        for (const bool upper : {false, true}) {
+            const std::uint64_t curve = (upper ? t.upper : t.lower)[x];
             auto m = lines.meets(contact, l, curve, asked);
             if (stepped && !(m.sine > steep)) m = lines.meets(contact, beyond, curve, r);
-            result.xy.insert(result.xy.end(), {l.p.x + m.t * l.u.x, l.p.y + m.t * l.u.y});
+            const auto p = l.at(ends[upper] = m.t);
+            result.xy.insert(result.xy.end(), {p.x, p.y});
+        }
+        if (scene.is_round) {
+            const double begin = 0.5 * std::numbers::pi * l.quadrant;
+            if (l.is_circle()) result.arcs.push_back({l.p, l.radius, begin + 2 * arc_tangent(ends[0]), begin + 2 * arc_tangent(ends[1])});
+            else result.arcs.push_back({});
         }
         result.trapezoid.push_back(x);
     }
@@ -97,7 +107,12 @@ Slicer::Rings Slicer::rings(int c, double tau) const {
 }
 
 Slicer::Name Slicer::end_name(Index x, std::uint64_t curve) const {
-    const Code own = code(scene, boundary->patches.contact(boundary->trapezoids.patch[x])), other = code(scene, unpacked(curve));
+    const Feature on = boundary->patches.contact(boundary->trapezoids.patch[x]), f = unpacked(curve);
+    if (scene.is_round && !(f.kind == Kind::vertex_vertex && sum_of_radii(scene, f) == 0)) {
+        const CurveName name = curve_name(scene, on, f);
+        return {name.first, name.second, name.branch};
+    }
+    const Code own = code(scene, on), other = code(scene, f);
     if (other >> 61 == static_cast<Code>(Kind::vertex_vertex)) return {other, 0};
     return {std::min(own, other), std::max(own, other)};
 }
@@ -145,6 +160,13 @@ std::vector<double> Slicer::trace(const Segments& s, const std::vector<Index>& n
         for (auto x = static_cast<Index>(k); x >= 0 && !used[x]; x = next[x]) {
             used[x] = 1;
             result.xy.insert(result.xy.end(), {s.xy[4 * x], s.xy[4 * x + 1]});
+            if (s.arcs.empty() || s.arcs[x].radius == 0) continue;
+            const auto& [centre, radius, from, to] = s.arcs[x];
+            const int chords = std::max(2, static_cast<int>(std::ceil((to - from) / chord)));
+            for (int m = 1; m < chords; ++m) {
+                const auto [c, n] = cosine_sine(from + (to - from) * m / chords);
+                result.xy.insert(result.xy.end(), {centre.x + radius * c, centre.y + radius * n});
+            }
         }
         const std::size_t count = (result.xy.size() - first) / 2;
         if (count < 3) {

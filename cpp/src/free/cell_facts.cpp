@@ -105,6 +105,34 @@ private:
     std::array<ContactCurve, 2> curves;
 };
 
+// The same where shapes are grown. Its curves begin and end like square roots; the error is that of halving, and of rounding.
+Integral round_flux(const Boundary& boundary, const Limits& limits, Index which, Vec<double> origin) {
+    const auto [from, to] = angles_of(boundary, which);
+    const Feature contact = boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(which)]);
+    double size = 0;
+    const auto area = [&](double theta) {
+        const TrapezoidLine at = trapezoid_line(limits, which, theta);
+        const auto [c, s] = cosine_sine(theta);
+        const Limits::Line line = limits.line(contact, {c, s, 1});
+        const auto p = line.at(at.lower) - origin, q = line.at(at.upper) - origin;
+        size = std::max({size, norm(p.x, p.y), norm(q.x, q.y)});
+        if (!line.is_circle()) return 0.5 * (p.x * q.y - p.y * q.x);
+        const auto centre = line.p - origin, chord = q - p;
+        const double turn = 2 * (arc_tangent(at.upper) - arc_tangent(at.lower));
+        return 0.5 * (centre.x * chord.y - centre.y * chord.x + line.radius * line.radius * turn);
+    };
+    const auto f = over_roots(area, from, to);
+    const double coarse = over_nodes(f, 0, 1);
+    Integral found = integral(f, 0, 1, coarse, 0.1 * size * size * (to - from));
+    found.error += 32 * rounded * size * size * (to - from);
+    return found;
+}
+
+Integral flux_of(const Boundary& boundary, const Limits& limits, Index which, Vec<double> origin) {
+    if (boundary.scene->is_round) return round_flux(boundary, limits, which, origin);
+    return Flux(boundary, limits, which, origin).over_all();
+}
+
 }  // namespace
 
 Volumes enclosed(const Boundary& boundary, const std::vector<Facing>& facing, Index cells) {
@@ -126,7 +154,7 @@ Volumes enclosed(const Boundary& boundary, const std::vector<Facing>& facing, In
     Volumes found{std::vector<double>(static_cast<std::size_t>(cells)), std::vector<double>(static_cast<std::size_t>(cells))};
     for (const Facing& x : facing) {
         const auto cell = static_cast<std::size_t>(x.cell);
-        const Integral flux = Flux(boundary, limits, x.trapezoid, origin[static_cast<std::size_t>(x.surface)]).over_all();
+        const Integral flux = flux_of(boundary, limits, x.trapezoid, origin[static_cast<std::size_t>(x.surface)]);
         found.values[cell] += x.is_inner ? flux.value : -flux.value;
         found.errors[cell] += flux.error + 4 * rounded * std::abs(flux.value) * std::sqrt(static_cast<double>(table.size()));
     }
@@ -138,7 +166,7 @@ Volumes fluxes(const Boundary& boundary, const std::vector<Vec<double>>& origins
     Volumes found;
     for (std::size_t k = 0; k < origins.size(); ++k) {
         heed_stop();
-        const Integral flux = Flux(boundary, limits, static_cast<Index>(k), origins[k]).over_all();
+        const Integral flux = flux_of(boundary, limits, static_cast<Index>(k), origins[k]);
         found.values.push_back(-flux.value), found.errors.push_back(flux.error);
     }
     return found;

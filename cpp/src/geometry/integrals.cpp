@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "cfree/contact/contact_curve.hpp"
 #include "cfree/geometry/local_geometry.hpp"
@@ -28,20 +29,51 @@ namespace {
 
 Ruled ruled(const Boundary& boundary, Index trapezoid) {
     const Feature contact = boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(trapezoid)]);
-    const ContactLine<double> l(*boundary.scene, contact, Places{*boundary.scene});
+    ContactLine<double> l(*boundary.scene, contact, Places{*boundary.scene});
+    if (boundary.scene->is_round) {  // moved outwards
+        const double scale = sum_of_radii(*boundary.scene, contact) * boundary.scene->unit() / norm(l.E.x, l.E.y);
+        (l.on_edge ? l.b : l.a) = (l.on_edge ? l.b : l.a) - Vec<double>{-scale * l.E.y, scale * l.E.x};
+    }
     if (l.on_edge) return {l.b.x, l.b.y, l.E.x, l.E.y, l.a.x, l.a.y, 0, 0};
     return {l.b.x, l.b.y, 0, 0, l.a.x, l.a.y, l.E.x, l.E.y};
 }
 
+// Patch of a circle at an orientation: s = |a| sin(psi - alpha), a + bi the robot's vertex turned by theta, alpha its angle.
+struct CircleAt {
+    Complex a;
+    double radius, first, last;  // angles psi
+    double s(double psi) const { return cross(a, std::polar(1.0, psi)); }
+};
+std::optional<CircleAt> circle_at(const Boundary& boundary, const Limits& limits, const TrapezoidLine& at) {
+    if (!boundary.scene->is_round) return {};
+    const Feature contact = boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(at.trapezoid)]);
+    if (contact.kind != Kind::vertex_vertex) return {};
+    const auto [c, s] = cosine_sine(at.theta);
+    const Limits::Line l = limits.line(contact, {c, s, 1});
+    const double begin = 0.5 * std::numbers::pi * l.quadrant;
+    return CircleAt{Complex{c, s} * Places{*boundary.scene}.a(contact.robot), l.radius, begin + 2 * arc_tangent(at.lower), begin + 2 * arc_tangent(at.upper)};
+}
+
+// Integrals over psi of v = rho sqrt(w^2 + s^2), and of K v, whose primitive is -s / sqrt(w^2 + s^2).
+double circle_area(const CircleAt& x, double w) {
+    const auto f = [&](double psi) { return norm(w, x.s(psi)); };
+    return x.radius * integral(f, x.first, x.last, over_nodes(f, x.first, x.last), 0).value;
+}
+double circle_curvature(const CircleAt& x, double w) {
+    const double s = x.s(x.first), S = x.s(x.last);
+    return s / norm(w, s) - S / norm(w, S);
+}
+
 // Integrals over theta of a function of lines, for each trapezoid; `one` is the mean of all.
-std::vector<Integral> trapezoid_integrals(const Boundary& boundary, const std::function<double(const TrapezoidLine&)>& along_t) {
-    const Limits limits(boundary);
+std::vector<Integral> trapezoid_integrals(const Boundary& boundary, const Limits& limits,
+                                          const std::function<double(const TrapezoidLine&)>& along_t) {
     std::vector<Integral> found(boundary.trapezoids.size());
     const auto each = [&](const auto& set) {
         for (std::size_t k = 0; k < found.size(); ++k) {
             const auto [from, to] = angles_of(boundary, static_cast<Index>(k));
             const auto f = [&](double theta) { return along_t(trapezoid_line(limits, static_cast<Index>(k), theta)); };
-            found[k] = set(f, from, to, found[k].value);
+            if (boundary.scene->is_round) found[k] = set(over_roots(f, from, to), 0, 1, found[k].value);
+            else found[k] = set(f, from, to, found[k].value);
         }
     };
     double mean = 0;
@@ -57,13 +89,17 @@ std::vector<Integral> trapezoid_integrals(const Boundary& boundary, const std::f
 }  // namespace
 
 std::vector<Integral> trapezoid_areas(const Boundary& boundary, double w) {
-    return trapezoid_integrals(boundary, [&](const TrapezoidLine& at) {
+    const Limits limits(boundary);
+    return trapezoid_integrals(boundary, limits, [&](const TrapezoidLine& at) {
+        if (const auto circle = circle_at(boundary, limits, at)) return circle_area(*circle, w);
         return ruling_area(ruled(boundary, at.trapezoid), at.lower, at.upper, at.theta, w);
     });
 }
 
 std::vector<Integral> trapezoid_curvatures(const Boundary& boundary, double w) {
-    return trapezoid_integrals(boundary, [&](const TrapezoidLine& at) {
+    const Limits limits(boundary);
+    return trapezoid_integrals(boundary, limits, [&](const TrapezoidLine& at) {
+        if (const auto circle = circle_at(boundary, limits, at)) return circle_curvature(*circle, w);
         return ruling_curvature(ruled(boundary, at.trapezoid), at.lower, at.upper, at.theta, w);
     });
 }

@@ -99,6 +99,7 @@ class Orientations:
 
     def __init__(self, boundary: Boundary) -> None:
         boundary.require_complete()
+        boundary.require_polygons("exact fits")
         self.boundary = boundary
         self._from, self._to, _, self._last = boundary._handle.angle_ranks()
 

@@ -10,7 +10,7 @@ import numpy as np
 from cfree.collision.approximations import Approximations
 from cfree.collision.pose_checker import PoseChecker, is_free
 from cfree.exact.pose import Pose
-from cfree.forbidden.kinds import KINDS
+from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BODY, SceneFeatures, scene_features
@@ -103,7 +103,11 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
         "theta": cut.theta,
         "degrees": float(np.degrees(cut.theta)),
         "segments": len(cut.segments),
-        **{f"length {name}": float(length[kinds == kind].sum()) for kind, name in KINDS.items()},
+        **{
+            f"length {name}": float(length[kinds == kind].sum())
+            for kind, name in KINDS.items()
+            if kind != PatchKind.ARC_ARC
+        },
     }
     area, rim = float(cut.forbidden.area), boundary.features.rim
     if rim is None:

@@ -13,6 +13,8 @@ class Kind(IntEnum):
     EDGE_VERTEX = 2
     VERTEX_VERTEX = 3
     EDGE_EDGE = 4
+    SEAM = 5
+    """End of a quadrant of a circle, where shapes are grown."""
 
     @property
     def short(self) -> str:

@@ -46,6 +46,9 @@ if TYPE_CHECKING:
     from cfree.figures.poses import rest_and_moved as rest_and_moved
     from cfree.figures.ranges import edge_vertex_range as edge_vertex_range
     from cfree.figures.ranges import vertex_edge_range as vertex_edge_range
+    from cfree.figures.rounded import disc_boundary as disc_boundary
+    from cfree.figures.rounded import rounded_triangles as rounded_triangles
+    from cfree.figures.rounded import shapes_in_the_plane as shapes_in_the_plane
     from cfree.figures.scenes import five_obstacles as five_obstacles
     from cfree.figures.scenes import five_pillars as five_pillars
     from cfree.figures.scenes import slice_source as slice_source
@@ -71,6 +74,7 @@ __getattr__, __dir__, __all__ = lazy_names(
         "kite_and_square congruent_squares congruent_kite",
         "poses": "rest_and_moved contacts",
         "ranges": "vertex_edge_range edge_vertex_range",
+        "rounded": "shapes_in_the_plane rounded_triangles disc_boundary",
         "scenes": "five_obstacles five_pillars slice_stack slice_source",
         "surfaces": "vertex_edge_surface edge_vertex_surface",
         "unrolled": "patch_in_space patch_unrolled",

@@ -169,6 +169,14 @@ FIGURES = (
             Panel("arcs.arc_curvature_around", (0.71, 0.2, 0.27, 0.62)),
         ),
     ),
+    Entry(
+        24, "rounded-boundary", "The boundary of a rounded triangle, and of a disc.", (10.4, 7.4),
+        (
+            Panel("rounded.shapes_in_the_plane", (0.2, 0.78, 0.6, 0.21)),
+            Panel("rounded.rounded_triangles", (0.025, 0.07, 0.475, 0.72), True),
+            Panel("rounded.disc_boundary", (0.515, 0.07, 0.475, 0.72), True),
+        ),
+    ),
 )  # fmt: skip
 
 

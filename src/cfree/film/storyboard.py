@@ -124,6 +124,7 @@ def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBO
     >>> sum(len(shot.moments) for shot in shots), any(shot.cut for shot in shots)
     (60, False)
     """
+    boundary.require_polygons("films")
     director = _Director(boundary)
     shots = director.shots(frames, kinds)
     if shots and sum(len(shot.moments) for shot in shots) < frames:

@@ -25,7 +25,7 @@ from cfree.forbidden.mesh import Mesh, triangulated
 from cfree.forbidden.patch import IsolatedPart, Patches, Trapezoid
 from cfree.forbidden.record import BoundaryRecord, Stats
 from cfree.forbidden.slice import Slice
-from cfree.scene.features import SceneFeatures, scene_features
+from cfree.scene.features import SceneFeatures, grown_features
 from cfree.scene.scene import Scene
 from cfree.value import Shown
 
@@ -72,6 +72,9 @@ def boundary(
         If there are no threads, or a limit is negative.
     InvariantError
         If the computation contradicts itself: a fault of cfree. Its `state` is the scene.
+    UnsupportedError
+        If a shape is neither a polygon nor rounded, or parts of the robot have different radii. Rounded shapes are
+        polygons, segments and points grown by a rational radius: discs, stadiums, rounded convex polygons.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
@@ -79,10 +82,13 @@ def boundary(
     -----
     Time is about linear in the number of pairs of a patch and a pillar near it; memory about 90 bytes a trapezoid.
 
-    Nothing is taken from the boundary given as `reuse` if it was read from a file or unpickled; if there are the first
-    decimals, or the first with more than six digits, or new simple fractions such as thirds; or if the origin of a
-    scene far from 0 has moved. Doubles, and shapes turned by any angle, change nothing elsewhere, but where exact
-    integers decided something. `Boundary.kept_patches` counts the patches that were taken.
+    Nothing is taken from the boundary given as `reuse` among round shapes, or if it was read from a file or unpickled;
+    if there are the first decimals, or the first with more than six digits, or new simple fractions such as thirds; or
+    if the origin of a scene far from 0 has moved. Doubles, and shapes turned by any angle, change nothing elsewhere,
+    but where exact integers decided something. `Boundary.kept_patches` counts the patches that were taken.
+
+    Rounded shapes are exact, not replaced by polygons. `Boundary.isolated` is empty among them: exact fits without
+    width are not computed. Meshes and files of such boundaries are refused.
 
     Examples
     --------
@@ -113,7 +119,7 @@ def _computed(
 ) -> Boundary:
     start = time.perf_counter()
     with collection_paused():
-        features = scene_features(scene)
+        features = grown_features(scene)
         core_scene = features.core
     prepared = time.perf_counter()
 
@@ -124,9 +130,10 @@ def _computed(
             return False
         return max_memory is None or memory_used() <= max_memory
 
+    curved = scene.curved or (reuse is not None and reuse.scene.curved)
     try:
         core = _core.compute_boundary(
-            core_scene, threads, regularized, go_on, reuse=None if reuse is None else reuse._handle
+            core_scene, threads, regularized, go_on, reuse=None if reuse is None or curved else reuse._handle
         )
     except RuntimeError as error:
         raise InvariantError(str(error), state=scene) from error
@@ -156,7 +163,7 @@ def _restored(
     trimmed: Any,
     stats: Stats,
 ) -> Boundary:
-    return Boundary(scene, scene_features(scene), kind, robot, obstacle, trapezoids, isolated, stats, trimmed).shared
+    return Boundary(scene, grown_features(scene), kind, robot, obstacle, trapezoids, isolated, stats, trimmed).shared
 
 
 def memory_used() -> int:
@@ -176,14 +183,16 @@ class Boundary(BoundaryRecord, Shown):
     trapezoids : Trapezoids
         The trimmed patches, as arrays.
     isolated : IsolatedParts
-        Exact fits that no trapezoid reaches: curves, segments at one orientation, and points.
+        Exact fits that no trapezoid reaches: curves, segments at one orientation, and points. None are computed among
+        round shapes.
     stats : Stats
     trimmed : (P,) bool
         True for patches that have been trimmed: all of them, unless a limit of time or memory stopped the computation.
     patch_kind : (P,) uint8
-        1 v-e, 2 e-v, 3 bounds; see `PatchKind`.
+        1 v-e, 2 e-v, 3 bounds, 4 an arc on an arc; see `PatchKind`.
     ruled : (P, 8) float64
-        Coefficients p, q, a, g of ``S(t, phi) = p + t q - R(phi) (a + t g)`` for each patch.
+        Coefficients p, q, a, g of ``S(t, phi) = p + t q - R(phi) (a + t g)`` for each patch. For an arc on an arc this
+        is the centre of the circle of radius `patch_radius`, and q = g = 0.
     """
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -207,7 +216,8 @@ class Boundary(BoundaryRecord, Shown):
 
     @cached_property
     def checker(self) -> PoseChecker:
-        """The scene prepared for `cfree.is_free`; computed at first use."""
+        """The scene of polygons prepared for `cfree.is_free`; computed at first use."""
+        self.require_polygons("checker")
         return PoseChecker(self.scene, self.features)
 
     @cached_property
@@ -292,6 +302,7 @@ class Boundary(BoundaryRecord, Shown):
         0
         """
         self.require_complete()
+        self.require_polygons("mesh")
         return triangulated(self, self.complex, error, angle_scale, off_surface)
 
 

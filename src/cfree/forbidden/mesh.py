@@ -99,7 +99,7 @@ class Mesh(Value, Shown):
         """Red, green, blue and 255 of each triangle, (m, 4), by kind, or from `paint`."""
         if self.paint is not None:
             return self.paint
-        table = np.zeros((4, 4), dtype=np.uint8)
+        table = np.zeros((1 + max(COLOURS), 4), dtype=np.uint8)
         for kind, colour in COLOURS.items():
             table[kind] = *bytes.fromhex(colour[1:]), 255
         return table[self.kind]

@@ -13,6 +13,7 @@ from cfree.exact.half_angle import theta_in
 from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.libraries import ArrayLike, NDArray, np
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
+from cfree.scene.rounded import core_rings
 from cfree.value import Value
 
 if TYPE_CHECKING:
@@ -34,7 +35,8 @@ class Place:
     ring : int
         0 the outer ring, k + 1 the hole k.
     index : int
-        Vertex of the `Polygon`, counted over all its rings; for an edge, the vertex where t = 0.
+        Vertex of the `Polygon`, counted over all its rings; for an edge, the vertex where t = 0. A rounded shape has
+        the vertices of its core: the polygon that is grown, the ends of a stadium's segment, or a disc's centre.
     end : int or None
         For an edge, the vertex where t = 1. Edges of the workspace run against its rings: forbidden is on their left.
         A critical angle may be named by a diagonal of a convex piece: then the two are not neighbours. -1 is a corner
@@ -50,11 +52,23 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """A contact type with its two features, the robot's first: "v-e", "e-v", "v-v" or "e-e"."""
+    """A contact type with its two features, the robot's first.
+
+    Attributes
+    ----------
+    kind : str
+        "v-e", "e-v", "v-v" or "e-e"; among rounded shapes also "arc-arc", and "axis": the end of a quadrant of an
+        arc's circle.
+    robot, obstacle : Place
+    branch : int
+        Among rounded shapes: -1 where the patch enters this surface, 1 where it leaves; 0 if the two meet once. Of an
+        axis: 0 to 3 quarter turns from the x-axis.
+    """
 
     kind: str
     robot: Place
     obstacle: Place
+    branch: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +79,7 @@ class CriticalAngle:
     ----------
     kind : str
         "chart end"; "parallel": two edges become parallel; "helix": a v-v helix meets the patch's
-        surface; "crossing": two curves on the patch meet.
+        surface; "crossing": two curves on the patch meet; "touch": a surface of rounded shapes touches the patch's.
     features : tuple of Contact
         None, one or two of them.
     interval : (float, float)
@@ -162,8 +176,10 @@ def _angle(boundary: BoundaryRecord, columns: Trapezoids, end: str, k: int) -> C
         kind = "chart end"
     elif len(features) == 2:
         kind = "crossing"
+    elif features[0].kind == "e-e":
+        kind = "parallel"
     else:
-        kind = "parallel" if features[0].kind == "e-e" else "helix"
+        kind = "touch" if boundary.scene.curved else "helix"
     place = int(getattr(columns, f"{end}_place")[k])
     return CriticalAngle(kind, features, (lo, hi), place, float(theta_in(int(columns.chart[k]), 0.5 * (lo + hi))))
 
@@ -171,17 +187,20 @@ def _angle(boundary: BoundaryRecord, columns: Trapezoids, end: str, k: int) -> C
 def contact(boundary: BoundaryRecord, code: int) -> Contact:
     """Return the contact that a packed pair of features names."""
     kind, i, j = unpacked(code)
-    kind = Kind(kind)
+    kind, bits = Kind(kind), code >> 59 & 3
     robot_edge = kind in (Kind.EDGE_VERTEX, Kind.EDGE_EDGE)
     obstacle_edge = kind in (Kind.VERTEX_EDGE, Kind.EDGE_EDGE)
-    return Contact(kind.short, robot_place(boundary, i, robot_edge), obstacle_place(boundary, j, obstacle_edge))
+    branch = -1 if bits == 3 and kind != Kind.SEAM else bits
+    is_arc = boundary.scene.curved and kind == Kind.VERTEX_VERTEX
+    name = "axis" if kind == Kind.SEAM else KINDS[PatchKind.ARC_ARC] if is_arc else kind.short
+    return Contact(name, robot_place(boundary, i, robot_edge), obstacle_place(boundary, j, obstacle_edge), branch)
 
 
 def robot_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Place:
     polygon, index, end = _owner(boundary.features.robot, feature, is_edge)
     if polygon == BOUNDS:
         return Place(polygon, "reference point", 0, 0)
-    return Place(polygon, "robot", _ring(boundary.scene.robot[polygon].ring_offsets, index), index, end)
+    return Place(polygon, "robot", _ring(core_rings(boundary.scene.robot[polygon]), index), index, end)
 
 
 def obstacle_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Place:
@@ -194,7 +213,7 @@ def obstacle_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Pla
             raise InvariantError("a feature of a workspace in a scene that has none", state=feature)
         return Place(polygon, "workspace", _ring(scene.workspace.ring_offsets, index), index, end)
     name = scene.obstacle_names[polygon]
-    return Place(polygon, name, _ring(scene.obstacles[polygon].ring_offsets, index), index, end)
+    return Place(polygon, name, _ring(core_rings(scene.obstacles[polygon]), index), index, end)
 
 
 def _owner(shape: ShapeFeatures, feature: int, is_edge: bool) -> tuple[int, int, int | None]:
@@ -218,12 +237,14 @@ class Patch:
     ----------
     index : int
     kind : str
-        "v-e", "e-v" or "bound".
+        "v-e", "e-v", "bound" or "arc-arc".
     robot, obstacle : Place
     phi_min, phi_range : float, radians
         Orientations of the contact before trimming: phi_min to phi_min + phi_range (paper, eq. 6).
     trapezoids : range
         Its live parts.
+    quadrant : int or None
+        Of an arc on an arc: the outward normal's angle psi is from quadrant * 90 degrees on, to 90 degrees more.
     """
 
     index: int
@@ -233,7 +254,9 @@ class Patch:
     phi_min: float
     phi_range: float
     trapezoids: range
-    _ruled: NDArray[np.float64] = field(repr=False, compare=False)
+    quadrant: int | None = None
+    _ruled: NDArray[np.float64] = field(default_factory=lambda: np.zeros(8), repr=False, compare=False)
+    _radius: float = field(default=0.0, repr=False, compare=False)
 
     @property
     def is_live(self) -> bool:
@@ -241,8 +264,16 @@ class Patch:
         return len(self.trapezoids) > 0
 
     def surface(self, t: ArrayLike, phi: ArrayLike) -> NDArray[np.float64]:
-        """Return points S(t, phi) = (x, y, phi) of the contact surface, eqs. (5) and (8), like a call of `Surface`."""
-        return evaluate(self._ruled, t, phi)
+        """Return points S(t, phi) = (x, y, phi) of the contact surface, eqs. (5) and (8), like a call of `Surface`.
+
+        On an arc-arc patch t in [0, 1] is tan(psi / 2), psi counted from the beginning of its quadrant.
+        """
+        points = evaluate(self._ruled, t, phi)
+        if self.quadrant is not None:
+            psi = np.pi / 2 * self.quadrant + 2 * np.arctan(np.asarray(t, float))
+            points[..., 0] += self._radius * np.cos(psi)
+            points[..., 1] += self._radius * np.sin(psi)
+        return points
 
 
 class Patches(Value, Sequence[Patch]):
@@ -266,16 +297,18 @@ class Patches(Value, Sequence[Patch]):
         if isinstance(index, slice):
             return [self[k] for k in range(*index.indices(len(self)))]
         k, b = range(len(self))[index], self._boundary
-        on_edge = bool(b.contact_kind[k] == Kind.VERTEX_EDGE)
+        on_edge, on_vertex = (bool(b.contact_kind[k] == kind) for kind in (Kind.VERTEX_EDGE, Kind.EDGE_VERTEX))
         return Patch(
             index=k,
             kind=KINDS[PatchKind(b.patch_kind[k])],
-            robot=robot_place(b, int(b.contact_robot[k]), not on_edge),
+            robot=robot_place(b, int(b.contact_robot[k]), on_vertex),
             obstacle=obstacle_place(b, int(b.contact_obstacle[k]), on_edge),
             phi_min=float(b.phi_min[k]),
             phi_range=float(b.phi_range[k]),
             trapezoids=range(int(b.patch_start[k]), int(b.patch_start[k + 1])),
+            quadrant=None if on_edge or on_vertex else int(b.contact_kind[k] >> 4),
             _ruled=b.ruled[k],
+            _radius=float(b.patch_radius[k]),
         )
 
     def __iter__(self) -> Iterator[Patch]:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Self
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.contact.kind import Kind
-from cfree.errors import IncompleteError, InvariantError
+from cfree.errors import IncompleteError, InvariantError, UnsupportedError
 from cfree.exact.half_angle import tau_in
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, Ints, IsolatedParts, Trapezoids
 from cfree.forbidden.kinds import PatchKind
@@ -173,8 +173,21 @@ class BoundaryRecord(Value):
 
     @cached_property
     def patch_kind(self) -> NDArray[np.uint8]:
-        polygon = self.features.obstacles.owner_polygon
-        return np.where(polygon[self.contact_obstacle] == BOUNDS, PatchKind.BOUND, self.contact_kind).astype(np.uint8)
+        polygon, kind = self.features.obstacles.owner_polygon, self.contact_kind & 15
+        kind = np.where(kind == Kind.VERTEX_VERTEX, PatchKind.ARC_ARC, kind)
+        return np.where(polygon[self.contact_obstacle] == BOUNDS, PatchKind.BOUND, kind).astype(np.uint8)
+
+    @cached_property
+    def patch_radius(self) -> Floats:
+        """Radius of the circle of each arc-arc patch, (P,): the sum of both shapes' radii; 0 for other patches."""
+        return np.where(self.contact_kind & 15 == Kind.VERTEX_VERTEX, self._radii, 0.0)
+
+    @property
+    def _radii(self) -> Floats:
+        """The sum of the radii of both features of each patch."""
+        a, b = self.features.robot.radius, self.features.obstacles.radius
+        sums: Floats = a[self.contact_robot] + b[self.contact_obstacle]
+        return sums
 
     @cached_property
     def patch_start(self) -> NDArray[np.int64]:
@@ -186,6 +199,7 @@ class BoundaryRecord(Value):
         ruled = self.ruled_near.copy()
         ruled[:, 0:2] = self.features.obstacles.xy[self.contact_obstacle]
         ruled[:, 4:6] = self.features.robot.xy[self.contact_robot]
+        ruled = self._moved_outwards(ruled)
         ruled.flags.writeable = False
         return ruled
 
@@ -193,12 +207,24 @@ class BoundaryRecord(Value):
     def ruled_near(self) -> Floats:
         """The rows of `ruled` in the features' frame; see `evaluate_near`."""
         a, b = self.features.robot, self.features.obstacles
-        on_edge = self.contact_kind == Kind.VERTEX_EDGE
+        on_edge, on_vertex = self.contact_kind == Kind.VERTEX_EDGE, self.contact_kind == Kind.EDGE_VERTEX
         i, j = self.contact_robot, self.contact_obstacle
         ruled = np.zeros((len(i), 8))
         ruled[:, 0:2], ruled[:, 4:6] = b.near[j], a.near[i]
         ruled[on_edge, 2:4] = (b.near[b.w] - b.near[b.v])[j[on_edge]]
-        ruled[~on_edge, 6:8] = (a.near[a.w] - a.near[a.v])[i[~on_edge]]
+        ruled[on_vertex, 6:8] = (a.near[a.w] - a.near[a.v])[i[on_vertex]]
+        return self._moved_outwards(ruled)
+
+    def _moved_outwards(self, ruled: Floats) -> Floats:
+        """Move the lines of grown shapes outwards by the sum of their radii: p of v-e patches, a of e-v patches."""
+        if self.scene.curved:
+            for kind, start, edge in ((Kind.VERTEX_EDGE, 0, 2), (Kind.EDGE_VERTEX, 4, 6)):
+                rows = self.contact_kind == kind
+                x, y = ruled[rows, edge], ruled[rows, edge + 1]
+                length = np.hypot(x, y)
+                share = np.divide(self._radii[rows], length, out=np.zeros_like(length), where=length > 0)
+                ruled[rows, start] += share * y
+                ruled[rows, start + 1] -= share * x
         return ruled
 
     @cached_property
@@ -210,24 +236,30 @@ class BoundaryRecord(Value):
         g, f = (a.near[a.w] - a.near[a.v])[self.contact_robot], (b.near[b.w] - b.near[b.v])[f]
         cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
         angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
+        angle[self.phi_range == 2 * np.pi] = 0.0  # of a disc
         return np.where(self.patch_kind == PatchKind.BOUND, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))
 
     @cached_property
     def phi_range(self) -> Floats:
-        """The angle range of each patch, (P,) radians: pi - rho_i, pi - omega_j, or 2 pi for bounds."""
+        """The angle range of each patch, (P,) radians: pi - rho_i, pi - omega_j, or 2 pi for bounds.
+
+        For an arc on an arc it is the sum of both, at most 2 pi: the range of all four quadrants.
+        """
         at_robot = self.features.robot.turning[self.contact_robot]
         at_obstacle = self.features.obstacles.turning[self.contact_obstacle]
         turning = np.where(self.contact_kind == Kind.VERTEX_EDGE, at_robot, at_obstacle)
+        both = np.minimum(at_robot + at_obstacle, 2 * np.pi)
+        turning = np.where(self.patch_kind == PatchKind.ARC_ARC, both, turning)
         return np.where(self.patch_kind == PatchKind.BOUND, 2 * np.pi, turning)
 
     @checked
     def evaluate(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
-        """Return reference points S(t, theta) on patches, eqs. (5) and (8).
+        """Return reference points S(t, theta) on patches, eqs. (5) and (8), or of an arc on an arc.
 
         Parameters
         ----------
         patch : (k,) int
-        t : (k,) float, along the edge
+        t : (k,) float, along the edge; on a quadrant of a circle tan(psi / 2), psi counted from its beginning
         theta : (k,) float, radians
 
         Returns
@@ -239,11 +271,22 @@ class BoundaryRecord(Value):
     @checked
     def evaluate_near(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
         """Return the same points from the features' frame: areas are equal, and far scenes lose no digits."""
-        s, t, theta = self.ruled_near[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
+        which, t, theta = np.asarray(patch), np.asarray(t, float), np.asarray(theta, float)
+        s = self.ruled_near[which]
         ax, ay = s[..., 4] + t * s[..., 6], s[..., 5] + t * s[..., 7]
         c, n = np.cos(theta), np.sin(theta)
         x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)
+        if self.scene.curved:
+            psi = np.pi / 2 * (self.contact_kind[which] >> 4) + 2 * np.arctan(t)
+            rho = self.patch_radius[which]
+            x, y = x + rho * np.cos(psi), y + rho * np.sin(psi)
         return np.stack([x, y], axis=-1)
+
+    @checked
+    def require_polygons(self, name: str) -> None:
+        """Raise `UnsupportedError` if the scene has round shapes; `name` says what does not take them."""
+        if self.scene.curved:
+            raise UnsupportedError(f"{name}: of boundaries among polygons only; give boundary(scene.outer(error))")
 
     @checked
     def limits(self, trapezoid: ArrayLike, theta: ArrayLike) -> tuple[Floats, Floats]:

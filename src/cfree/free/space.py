@@ -17,6 +17,8 @@ from typing import Any, overload
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
+from cfree.collision.pose_checker import FREE as MAY_BE_FREE
+from cfree.collision.pose_checker import is_free
 from cfree.errors import InvalidPoseError, InvariantError
 from cfree.exact.half_angle import chart_of, tau_in_chart
 from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, for_core, is_plain, one_pose, to_pose
@@ -268,7 +270,8 @@ class FreeSpace(Value, Shown):
         Time per free pose is about proportional to the faces at its height to the left of it, at its orientation.
         Forbidden poses are mostly recognised as by `is_free`. Each pose takes some microseconds.
         """
-        if is_plain(poses) and (threads is None or (type(threads) is int and threads > 0)):
+        is_fast = is_plain(poses) and (threads is None or (type(threads) is int and threads > 0))
+        if is_fast and not self.boundary.scene.curved:
             cell = self._handle.locate_one(self.boundary.checker._handle, for_core(poses))
             if cell is not None:
                 return cell
@@ -287,19 +290,31 @@ class FreeSpace(Value, Shown):
         for k in range(0, len(poses), BLOCK):
             xy, theta = poses.xy[k : k + BLOCK], poses.theta[k : k + BLOCK]
             # verdicts allow for the tangents' rounding, so that "forbidden" is certain
-            verdicts = self.boundary.checker.verdicts(np.column_stack([xy, theta]), threads)
+            verdicts = self._verdicts(np.column_stack([xy, theta]), threads)
             possible = np.flatnonzero(verdicts != CERTAINLY_FORBIDDEN)
             chart, tau = chart_of(theta[possible])
             cell = self._handle.locate(xy[possible], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
             for m in np.flatnonzero(cell == FORBIDDEN).tolist():
                 x, y = xy[possible[m]].tolist()
-                if self.boundary.checker.is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
+                if self._is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
                     cell[m] = NO_CELL
             cells[k + possible] = cell
         return cells
 
+    def _is_free(self, pose: Pose) -> bool:
+        scene = self.boundary.scene
+        return is_free(scene, pose) if scene.curved else self.boundary.checker.is_free(pose)
+
+    def _verdicts(self, table: Floats, threads: int | None) -> NDArray[np.uint8]:
+        """Return `CERTAINLY_FORBIDDEN` where a pose is; rows x, y and theta in [0, 2 pi)."""
+        scene = self.boundary.scene
+        if not scene.curved:
+            return self.boundary.checker.verdicts(table, threads)
+        free = is_free(scene, Poses(table[:, :2], table[:, 2]), threads=threads)
+        return np.where(free, MAY_BE_FREE, CERTAINLY_FORBIDDEN).astype(np.uint8)
+
     def _locate(self, pose: Pose) -> int:
-        if not self.boundary.checker.is_free(pose):
+        if not self._is_free(pose):
             return FORBIDDEN
         cell = self._handle.locate_exactly(*self.boundary.features.in_chart(pose))
         return NO_CELL if cell == FORBIDDEN else cell
@@ -318,7 +333,7 @@ class FreeSpace(Value, Shown):
 
     def _cells_at(self, pose: Pose) -> set[int]:
         """Return the cells whose closure contains a pose."""
-        if not self.boundary.checker.is_free(pose):
+        if not self._is_free(pose):
             return set()
         return set(self._handle.cells_at(*self.boundary.features.in_chart(pose))) - {FORBIDDEN}
 
@@ -353,7 +368,8 @@ class FreeSpace(Value, Shown):
         start = to_pose(start, "start")
         from cfree.collision.nearest_free import require_free
 
-        require_free(self.boundary.checker, start, "start")
+        scene = self.boundary.scene
+        require_free(scene if scene.curved else self.boundary.checker, start, "start")
         cell = self.locate(start)
         if cell == NO_CELL:
             raise InvalidPoseError("start is free, but an exact fit, in the closure of no cell; see Boundary.isolated")
@@ -383,6 +399,10 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
         If the boundary is incomplete.
     InvariantError
         If the computation contradicts itself: a fault of cfree.
+
+    Notes
+    -----
+    Among rounded shapes a corridor exactly as wide as the robot is a cell of volume 0, one for each half turn.
 
     Examples
     --------

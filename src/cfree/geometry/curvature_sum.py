@@ -100,6 +100,7 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
     >>> bool(np.all(abs(sums.euler - result.complex.euler) < 1e-8)), sums.gap < 1e-12
     (True, True)
     """
+    boundary.require_polygons("gauss_bonnet")
     w, cells = check_scale(angle_scale), boundary.complex
     faces, faces_off = _core.trapezoid_curvatures(boundary._handle, w)
     sides, sides_error, turns, starts = _core.side_curvatures(boundary._complex_handle, w)

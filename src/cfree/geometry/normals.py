@@ -114,6 +114,7 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
     >>> gauss_map(result).degree.round(9) + 0.0, result.complex.euler      # both surround the circle of theta: tori
     (array([0., 0.]), array([0, 0]))
     """
+    boundary.require_polygons("gauss_map")
     w, cells = check_scale(angle_scale), boundary.complex
     sides = _Sides(boundary, cells, w)
     faces, faces_off = _core.trapezoid_curvatures(boundary._handle, w)

@@ -21,7 +21,7 @@ from cfree.exact.pose import Pose
 from cfree.forbidden.columns import COLUMNS, Ints, Trapezoids
 from cfree.planning.options import Options
 from cfree.planning.separation import Pieces, Separated
-from cfree.scene.features import SceneFeatures, refuse_too_many
+from cfree.scene.features import SceneFeatures, features_of_cores
 from cfree.scene.frame import frame_of
 from cfree.scene.rounded import Cores, Rounded, rounded_shapes
 from cfree.scene.scene import Scene, grown_scene
@@ -73,11 +73,7 @@ def _smaller(shapes: Cores, by: Fraction) -> Cores:
 
 
 def _surface(scene: Scene, cores: Cores, start: Pose, goal: Pose, go_on: Callable[[float], bool]) -> Pieces | None:
-    radii = [cores.robot[0].radius, *(other.radius for other in cores.obstacles)]
-    robot, obstacles = ([part.handle for part in parts] for parts in (cores.robot, cores.obstacles))
-    workspace = None if scene.workspace is None else scene.workspace._handle
-    features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, None, None, radii))
-    refuse_too_many(features)
+    features = features_of_cores(cores, scene)
     boundary = _core.compute_boundary(features.core, os.cpu_count() or 1, False, go_on)
     if not boundary.trimmed.all():
         return None

@@ -30,6 +30,7 @@ from cfree.plot.labels import BODY, GHOST, MAY, Labels
 from cfree.plot.strips import THIN, strips
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry, roomiest
 from cfree.scene.scene import Scene
+from cfree.scene.smooth import smooth
 from cfree.words import counted
 
 CORNER = 0.9  # share of an axis that has numbers
@@ -56,6 +57,7 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
     """
     from cfree.exact.pose import Pose
 
+    scene = smooth(scene)
     ax = ax or new_axes((7, 6))
     boxes = draw_surroundings(ax, scene)
     ends = {"start": scene.start, "goal": scene.goal}
@@ -108,12 +110,12 @@ def _draw_slice(cut: Slice, ax: Axes) -> None:
     workspace = boundary.scene.workspace
     inside = cut.forbidden if workspace is None else cut.forbidden.intersection(workspace.to_shapely())
     region = path_of(rings_of_geometry(inside))
-    draw_surroundings(ax, boundary.scene, frame=False)
+    draw_surroundings(ax, smooth(boundary.scene), frame=False)
     ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", zorder=0.6, label="forbidden"))
     kinds = boundary.patch_kind[cut.patches]
     width = min(1.2, max(0.3, math.sqrt(2000 / max(1, len(kinds)))))
     for kind, name in KINDS.items():
-        chosen = list(cut.segments[kinds == kind])
+        chosen = [cut.lines[k] for k in np.flatnonzero(kinds == kind)]
         if chosen:
             style = (0, (5, 3)) if name == "bound" else "solid"
             ax.add_collection(
@@ -131,7 +133,7 @@ def _draw_inside(ax: Axes, cut: Slice, window: Window) -> None:
     """Draw the robot where its reference point has most room, with a label that explains the place."""
     import shapely
 
-    scene = cut.boundary.scene
+    scene = smooth(cut.boundary.scene)
     labels = Labels(ax, scene)
     labels.avoid(shapely.get_parts(cut.forbidden), GHOST)
     pose = roomiest(cut, window)
@@ -171,8 +173,8 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     _draw_fits(space, isolated_lines(boundary))
     set_space(space, window, boundary.scene.units)
     handles = [
-        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in (PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX)),
-        Line2D([], [], color=Colours.helix, label="v-v helix"),
+        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in _contact_kinds(boundary)),
+        Line2D([], [], color=Colours.helix, label="joint" if boundary.scene.curved else "v-v helix"),
         Line2D([], [], color=Colours.edge_edge, label="e-e line"),
         Patch(facecolor=COLOURS[PatchKind.BOUND], edgecolor=GREY, alpha=0.4, label="bounds"),
         Patch(facecolor=FORBIDDEN, edgecolor=GREY, label="section at 360°"),
@@ -349,6 +351,14 @@ def plain(text: str) -> str:
     \\$5\\t
     """
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text).replace("$", r"\$")
+
+
+def _contact_kinds(boundary: Boundary) -> list[PatchKind]:
+    """Return the kinds of contact patches for a legend: all live ones among round shapes, else both."""
+    if not boundary.scene.curved:
+        return [PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX]
+    live = np.unique(boundary.patch_kind[boundary.trapezoids.patch]).tolist()
+    return [PatchKind(kind) for kind in live if kind != PatchKind.BOUND]
 
 
 def _line_colour(kind: PatchKind) -> str:

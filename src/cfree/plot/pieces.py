@@ -26,6 +26,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
+SAME = 1e-9  # of t
 CROWDED = 100_000  # trapezoids; curves of more would hide the patches
 SURFACE, WALL, SECTION, CURVE, ON_TOP, OVER = 0, 1, 2, 3, 4, 5
 
@@ -133,9 +134,7 @@ def patches_of(
     widest = math.hypot(window[2] - window[0], window[3] - window[1]) / detail.cells
     corners, strip, first = faces_of(rows, widest)
     kind = boundary.patch_kind[boundary.trapezoids.patch[rows.trapezoid[rows.joined]]][strip]
-    table = np.array(
-        [(0.0, 0.0, 0.0), *map(to_rgb, (colours.vertex_edge, colours.edge_vertex, COLOURS[PatchKind.BOUND]))]
-    )
+    table = np.array([(0.0, 0.0, 0.0), *map(to_rgb, (colours.vertex_edge, colours.edge_vertex, *_others()))])
     rgb = shaded(table[kind], corners, robot_radius(boundary.scene))
     n = len(corners)
     part = rows.part[rows.joined][strip]
@@ -145,6 +144,10 @@ def patches_of(
     thinner = min(1.0, max(0.25, math.sqrt(3000 / max(1, sum(len(part.corners) for part in curves)))))
     split = [_split(replace(part, width=part.width + line * thinner), widest) for part in curves]
     return joined([faces, *split])
+
+
+def _others() -> tuple[str, str]:
+    return COLOURS[PatchKind.BOUND], COLOURS[PatchKind.ARC_ARC]
 
 
 def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pieces:
@@ -246,6 +249,13 @@ def _curves(boundary: Boundary, rows: Strips, first: Ints, colours: Colours, lin
     kind = boundary.patch_kind[table.patch]
     curves = []
 
+    def at_end(side: int) -> Mask:
+        """True on smooth joints among round shapes, where a line ends; and everywhere among polygons."""
+        t = rows.t[rows.joined, side]
+        is_line = kind[trapezoid] != PatchKind.ARC_ARC
+        is_joint: Mask = is_line & ((t < SAME) | (t > 1 - SAME))
+        return is_joint if boundary.scene.curved else np.ones_like(is_joint)
+
     def add(strip: Ints, start: Floats, stop: Floats, colour: str, owner: Ints) -> None:
         strip, owner = strip[lined[strip]], owner[lined[strip]]
         corners = np.stack((start[strip], stop[strip], stop[strip], start[strip]), axis=1)
@@ -254,9 +264,10 @@ def _curves(boundary: Boundary, rows: Strips, first: Ints, colours: Colours, lin
 
     for side, curve in enumerate((table.lower_kind, table.upper_kind)):
         here, after = ends[rows.joined, side], ends[rows.joined + 1, side]
+        outer = rows.share[rows.joined, side] == side
         on_bounds = kind[trapezoid] == PatchKind.BOUND
         helix, cut = (
-            ((curve[trapezoid] == Kind.VERTEX_VERTEX) & ~on_bounds).nonzero()[0],
+            ((curve[trapezoid] == Kind.VERTEX_VERTEX) & ~on_bounds & outer & at_end(side)).nonzero()[0],
             ((curve[trapezoid] != Kind.VERTEX_VERTEX) & on_bounds).nonzero()[0],
         )
         add(helix, here, after, colours.helix, first[helix])

@@ -17,12 +17,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.forbidden.kinds import PatchKind
+
 if TYPE_CHECKING:
     from cfree.forbidden.record import BoundaryRecord
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+CHORDS = 12
+"""Straight parts of a trapezoid on a quadrant of a circle."""
 THIN = 1e-9
 """Radians; lower trapezoids have no visible area, and doubles cannot distinguish their curves."""
 
@@ -35,10 +39,12 @@ class Strips:
     ----------
     trapezoid : (r,) int64
     part : (r,) int64
-        A trapezoid is one part, or two if theta = 0 cuts it.
+        A trapezoid is one part, or two if theta = 0 cuts it; on a circle one or two for each of its `CHORDS`.
     theta : (r,) float64, radians, in [0, 2 pi]
     t : (r, 2) float64
         Limits of each row.
+    share : (r, 2) float64
+        The part of the trapezoid's width between them: 0 and 1, unless a trapezoid of an arc on an arc is divided.
     points : (r, 2, 2) float64
         The ends of each row in the plane.
     joined : (s,) int64
@@ -49,6 +55,7 @@ class Strips:
     part: Ints
     theta: Floats
     t: Floats
+    share: Floats
     points: Floats
     joined: Ints
 
@@ -69,6 +76,9 @@ def strips(boundary: BoundaryRecord, step: float) -> Strips:
     trapezoid = np.concatenate((above, below))
     start = np.concatenate((np.maximum(first[above], 0), first[below]))
     stop = np.concatenate((last[above], np.minimum(last[below], 0)))
+    chords = np.where(boundary.patch_kind[table.patch[trapezoid]] == PatchKind.ARC_ARC, CHORDS, 1)
+    chord = np.arange(int(chords.sum())) - np.repeat(np.cumsum(chords) - chords, chords)
+    trapezoid, start, stop, chords = (np.repeat(x, chords) for x in (trapezoid, start, stop, chords))
     turn = np.where(start < 0, math.tau, 0.0)
 
     count = np.maximum(1, np.ceil((stop - start) / step)).astype(np.int64) + 1  # rows of each part
@@ -82,9 +92,16 @@ def strips(boundary: BoundaryRecord, step: float) -> Strips:
     ids, inside = trapezoid[part], np.clip(theta, start[part] + margin, stop[part] - margin)
     limits = [np.clip(t, 0, 1) for t in boundary.limits(ids, inside)]
     patch = table.patch[ids]
+    shares = np.stack([chord / chords, (chord + 1) / chords], axis=1)[part]
+    if boundary.scene.curved:  # lines have one chord, so that their limits are not changed
+        low, high = (np.arctan(t) for t in limits)
+        limits = [
+            np.where(chords[part] == 1, t, np.tan(low + s * (high - low)))
+            for t, s in zip(limits, shares.T, strict=True)
+        ]
     points = np.stack([boundary.evaluate(patch, t, theta) for t in limits], axis=1)
     joined = np.flatnonzero(part[1:] == part[:-1])
-    return Strips(ids, part, theta + turn[part], np.stack(limits, axis=1), points, joined)
+    return Strips(ids, part, theta + turn[part], np.stack(limits, axis=1), shares, points, joined)
 
 
 def step_for(boundary: BoundaryRecord, rows: int, limits: tuple[float, float]) -> float:

@@ -10,6 +10,7 @@ reference point, as a shape of its own, meets the complement of `bounds`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,7 @@ import cfree._core as _core
 from cfree.errors import UnsupportedError
 from cfree.libraries import ArrayLike, Floats, Int32s, NDArray, np
 from cfree.scene.core_shapes import core_shapes
+from cfree.scene.rounded import Cores, rounded_shapes, why_not_rounded
 from cfree.value import kept
 
 if TYPE_CHECKING:
@@ -44,9 +46,11 @@ class ShapeFeatures:
         Common denominator of all coordinates.
     """
 
-    def __init__(self, core: _core.Shape, near: _core.Shape, owners: _core.Owners, scale: int) -> None:
+    def __init__(
+        self, core: _core.Shape, near: _core.Shape, owners: _core.Owners, scale: int, radii: Sequence[float] = ()
+    ) -> None:
         self.core, self.scale = core, scale
-        self._near, self._owners = near, owners
+        self._near, self._owners, self._radii = near, owners, radii
 
     @cached_property
     def xy(self) -> Floats:
@@ -84,6 +88,15 @@ class ShapeFeatures:
         return self._owners.vertex
 
     @cached_property
+    def radius(self) -> Floats:
+        """Radius (r,) by which each vertex is grown, in the user's units."""
+        radius = np.zeros(len(self.previous))
+        if self._radii:
+            own = self.owner_polygon >= 0
+            radius[own] = np.array(self._radii)[self.owner_polygon[own]]
+        return radius
+
+    @cached_property
     def vertices(self) -> tuple[Point, ...]:
         """The vertices times `scale`."""
         return self.core.vertices
@@ -95,11 +108,14 @@ class ShapeFeatures:
 
     @cached_property
     def turning(self) -> NDArray[np.float64]:
-        """Pi minus the interior angle, radians, (r,)."""
+        """Pi minus the interior angle, radians, (r,): pi at the ends of a segment, 2 pi at a point."""
         edges = self.near[self.w] - self.near[self.v]
         before, after = edges[self.previous], edges[: len(self.previous)]
         cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-        turning: NDArray[np.float64] = np.arctan2(cross, (before * after).sum(axis=1))
+        dot = (before * after).sum(axis=1)
+        turning: NDArray[np.float64] = np.arctan2(cross, dot)
+        turning[(cross == 0) & (dot < 0)] = np.pi
+        turning[~after.any(axis=1)] = 2 * np.pi
         return turning
 
 
@@ -127,11 +143,13 @@ class SceneFeatures:
     made: _core.SceneFeatures
 
     @classmethod
-    def of(cls, made: _core.SceneFeatures) -> SceneFeatures:
-        """Wrap the features that the core has made of a scene."""
+    def of(
+        cls, made: _core.SceneFeatures, robot_radii: Sequence[float] = (), obstacle_radii: Sequence[float] = ()
+    ) -> SceneFeatures:
+        """Wrap the features that the core has made of a scene; with radii if its shapes are grown."""
         core, scale = made.scene, made.scene.scale
-        robot = ShapeFeatures(core.robot, core.near.robot, made.robot, scale)
-        obstacles = ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale)
+        robot = ShapeFeatures(core.robot, core.near.robot, made.robot, scale, robot_radii)
+        obstacles = ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale, obstacle_radii)
         return cls(robot, obstacles, core, scale, made.rim, made)
 
     @property
@@ -168,8 +186,38 @@ def branch_bits(code: int) -> int:
 
 
 def scene_features(scene: Scene) -> SceneFeatures:
-    """Number the features of a scene for the core; the scene caches the result."""
+    """Number the features of a scene of polygons for the core; the scene caches the result."""
     return kept(scene, _numbered)
+
+
+def grown_features(scene: Scene) -> SceneFeatures:
+    """Number the features of a scene of rounded shapes: those of their cores, with radii.
+
+    Raises
+    ------
+    UnsupportedError
+        If a shape is not rounded, or parts of the robot have different radii; the message names the shape.
+    """
+    return kept(scene, _grown) if scene.curved else scene_features(scene)
+
+
+def _grown(scene: Scene) -> SceneFeatures:
+    shapes = rounded_shapes(scene)
+    if shapes is None:
+        raise UnsupportedError(why_not_rounded(scene))
+    return features_of_cores(shapes, scene)
+
+
+def features_of_cores(cores: Cores, scene: Scene) -> SceneFeatures:
+    """Number the features of grown cores in the workspace and the bounds of a scene."""
+    radii = [cores.robot[0].radius, *(shape.radius for shape in cores.obstacles)]
+    robot, obstacles = ([shape.handle for shape in shapes] for shapes in (cores.robot, cores.obstacles))
+    _, _, workspace, bounds = core_shapes((), (), scene.workspace, scene.bounds)
+    made = _core.SceneFeatures(robot, obstacles, workspace, bounds, None, radii)
+    of_robot, *of_obstacles = map(float, radii)
+    features = SceneFeatures.of(made, [of_robot] * len(robot), of_obstacles or [0.0])
+    refuse_too_many(features)
+    return features
 
 
 def _numbered(scene: Scene) -> SceneFeatures:

@@ -127,6 +127,38 @@ def _direction(piece: Piece, *, at_end: bool) -> ExactPoint:
     return -piece.sense * y, piece.sense * x
 
 
+def core_rings(shape: AnyShape) -> Sequence[int]:
+    """Return where the rings of a rounded shape's core begin among its vertices, and their end."""
+    if isinstance(shape, Polygon):
+        return shape.ring_offsets
+    found = rounded(shape)
+    assert found is not None, "the scene has rounded shapes"
+    return found.core.ring_offsets if isinstance(found.core, Polygon) else (0, len(found.core))
+
+
+def why_not_rounded(scene: Scene) -> str:
+    """Explain which shape keeps a scene from being one of rounded shapes, and what to do.
+
+    Examples
+    --------
+    >>> from cfree.scene.scene import Scene
+    >>> print(why_not_rounded(Scene(Curved.circle((0, 0), 1), [Curved.ellipse((3, 0), (1, 2))])))
+    obstacle 0: not a polygon, segment or point grown by a rational radius; ...
+    """
+    remedy = "give scene.outer(error) or scene.inner(error), on the command line what cfree convert --outer writes"
+    if isinstance(scene.workspace, Curved):
+        return f"workspace: round; give it as a polygon, or {remedy}"
+    names = [f"robot[{k}]" if len(scene.robot) > 1 else "robot" for k in range(len(scene.robot))]
+    for name, shape in zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True):
+        if rounded(shape) is None:
+            return f"{name}: not a polygon, segment or point grown by a rational radius; {remedy}"
+    radii = [part.radius for shape in scene.robot if (part := rounded(shape))]
+    other = next(k for k, radius in enumerate(radii) if radius != radii[0])
+    return (
+        f"robot[{other}]: grown by {radii[other]}, and robot[0] by {radii[0]}; give its parts one radius, or {remedy}"
+    )
+
+
 def rounded_shapes(scene: Scene) -> Cores | None:
     """Return the cores of a scene's robot and obstacles; None if a shape is not rounded."""
     if isinstance(scene.workspace, Curved):

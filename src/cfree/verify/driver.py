@@ -115,6 +115,7 @@ def _verified(
     stored = read_boundary(boundary) if isinstance(boundary, (str, os.PathLike)) else boundary
     if (finding := _unfit(stored, scene)) is not None:
         return Verification((), (finding,), (), time.perf_counter() - begin)
+    stored.require_polygons("verify.boundary")
     contacts = stored.contact_kind, stored.contact_robot, stored.contact_obstacle
     reader = Reader(stored.scene, contacts, stored.trapezoids, stored.isolated)
     count, parts = len(stored.trapezoids), len(stored.isolated)

@@ -65,7 +65,7 @@ def picture(value: object) -> str | None:
         case Separated() | Stuck() | Unreachable() | AllSeparated():
             return _apart(value)
         case Slice():
-            panel = _plane(value.boundary.scene, WIDTH, HEIGHT)
+            panel = _plane(smooth(value.boundary.scene), WIDTH, HEIGHT)
             _draw_slice(panel, value)
             _draw_inside(panel, value, words=True)
             return drawing([panel], WIDTH, HEIGHT, repr(value))
@@ -218,19 +218,28 @@ def _draw_slice(panel: Panel, cut: Slice, colour_of: NDArray[np.int64] | None = 
     points = xy.reshape(-1, 2)
     rings = [points[i:j] for i, j in pairwise(start)]
     panel.shapes(rings, FORBIDDEN, frame=bool((shell == -1).any()))
-    scene = cut.boundary.scene
+    scene = smooth(cut.boundary.scene)
     panel.shapes(_rings(scene.obstacles), OBSTACLE)
     if scene.workspace is not None:
         panel.shapes(scene.workspace.rings, OUTLINE)
     if colour_of is None:
         kinds = cut.boundary.patch_kind[cut.patches]
         for kind, colour in COLOURS.items():
-            panel.segments(cut.segments[kinds == kind], f'stroke="{colour}" stroke-width="14"')
+            panel.segments(_segments(cut, kinds == kind), f'stroke="{colour}" stroke-width="14"')
     else:
         cells = colour_of[cut.trapezoids]
         for cell in np.unique(cells[cells >= 0]).tolist():
             style = f'stroke="{CELLS[cell % len(CELLS)]}" stroke-width="18"'
-            panel.segments(cut.segments[cells == cell], style)
+            panel.segments(_segments(cut, cells == cell), style)
+
+
+def _segments(cut: Slice, chosen: NDArray[np.bool_]) -> Floats:
+    """Return the parts of some contacts, (n, 2, 2); arcs have several."""
+    if not cut.boundary.scene.curved:
+        return cut.segments[chosen]
+    lines = [cut.lines[k] for k in np.flatnonzero(chosen)]
+    parts = [np.stack((line[:-1], line[1:]), axis=1) for line in lines]
+    return np.concatenate([np.empty((0, 2, 2)), *parts])
 
 
 def _draw_inside(panel: Panel, cut: Slice, *, words: bool) -> None:
@@ -238,7 +247,7 @@ def _draw_inside(panel: Panel, cut: Slice, *, words: bool) -> None:
     pose = roomiest(cut, panel.window) if len(cut.segments) <= FINEST else None
     if pose is None:
         return
-    scene = cut.boundary.scene
+    scene = smooth(cut.boundary.scene)
     rings = [pose.apply(ring) for ring in _rings(scene.robot)]
     panel.shapes(rings, END)
     place = pose.apply(np.zeros((1, 2)))
@@ -258,7 +267,7 @@ def _slices(boundary: Boundary, space: FreeSpace | None, caption: str, only: int
         cells = np.where(cells == only, cells, -1)
     width, height, panels = WIDTH / 3, 190.0, []
     for k, angle in enumerate(PANELS):
-        panel = _plane(boundary.scene, width - 8, height - 24, k % 3 * width + 4, k // 3 * height + 20)
+        panel = _plane(smooth(boundary.scene), width - 8, height - 24, k % 3 * width + 4, k // 3 * height + 20)
         cut = boundary.slice(f"{angle}deg")
         _draw_slice(panel, cut, cells)
         _draw_inside(panel, cut, words=False)

@@ -65,4 +65,13 @@ struct CoreUnits {
     Vec<T> edge(const Shape& s, Index e) const { return cfree::edge<T>(s, e); }
 };
 
+// Sum of the radii of a contact's two features, in the scene's doubles; 0 among polygons.
+inline double sum_of_radii(const Scene& scene, const Feature& contact) {
+    if (!scene.is_round) return 0;
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index a = contact.kind == Kind::edge_vertex ? A.v[contact.robot] : contact.robot;
+    const Index b = contact.kind == Kind::vertex_edge ? O.v[contact.obstacle] : contact.obstacle;
+    return A.radii[A.vertex_radius[a]].about.hi + O.radii[O.vertex_radius[b]].about.hi;
+}
+
 }  // namespace cfree

@@ -16,10 +16,17 @@ public:
     struct Segments {
         std::vector<double> xy;         // x0, y0, x1, y1: forbidden on the left
         std::vector<Index> trapezoid;
+        struct Arc {
+            Vec<double> centre;
+            double radius = 0, from = 0, to = 0;  // angles; a radius of 0 is a straight segment
+        };
+        std::vector<Arc> arcs;          // empty among polygons
     };
     Segments segments(int chart, double tau) const;
 
-    // Closed outlines, forbidden on the left: counter-clockwise around a part, clockwise around a hole in it.
+    // Closed outlines, forbidden on the left: counter-clockwise around a part, clockwise around a hole in it. Arcs have chords over
+    // at most this angle, in radians.
+    static constexpr double chord = 0.02;
     struct Rings {
         std::vector<double> xy;
         std::vector<Index> start;  // first point of each ring, and the end
@@ -40,11 +47,12 @@ private:
 
     struct Name {  // name of a point of the outline: its helix, or the two surfaces that meet there
         Code first, second;
-        bool operator==(const Name& o) const { return first == o.first && second == o.second; }
+        int branch = 0;
+        bool operator==(const Name& o) const { return first == o.first && second == o.second && branch == o.branch; }
     };
     struct Hash {
         std::size_t operator()(const Name& x) const {
-            return (x.first * 0x9e3779b97f4a7c15u) ^ ((x.second + 0x7f4a7c15u) * 0xc2b2ae3d27d4eb4fu);
+            return (x.first * 0x9e3779b97f4a7c15u) ^ ((x.second + 0x7f4a7c15u) * 0xc2b2ae3d27d4eb4fu) ^ static_cast<std::size_t>(x.branch);
         }
     };
     Name end_name(Index trapezoid, std::uint64_t curve) const;

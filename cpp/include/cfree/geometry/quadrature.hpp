@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+
+#include "cfree/support/elementary.hpp"
 
 namespace cfree {
 
@@ -27,6 +30,15 @@ double over_nodes(const F& f, double from, double to) {
     double sum = 0;
     for (int k = 0; k < gauss_legendre::count; ++k) sum += gauss_legendre::weights[k] * half * f(from + half * (1 + gauss_legendre::nodes[k]));
     return sum;
+}
+
+// f over an interval as a function on [0, 1], for integrands that begin or end like square roots, as curves of circles do.
+template <class F>
+auto over_roots(const F& f, double from, double to) {
+    return [&f, half = 0.5 * (to - from), middle = 0.5 * (from + to)](double x) {
+        const auto [c, s] = cosine_sine(std::numbers::pi * x);
+        return half * std::numbers::pi * s * f(middle - half * c);
+    };
 }
 
 // Halving may change at most `close` of `one` or of the value; `coarse` is the integral by all nodes over the interval.

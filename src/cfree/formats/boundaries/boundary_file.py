@@ -36,6 +36,7 @@ def save_boundary(
     """Write a boundary, with its cells if given; equal boundaries give equal files. Parquet holds the trapezoids."""
     from cfree.formats.scene_file import scene_text
 
+    boundary.require_polygons("a boundary file")
     if check_boundary_path(path) == ".parquet":
         if cells:
             raise UnsupportedError(f"{os.fspath(path)}: cells are written as .npz only; name the file so")

@@ -39,11 +39,11 @@ def slice_geojson(cut: Slice) -> dict[str, Any]:
     region = shapely.geometry.mapping(shapely.orient_polygons(cut.forbidden))
     features = [_feature(region, role="forbidden", theta=cut.theta)]
     patches = Patches(cut.boundary)
-    for ends, k in zip(cut.segments.tolist(), cut.patches.tolist(), strict=True):
+    for ends, k in zip(cut.lines, cut.patches.tolist(), strict=True):
         patch = patches[k]
         features.append(
             _feature(
-                {"type": "LineString", "coordinates": ends},
+                {"type": "LineString", "coordinates": ends.tolist()},
                 role="contact",
                 patch=k,
                 kind=patch.kind,
