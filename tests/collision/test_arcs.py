@@ -358,13 +358,13 @@ def test_searches_take_arcs_as_their_test_of_motions() -> None:
     features = scene_features(scene.outer(0.01))
     known = _core.KnownScene(features.made, _core.MotionChecker(features.core, arcs(scene).motions))
     ends = [end_of(pose) for pose in (Pose(-15, 0), Pose(15, 0))]
-    searcher = _core.Searcher(known, [place for _, place in ends], (2.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
+    searcher = _core.Searcher(known, [place for _, place in ends], (2.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0), None)
     shortener = searcher.shortener([*ends], 0)
     assert shortener.length() == 30
     shortener.merge()
     assert len(shortener.path()) == 2
     start, goal = [end_of(pose) for pose in (Pose(-15, 2), Pose(-15, -2, 2.0))]
-    free = _core.Searcher(known, [start[1], goal[1]], (2.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
+    free = _core.Searcher(known, [start[1], goal[1]], (2.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0), None)
     search, way = free.search(start, goal, 0), []
     for _ in range(50):
         if way := search.run(200):

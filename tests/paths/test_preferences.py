@@ -81,7 +81,7 @@ def test_the_core_and_the_report_count_the_same() -> None:
         costs = math.hypot(2, 0.5), *preferences.factors
         ends = [*map(end_of, poses)]
         known = known_scene(MotionChecker(scene))
-        searcher = Searcher(known, [place for _, place in ends], costs, (0.0, 0.0, 0.0))
+        searcher = Searcher(known, [place for _, place in ends], costs, (0.0, 0.0, 0.0), None)
         path = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)])
         core = searcher.shortener(ends, 0).length()
         assert preferences.cost(path, scene) == pytest.approx(core, rel=1e-9)
@@ -89,7 +89,7 @@ def test_the_core_and_the_report_count_the_same() -> None:
         x, y, angle = rng.uniform(-2, 2, 3).tolist()
         inverse = Pose(x, y, angle).inverse()
         robot = [end_of(pose @ inverse) for pose in poses]
-        at_axle = Searcher(known, [place for _, place in robot], costs, (x, y, angle))
+        at_axle = Searcher(known, [place for _, place in robot], costs, (x, y, angle), None)
         assert at_axle.shortener(robot, 0).length() == pytest.approx(core, rel=1e-9)
 
 

@@ -14,11 +14,10 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import count
 
-import numpy as np
-
 import cfree._core as _core
 from cfree.exact.pose import Pose
 from cfree.forbidden.columns import COLUMNS, Ints, Trapezoids
+from cfree.libraries import np
 from cfree.planning.options import Options
 from cfree.planning.separation import Pieces, Separated
 from cfree.scene.features import SceneFeatures, features_of_cores
