@@ -7,7 +7,7 @@ larger. docs/theory/separations.md has the proof that this suffices.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -22,14 +22,13 @@ APART = 1 << 16  # times `near`: places farther from each other are two
 
 
 class Arc(NamedTuple):
-    """A part of a side along a curve, between two angles that follow each other."""
+    """A side along a curve, or a part of it between two angles."""
 
     piece: int
     curve: Curve
     chart: int
     start: int
     stop: int
-    place: Place  # at an angle half-way
 
 
 class Level(NamedTuple):
@@ -77,40 +76,56 @@ def same_place(p: Place, q: Place, near: arb) -> bool:
 
 def _loose_curves(pieces: Sequence[Piece], scale: Scale) -> Iterator[tuple[str, list[int]]]:
     sides = defaultdict(list)
+    cuts: dict[Any, set[int]] = defaultdict(set)
     for piece in pieces:
         for number, curve in enumerate((piece.lower, piece.upper)):
-            sides[curve.key, piece.chart].append((piece, curve, piece.touches[number]))
+            key = curve.key, piece.chart
+            sides[key].append(Arc(piece.number, curve, piece.chart, piece.start, piece.stop))
+            cuts[key].update((piece.start, piece.stop, *piece.touches[number]))
     left: list[Arc] = []
-    for group in sides.values():
-        cuts = {angle for piece, _, touches in group for angle in (piece.start, piece.stop, *touches)}
-        for start, stop in _steps(cuts, scale):
-            arcs = [_arc(p, curve, start, stop, scale) for p, curve, _ in group if _holds(p, start, stop)]
-            left += _odd(arcs, scale)
+    for key, group in sides.items():
+        for arcs, turn in _cut(group, cuts[key], scale):
+            left += _odd(arcs, turn, scale)
     yield from _loose_ties(left, scale)
 
 
-def _steps(cuts: Iterable[int], scale: Scale) -> Iterator[tuple[int, int]]:
-    return pairwise(sorted(set(merged(cuts, scale).values())))
+def _cut(arcs: Sequence[Arc], cuts: Iterable[int], scale: Scale) -> Iterator[tuple[list[Arc], Turn]]:
+    """Parts of arcs of one chart between angles that follow each other, and an angle half-way.
+
+    An arc that goes on through such an angle leaves out a part, around it, that must be short.
+    """
+    one = merged(cuts, scale)
+    for start, stop in pairwise(sorted(set(one.values()))):
+        there = [arc for arc in arcs if arc.start <= start + 16 and stop <= arc.stop + 16]
+        for arc in there:
+            if arc.start < start - 16:
+                tau = scale.tau(start) + arb(0, scale.tau(2 * scale.step))
+                if not all(c.rad() < scale.near for c in arc.curve.point(Turn.of(arc.chart, tau))):
+                    raise UndecidedError("a side that goes on through an angle")
+        if there:
+            parts = [arc._replace(start=start, stop=stop) for arc in there]
+            yield parts, scale.turn(there[0].chart, (start + stop) // 2)
 
 
-def _holds(x: Piece | Arc, start: int, stop: int) -> bool:
-    return x.start <= start + 16 and stop <= x.stop + 16
-
-
-def _arc(x: Piece | Arc, curve: Curve, start: int, stop: int, scale: Scale) -> Arc:
-    turn = scale.turn(x.chart, (start + stop) // 2)
-    return Arc(x.number if isinstance(x, Piece) else x.piece, curve, x.chart, start, stop, curve.point(turn))
-
-
-def _odd(arcs: list[Arc], scale: Scale) -> list[Arc]:
+def _odd(arcs: Sequence[Arc], turn: Turn, scale: Scale) -> list[Arc]:
     """One arc of each odd number that are in one place half-way: of one name, they are one everywhere."""
-    left: list[Arc] = []
+    return [arc for arc, _ in _pairs(arcs, turn, scale, lambda one, two: True)]
+
+
+def _pairs(
+    arcs: Sequence[Arc], turn: Turn, scale: Scale, are_one: Callable[[Arc, Arc], bool]
+) -> list[tuple[Arc, Place]]:
+    """Arcs that are left over if any two in one place are taken away."""
+    left: list[tuple[Arc, Place]] = []
     for arc in arcs:
-        k = next((k for k, other in enumerate(left) if same_place(arc.place, other.place, scale.near)), None)
+        place = arc.curve.point(turn)
+        k = next((k for k, (_, other) in enumerate(left) if same_place(place, other, scale.near)), None)
         if k is None:
-            left.append(arc)
+            left.append((arc, place))
+        elif are_one(arc, left.pop(k)[0]):
+            continue
         else:
-            del left[k]
+            raise UndecidedError(f"sides of piece {arc.piece} and of another meet, at least at one angle")
     return left
 
 
@@ -118,20 +133,13 @@ def _loose_ties(left: list[Arc], scale: Scale) -> Iterator[tuple[str, list[int]]
     """Arcs that have a partner of another name, as three surfaces meet at all angles; the others are loose."""
     for chart in (0, 1):
         arcs = [arc for arc in left if arc.chart == chart]
-        for start, stop in _steps({angle for arc in arcs for angle in (arc.start, arc.stop)}, scale):
-            there = [_arc(arc, arc.curve, start, stop, scale) for arc in arcs if _holds(arc, start, stop)]
-            waiting: list[Arc] = []
-            for arc in there:
-                turn = scale.turn(chart, (start + stop) // 2)
-                k = next((k for k, other in enumerate(waiting) if same_place(arc.place, other.place, scale.near)), None)
-                if k is None:
-                    waiting.append(arc)
-                    continue
-                other = waiting.pop(k)
-                if not _is_one(arc.curve, other.curve, turn, scale):
-                    raise UndecidedError(f"sides of pieces {arc.piece} and {other.piece} meet, at least at one angle")
-            for arc in waiting:
-                yield f"a curve at tau = {float(scale.tau((start + stop) // 2)):.9g}, chart {chart}", [arc.piece]
+        for there, turn in _cut(arcs, {angle for arc in arcs for angle in (arc.start, arc.stop)}, scale):
+
+            def are_one(one: Arc, two: Arc, at_angle: Turn = turn) -> bool:
+                return _is_one(one.curve, two.curve, at_angle, scale)
+
+            for arc, _ in _pairs(there, turn, scale, are_one):
+                yield f"a curve at tau = {float(turn.tau.mid()):.9g}, chart {chart}", [arc.piece]
 
 
 def _is_one(one: Curve, two: Curve, turn: Turn, scale: Scale) -> bool:

@@ -232,45 +232,65 @@ class Reader:
 
     def _stays(self, curve: Curve, chart: int, start: int, stop: int) -> list[int]:
         """Prove that a curve exists and is on its patch between two angles. Return where its branches meet."""
-        scale, (lo, hi) = self.scale, (start + self.scale.step, stop - self.scale.step)
-        below, above = scale.tau(lo), scale.tau(hi)
-        roots, touches, is_permanent = [], [], False
+        scale = self.scale
+        below, above = scale.tau(start + scale.step), scale.tau(stop - scale.step)
+        roots, touches = list[arb](), list[int]()
+        always: list[bool] = []  # limits, then existence: True if zero at every angle
         for made, is_end in ((curve.limits, False), (curve.existence, True)):
             for number, form in enumerate(made(BALLS)):
-                found = quadratic_roots(form, chart)
-                if found is None:
-                    exact = made(SURDS)[number]
-                    if not exact.is_zero:
-                        raise UndecidedError("a form that may vanish at every angle")
-                    is_permanent |= is_end
-                    continue
-                for root in found:
-                    if not (root < below or root > above):
-                        roots.append(root)
-                        touches += [scale.integer(root)] * is_end
+                zeros = quadratic_roots(form, chart)
+                always.append(zeros is None)
+                if zeros is None and not made(SURDS)[number].is_zero:
+                    raise UndecidedError("a form that may vanish at every angle")
+                inside = [root for root in zeros or () if not (root < below or root > above)]
+                roots += inside
+                touches += [scale.integer(root) for root in inside if is_end]
         roots.sort(key=scale.integer)
-        end = below
+        last = below
         for root in [*roots, above]:
-            if end < root:
-                middle = ((end + root) / 2).mid()
-                self._is_on(curve, Turn.of(chart, middle), is_permanent)
-            if root is not above:
-                self._is_on(curve, Turn.of(chart, root), True)
-            end = root
+            if last < root:
+                self._is_inside(curve, Turn.of(chart, ((last + root) / 2).mid()), always)
+            if root is not above and not self._is_near(curve.place(Turn.of(chart, root)), curve):
+                raise Fault("a curve leaves its patch")
+            last = root
         return touches
 
-    def _is_on(self, curve: Curve, turn: Turn, may_touch: bool) -> None:
-        """Prove that a curve exists and is on its patch, within `near`."""
-        if curve.square is not None and not may_touch and not curve.square(turn) > 0:
+    def _is_inside(self, curve: Curve, turn: Turn, always: list[bool]) -> None:
+        """Prove that a curve exists and is on its patch, at an angle and so up to the next zero of a form.
+
+        Notes
+        -----
+        Where the forms of its limits are not zero it is not at an end. If such a form is zero at every angle, one
+        branch is at that end always; it is this one if the other is not there.
+        """
+        if curve.square is not None and not any(always[2:]) and not curve.square(turn) > 0:
             raise Fault("a curve that does not exist between its angles")
-        near, place = self.scale.near, curve.place(turn)
+        place = curve.place(turn)
+        if not always:  # a joint, or the end of a quadrant
+            if not self._is_near(place, curve):
+                raise Fault("a curve leaves its patch")
+            return
+        other = Curve(curve.on, curve.quadrant, curve.other, -curve.branch).place(turn) if any(always[:2]) else place
+        for rest, rest_of_other, is_zero in zip(
+            self._rests(place, curve), self._rests(other, curve), always, strict=False
+        ):
+            is_there = is_zero and abs(rest) < self.scale.near
+            if is_there and curve.branch and not any(always[2:]) and not abs(rest_of_other) > self.scale.near:
+                raise UndecidedError("two branches at the end of a patch")
+            if not is_there and not rest > 0:
+                raise Fault("a curve leaves its patch")
+
+    def _is_near(self, place: Any, curve: Curve) -> bool:
+        """True if a place is on its patch, or hardly beyond its ends."""
+        return all(rest > -self.scale.near for rest in self._rests(place, curve))
+
+    def _rests(self, place: Any, curve: Curve) -> tuple[arb, arb]:
+        """Numbers that are positive before, and after, the two ends of a patch."""
         if curve.on.edge is not None:
-            is_on = place > -near and place < BALLS.length(curve.on) + near
-        else:
-            ends = AXES[curve.quadrant], AXES[(curve.quadrant + 1) % 4]
-            is_on = all(place[0] * arb(e[0]) + place[1] * arb(e[1]) > -near for e in ends)
-        if not is_on:
-            raise Fault("a curve leaves its patch")
+            return place, BALLS.length(curve.on) - place
+        start, stop = AXES[curve.quadrant], AXES[(curve.quadrant + 1) % 4]
+        after, before = (place[0] * arb(e[0]) + place[1] * arb(e[1]) for e in (stop, start))
+        return after, before
 
 
 def unpacked(code: int) -> tuple[int, int, int, int]:

@@ -308,8 +308,8 @@ class Curve:
             v, over = _along(y), f.length(y)
             coordinates = [f.trig(dot(quarter(v), (e, NIL))) for e in AXES[:2]]
             return lambda turn: tuple(-c.at(turn) / over for c in coordinates)
-        n = f.normal(x, y)
-        parts = [f.trig(dot(n, (e, NIL))) for e in AXES[:2]]
+        toward = f.normal(x, y)
+        parts = [f.trig(dot(toward, (e, NIL))) for e in AXES[:2]]
         delta, rho = f.delta(x, y), f.radius(x)
         square = None if y.edge is None else f.radius(x) * arb(y.square)
 
