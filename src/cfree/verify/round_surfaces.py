@@ -88,8 +88,8 @@ class Surface:
         return (self.a[0] + k * g[0], self.a[1] + k * g[1]), (self.b[0] + k * f[0], self.b[1] + k * f[1])
 
     def joint_end(self, circle: Surface) -> int | None:
-        """End of a line whose vertices are those of a circle: both touch in a joint at every angle."""
-        if self.edge is None or circle.edge is not None:
+        """End of a line whose vertices and radius are those of a circle: both touch in a joint at every angle."""
+        if self.edge is None or circle.edge is not None or self.radius != circle.radius:
             return None
         return next((k for k in (0, 1) if self.end(k) == (circle.a, circle.b)), None)
 
