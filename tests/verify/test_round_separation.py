@@ -343,18 +343,8 @@ def test_a_core_is_known_by_the_rim_of_its_shape() -> None:
     shape = Curved([(0, 0), (4, 0), Arc((4, 2), center=(4, 1)), (0, 2), Arc((0, 0), center=(0, 1))])
     assert largest_radius(ends, shape) == largest_radius(ends[::-1], shape) == 1
     assert largest_radius(((F(4), F(1)), (F(1), F(1))), shape) is None
-    soft = Curved(
-        [
-            (1, 0),
-            (3, 0),
-            Arc((4, 1), center=(3, 1)),
-            (4, 2),
-            Arc((3, 3), center=(3, 2)),
-            (1, 3),
-            Arc((0, 2), center=(1, 2)),
-        ]
-        + [(0, 1), Arc((1, 0), center=(1, 1))]
-    )
+    upper = [(4, 2), Arc((3, 3), center=(3, 2)), (1, 3), Arc((0, 2), center=(1, 2))]
+    soft = Curved([(1, 0), (3, 0), Arc((4, 1), center=(3, 1)), *upper, (0, 1), Arc((1, 0), center=(1, 1))])
     square = Polygon([(1, 1), (3, 1), (3, 2), (1, 2)])
     assert largest_radius(square, soft) == 1
     assert largest_radius(Polygon([(1, 1), (3, 1), (3, 2)]), soft) is None
