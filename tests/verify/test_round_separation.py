@@ -358,3 +358,19 @@ def test_a_robot_of_the_scene_s_radius_is_no_smaller_shape() -> None:
     found = list(round_separation_findings(replace(proof, radius=robot_radius(scene)), scene))
     assert [finding.kind for finding in found] == ["smaller shapes"]
     assert "strictly" in found[0].text
+
+
+def test_names_without_sense_are_findings() -> None:
+    scene, rng = SCENES["stadium about a disc"], random.Random(3)
+    (proof,) = surfaces(scene, robot_radius(scene) - HAIR)
+    true = replace(proof, start=start_of(proof, scene))
+    for name in ("lower", "upper", "from_first", "from_second", "to_first", "to_second"):
+        values = getattr(true.table, name)
+        for kind in range(8):
+            code = np.uint64(kind << 61 | rng.randrange(4) << 59 | rng.randrange(3) << 31 | rng.randrange(3))
+            k = rng.randrange(len(true))
+            kinds(column(true, **{name: put(values, k, code)}), scene)  # no other error
+            assert kinds(column(true, **{name: put(values, k, code | np.uint64(1 << 20))}), scene)
+    for end in ("lo", "hi"):
+        for number in (np.nan, np.inf, -3.0):
+            assert kinds(column(true, **{f"to_{end}": put(getattr(true.table, f"to_{end}"), 2, number)}), scene)

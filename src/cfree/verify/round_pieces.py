@@ -96,6 +96,12 @@ class Reader:
         return _rational(total)
 
     def _surface(self, kind: int, i: int, j: int) -> Surface:
+        surface = self._named(kind, i, j)
+        if surface.edge is not None and surface.square == 0:
+            raise Fault("an edge without length")
+        return surface
+
+    def _named(self, kind: int, i: int, j: int) -> Surface:
         proof = self.proof
         if kind == VERTEX_EDGE:
             v, w = proof.obstacle_features.edges[j]

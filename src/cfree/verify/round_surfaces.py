@@ -198,6 +198,8 @@ class Forms:
         def poly(f: Trig) -> Polynomial:
             return self.of.poly(f.coefficients(chart))
 
+        if len({x.key, y.key, z.key}) < 3:
+            raise Fault("an angle at which a surface meets itself")
         for line, circle, on in permutations((x, y, z)):
             if line.joint_end(circle) is not None:
                 return poly(self.joint(line, circle, on))
