@@ -106,6 +106,16 @@ TIES: dict[str, tuple[Scene, Fraction]] = {
         Scene(disc(0, 0, "1/5"), [disc(0, 0, "39/10"), disc(-3, 0, "49/10"), disc(3, 0, "49/10")]),
         F(1, 10),
     ),
+    "edges of two radii on one offset line": (
+        Scene(
+            Curved([(1, 1), (0, 1), (-1, 0), (1, -1)], grown="101/1000"),
+            [
+                Curved([(-2, 0), (-3, 0), (-4, -1), (-3, -2), (-2, -2)], grown="1/2"),
+                rectangle("1/2", "1/2", -3, 0),
+            ],
+        ),
+        F(1, 10),
+    ),
     "slit": (Scene(disc(0, 0, "3/10"), [SQUARE, rectangle("1/2", "1/2", "3/2")]), F(1, 4)),
 }
 
@@ -333,6 +343,25 @@ def test_every_mutation_of_a_surface_with_ties_is_found(name: str) -> None:
             if change in ("a radius of the scene", "a larger radius", "start is goal"):
                 continue
             assert kinds(mutant, scene) - {"two sides"}, f"{change}, piece {k}"
+
+
+def test_half_of_a_surface_is_open_at_the_ends_of_a_chart() -> None:
+    scene, radius = TIES["lattice of discs"]
+    for proof in surfaces(scene, radius):
+        half = rows(proof, np.flatnonzero(proof.table.chart == 0))
+        found = [str(finding) for finding in round_separation_findings(half, scene)]
+        assert any("a side at tau = " in text for text in found)
+
+
+def test_a_curve_beyond_its_patch_or_without_a_point_is_found() -> None:
+    scene = SCENES["slanted triangle, irrational lengths"]
+    texts = set[str]()
+    for proof in surfaces(scene, robot_radius(scene) - HAIR):
+        curves = np.concatenate([proof.table.lower, proof.table.upper])
+        for k in range(len(proof)):
+            wrong = column(proof, upper=put(proof.table.upper, k, curves[(7 * k + 3) % len(curves)]))
+            texts |= {finding.text for finding in round_separation_findings(rows(wrong, np.array([k])), scene)}
+    assert {"a curve leaves its patch", "a curve that does not exist between its angles"} <= texts
 
 
 # --- smaller shapes ---

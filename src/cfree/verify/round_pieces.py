@@ -162,7 +162,9 @@ class Reader:
         is_smooth = on.joint_end(other) is not None or other.joint_end(on) is not None
         needs = (on.edge is None or other.edge is None) and not is_smooth
         if needs and branch not in (-1, 1):
-            raise Fault("a curve without a branch")
+            touching = Curve(on, quadrant, other, 1).existence(SURDS)
+            if branch != 0 or not any(form.is_zero for form in touching):  # one point at every angle has no branch
+                raise Fault("a curve without a branch")
         return Curve(on, quadrant, other, branch if needs else 0)
 
     # --- angles ---
