@@ -286,7 +286,7 @@ class Reader:
             if is_there and curve.branch and not any(always[2:]) and not abs(rest_of_other) > self.scale.near:
                 raise UndecidedError("two branches at the end of a patch")
             if not is_there and not rest > 0:
-                raise Fault("a curve leaves its patch")
+                raise Fault("a curve is beyond an end of its patch")
 
     def _is_near(self, place: Any, curve: Curve) -> bool:
         """True if a place is on its patch, or hardly beyond its ends."""
