@@ -349,8 +349,8 @@ def test_half_of_a_surface_is_open_at_the_ends_of_a_chart() -> None:
     scene, radius = TIES["lattice of discs"]
     for proof in surfaces(scene, radius):
         half = rows(proof, np.flatnonzero(proof.table.chart == 0))
-        found = [str(finding) for finding in round_separation_findings(half, scene)]
-        assert any("a side at tau = " in text for text in found)
+        findings = [str(finding) for finding in round_separation_findings(half, scene)]
+        assert any("a side at tau = " in text for text in findings)
 
 
 def test_a_curve_beyond_its_patch_or_without_a_point_is_found() -> None:
@@ -385,9 +385,9 @@ def test_a_core_is_known_by_the_rim_of_its_shape() -> None:
 def test_a_robot_of_the_scene_s_radius_is_no_smaller_shape() -> None:
     scene = SCENES["stadium about a disc"]
     (proof,) = surfaces(scene, robot_radius(scene) - HAIR)
-    found = list(round_separation_findings(replace(proof, radius=robot_radius(scene)), scene))
-    assert [finding.kind for finding in found] == ["smaller shapes"]
-    assert "strictly" in found[0].text
+    findings = list(round_separation_findings(replace(proof, radius=robot_radius(scene)), scene))
+    assert [finding.kind for finding in findings] == ["smaller shapes"]
+    assert "strictly" in findings[0].text
 
 
 def test_names_without_sense_are_findings() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import pairwise
+from math import isqrt
 from typing import Any
 
 from flint import fmpq
@@ -71,7 +72,7 @@ def _rim_radius(core: Core, shape: Curved) -> Fraction | None:
             square = _dot(part.u, part.u)
             if square != _dot(part.v, part.v) or _dot(part.u, part.v) != 0:
                 return None
-            root = fmpq(_isqrt(int(square.p)), _isqrt(int(square.q)))
+            root = fmpq(isqrt(int(square.p)), isqrt(int(square.q)))
             if root * root != square or (radius is not None and root != radius):
                 return None
             radius = root
@@ -145,12 +146,6 @@ def margin(proof: RoundSeparation, scene: Any) -> tuple[Fraction | None, list[tu
     if least <= 0:
         return None, [("margin", "the smaller shapes are not strictly inside of the scene's")]
     return least, []
-
-
-def _isqrt(n: int) -> int:
-    from math import isqrt
-
-    return isqrt(n)
 
 
 def _minus(p: Point, q: Point) -> Point:

@@ -309,7 +309,7 @@ def unpacked(code: int) -> tuple[int, int, int, int]:
 
 
 def _poly(form: Trig, chart: int) -> Any:
-    return BALLS.of.poly(form.coefficients(chart))
+    return BALLS.ring.poly(form.coefficients(chart))
 
 
 def _rational(x: Any) -> fmpq:

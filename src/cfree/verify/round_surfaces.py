@@ -111,17 +111,17 @@ def _along(line: Surface) -> Moving:
 class Forms:
     """Forms of surfaces, in one kind of number."""
 
-    of: Any  # Balls, or Surd
+    ring: Any  # Balls, or Surd
 
     def trig(self, three: tuple[Number, Number, Number]) -> Trig:
-        a, b, c = map(self.of.number, three)
+        a, b, c = map(self.ring.number, three)
         return Trig(a, b, c)
 
     def length(self, line: Surface) -> Scalar:
-        return self.of.root(line.square)
+        return self.ring.root(line.square)
 
     def radius(self, x: Surface) -> Scalar:
-        return self.of.number(x.radius)
+        return self.ring.number(x.radius)
 
     def offset(self, line: Surface, x: Surface) -> Trig:
         """Height of a surface's C over a line, times the edge's length, positive on the left."""
@@ -142,7 +142,7 @@ class Forms:
     def delta(self, circle: Surface, other: Surface) -> Trig:
         if other.edge is not None:
             return -self.offset(other, circle)
-        return self.apart(circle, other).plus(self.of.number(circle.radius**2 - other.radius**2))
+        return self.apart(circle, other).plus(self.ring.number(circle.radius**2 - other.radius**2))
 
     def norm(self, circle: Surface, other: Surface) -> Trig:
         n = self.normal(circle, other)
@@ -152,7 +152,7 @@ class Forms:
         """Polynomials that vanish if both points of a circle and y are on z."""
         m, n = self.normal(circle, y), self.normal(circle, z)
         d, e, square, both = (
-            self.of.poly(form.coefficients(chart))
+            self.ring.poly(form.coefficients(chart))
             for form in (
                 self.delta(circle, y),
                 self.delta(circle, z),
@@ -160,17 +160,17 @@ class Forms:
                 self.trig(dot(m, n)),
             )
         )
-        return [d * both - e * square, self.of.poly(self.trig(cross(m, n)).coefficients(chart))]
+        return [d * both - e * square, self.ring.poly(self.trig(cross(m, n)).coefficients(chart))]
 
     # --- forms that vanish where something happens ---
 
     def touching(self, x: Surface, y: Surface, side: int) -> Trig:
         """Zero where a line touches a circle or a line's C grown, on one side, or two circles touch."""
         if x.edge is not None:
-            return self.offset(x, y).plus(self.of.number(side * y.radius) * self.length(x))
+            return self.offset(x, y).plus(self.ring.number(side * y.radius) * self.length(x))
         if y.edge is not None:
             return self.touching(y, x, side)
-        return self.apart(x, y).plus(-self.of.number((x.radius + side * y.radius) ** 2))
+        return self.apart(x, y).plus(-self.ring.number((x.radius + side * y.radius) ** 2))
 
     def joint(self, line: Surface, circle: Surface, on: Surface) -> Trig:
         """Zero where the joint of a line and a circle is on a third surface; inside it is positive on a line."""
@@ -178,7 +178,7 @@ class Forms:
         if on.edge is not None:
             return self.offset(on, circle).times(length) - self.trig(dot(on.edge, v)).times(rho)
         d = on.to(circle)
-        rest = self.of.number(circle.radius**2 - on.radius**2)
+        rest = self.ring.number(circle.radius**2 - on.radius**2)
         return self.trig(dot(d, d)).plus(rest).times(length) - self.trig(cross(v, d)).times(rho + rho)
 
     def axis(self, circle: Surface, turns: int, on: Surface) -> Trig:
@@ -189,14 +189,14 @@ class Forms:
         if on.edge is not None:
             return self.offset(on, circle) + self.trig(cross(on.edge, e)).times(self.radius(circle))
         d, rho = on.to(circle), self.radius(circle)
-        rest = self.of.number(circle.radius**2 - on.radius**2)
+        rest = self.ring.number(circle.radius**2 - on.radius**2)
         return self.trig(dot(d, d)).plus(rest) + self.trig(dot(d, e)).times(rho + rho)
 
     def meeting(self, x: Surface, y: Surface, z: Surface, chart: int) -> Polynomial:
         """Polynomial in tau that vanishes where three surfaces have a point in common."""
 
         def poly(f: Trig) -> Polynomial:
-            return self.of.poly(f.coefficients(chart))
+            return self.ring.poly(f.coefficients(chart))
 
         if len({x.key, y.key, z.key}) < 3:
             raise Fault("an angle at which a surface meets itself")
@@ -207,7 +207,7 @@ class Forms:
         if len(lines) == 3:
             # sum of (offset constant of each line about x's C) times (cross product of the other two)
             u, v, w = map(_along, (x, y, z))
-            own = Trig(self.radius(x) * self.length(x), self.of.number(fmpq(0)), self.of.number(fmpq(0)))
+            own = Trig(self.radius(x) * self.length(x), self.ring.number(fmpq(0)), self.ring.number(fmpq(0)))
             return (
                 poly(own) * poly(self.trig(cross(v, w)))
                 + poly(self.offset(y, x)) * poly(self.trig(cross(w, u)))
@@ -218,8 +218,8 @@ class Forms:
         m, n = self.normal(circle, one), self.normal(circle, two)
         d, e = poly(self.delta(circle, one)), poly(self.delta(circle, two))
         both, c = poly(self.trig(dot(m, n))), poly(self.trig(cross(m, n)))
-        zero = self.of.number(fmpq(0))
-        rho = poly(Trig(self.of.number(circle.radius**2), zero, zero))
+        zero = self.ring.number(fmpq(0))
+        rho = poly(Trig(self.ring.number(circle.radius**2), zero, zero))
         return (
             d * d * poly(self.norm(circle, two))
             + e * e * poly(self.norm(circle, one))
