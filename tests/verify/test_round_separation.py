@@ -123,7 +123,7 @@ TIES: dict[str, tuple[Scene, Fraction]] = {
 def made(scene: Scene, radius: Fraction) -> tuple[Any, ...]:
     shapes = rounded_shapes(scene)
     assert shapes is not None
-    parts, others = shapes
+    parts, others = shapes.robot, shapes.obstacles
     radii = [radius, *(other.radius for other in others)]
     handles = [part.handle for part in parts], [other.handle for other in others]
     features = core.SceneFeatures(*handles, None, None, None, radii)

@@ -34,6 +34,11 @@ if TYPE_CHECKING:
     from cfree.vehicles.vehicle import Vehicle
 
 
+def _is_rounded(answer: object) -> bool:
+    """True for a proof by a surface among rounded shapes."""
+    return getattr(answer, "rounded", None) is not None
+
+
 @dataclass
 class Sampling:
     """The form in which a path is written, and the spacing of its sampled poses.
@@ -268,9 +273,9 @@ class Answering:
             with bar("picture"):
                 save_figure(plot_blockers(self.blockers, self.scene, preferences=preferences), picture)
             return
-        if isinstance(self.answer, Stuck | Unreachable):
+        if isinstance(self.answer, Stuck | Unreachable) or _is_rounded(self.answer):
             with bar("picture"):
-                save_figure(drawn(self.answer, self.planner.scene), picture)
+                save_figure(drawn(self.answer, self.scene if _is_rounded(self.answer) else self.planner.scene), picture)
             return
         space = self.planner.free_space
         shown = self.answer
@@ -296,6 +301,9 @@ class Answering:
             return
         if isinstance(shown, Unreachable):
             self._leave_out("film", film, "boxes hold the car, and no surface separates start and goal")
+            return
+        if _is_rounded(shown):
+            self._leave_out("film", film, "the surface is one among round shapes; a picture shows it")
             return
         if not len(shown.pieces):
             self._leave_out("film", film, "no surface separates start and goal, but exact fits do")

@@ -23,6 +23,7 @@ from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.goals import AllSeparated
 from cfree.planning.proof import Proof
+from cfree.planning.separation import Pieces as SurfacePieces
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.unreachable import Unreachable
@@ -47,7 +48,7 @@ from cfree.plot.stuck import picture_of_stuck
 from cfree.plot.unreachable import picture_of_unreachable
 from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
-from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
+from cfree.scene.features import BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, features_of_cores, scene_features
 from cfree.scene.naming import all_placed, numbered, placed
 from cfree.scene.scene import Scene, box_of, robot_radius
 from cfree.scene.smooth import smooth
@@ -240,7 +241,8 @@ def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labe
     box = around_surface(surface)
     space = _right(figure)
     _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, tiny=TINY))
-    kinds = {"v-e contacts": PatchKind.VERTEX_EDGE, "e-v contacts": PatchKind.EDGE_VERTEX, "bounds": PatchKind.BOUND}
+    kinds = {"v-e contacts": PatchKind.VERTEX_EDGE, "e-v contacts": PatchKind.EDGE_VERTEX}
+    kinds |= {"arc-arc contacts": PatchKind.ARC_ARC, "bounds": PatchKind.BOUND}
     _legend(space, {name: COLOURS[kind] for name, kind in kinds.items() if (surface.patch_kind == kind).any()}, [])
     _frame(ax, box, labels)
     rows = [
@@ -252,12 +254,17 @@ def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labe
 
 def surface_of(answer: Separated, scene: Scene) -> Boundary:
     """Return the surface of a separation as a boundary of its trapezoids alone, for drawing only."""
+    if answer.rounded:
+        return _surface(answer.pieces, scene, features_of_cores(answer.rounded, scene))
+    if answer.of == "closed":
+        scene = Scene(answer.robot, scene.obstacles, bounds=answer.bounds, workspace=scene.workspace, units=scene.units)
+    return _surface(answer.pieces, scene, scene_features(scene))
+
+
+def _surface(pieces: SurfacePieces, scene: Scene, features: SceneFeatures) -> Boundary:
     from cfree.forbidden.boundary import Boundary
     from cfree.forbidden.record import Stats
 
-    if answer.of == "closed":
-        scene = Scene(answer.robot, scene.obstacles, bounds=answer.bounds, workspace=scene.workspace, units=scene.units)
-    features, pieces = scene_features(scene), answer.pieces
     count = len(pieces)
     robot, obstacle = (
         _features_of(shape, owners)

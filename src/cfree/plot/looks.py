@@ -13,7 +13,7 @@ from cfree.scene.smooth import smooth
 
 
 def of_polygons(answer: Path | Separated | Stuck, scene: Scene) -> Scene:
-    """Return the scene of polygons that an answer is about; of a path among true shapes, polygons that look round.
+    """Return the scene of polygons that an answer is about; of one among true shapes, polygons that look round.
 
     Raises
     ------
@@ -22,7 +22,7 @@ def of_polygons(answer: Path | Separated | Stuck, scene: Scene) -> Scene:
     """
     if not scene.curved:
         return scene
-    if answer.scene is None and isinstance(answer, Path):
+    if answer.scene is None and (isinstance(answer, Path) or (isinstance(answer, Separated) and answer.rounded)):
         return smooth(scene)
     if answer.scene is None:
         raise UnsupportedError("the scene has round shapes, and the answer no polygons for them; give its own scene")

@@ -23,6 +23,7 @@ from cfree.scene.digest import Stamp, Whole, stamp_of
 from cfree.scene.goals import Moved, text_of, text_of_move
 from cfree.scene.reading import Note, together
 from cfree.scene.reading_lines import Claim
+from cfree.scene.rounded import Cores
 from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.vehicles.vehicle import described
 from cfree.verify.arc_motions import ArcWorld
@@ -44,6 +45,7 @@ from cfree.verify.motions import (
 )
 from cfree.verify.orientations import left_out
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
+from cfree.verify.round_answers import TEXTS, rounded_findings
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
 from cfree.verify.stuck import HELD, stuck_findings
 from cfree.verify.whole import part_of, renumbered, whole_of
@@ -117,6 +119,8 @@ def answer(
 
     if isinstance(outcome, AllSeparated):
         return _all_of(scene, outcome, report, begin)
+    if isinstance(outcome, Separated) and outcome.rounded is not None:
+        return _of_rounded(scene, outcome, outcome.rounded, read, report, begin)
     findings, part = _other_poses(scene, outcome), scene
     if whole is not None:
         part_scene = part_of(scene, outcome, whole)
@@ -177,6 +181,36 @@ def answer(
     checks = tuple(Check(name, how[name], text) for name, text in extents.items())
     proved = "" if findings else _sentence(outcome, read)
     return Verification(checks, tuple(findings), (), _since(begin), proved, _record(scene, outcome), _claim(outcome))
+
+
+def _of_rounded(
+    scene: Scene, proof: Separated, cores: Cores, read: Read | None, report: Callable[[float], object], begin: float
+) -> Verification:
+    """Check a separation among grown cores."""
+    if not all(map(is_of_arcs, shapes_of(scene))):
+        return _refuted(Finding(ROUND, "shapes", "the scene has others than lines and circular arcs"), begin)
+    findings = _other_poses(scene, proof)
+    findings += rounded_findings(proof, cores, scene, report)
+    report(1.0)
+    count, far = counted(len(proof.pieces), "piece"), f"with {float(proof.clearance):g} around the robot, "
+    extents = {
+        **_of_scene(proof if read else None, None, len(scene.obstacles)),
+        QUERY: "start and goal, where the scene has them",
+        **_of_moved(proof),
+        ENDS: "both are free",
+        **{name: text.format(count=count, far=far if proof.clearance else "") for name, text in TEXTS.items()},
+        CLOSED: f"{count} without a boundary mod 2, up to lengths far below the discs' difference",
+        SIDES: "start and goal are on two sides of it: rays meet it an even, and an odd, number of times",
+        **_of_decimals(read),
+    }
+    refuted = {finding.kind for finding in findings}
+    how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
+    how |= {MOVED: SKIPPED} if proof.moved and _is_left(proof) else {}
+    how |= {DECIMALS: SKIPPED} if read and read.decimals == "approximate" else {}
+    how |= dict.fromkeys(refuted, REFUTED)
+    checks = tuple(Check(name, how[name], text) for name, text in extents.items())
+    proved = "" if findings else _sentence(proof, read)
+    return Verification(checks, tuple(findings), (), _since(begin), proved, _record(scene, proof), _claim(proof))
 
 
 def _refuted(finding: Finding, begin: float) -> Verification:
