@@ -1944,6 +1944,8 @@ class Proof(Answer):
     """Two poses, and pieces of contact surfaces between them."""
 
     def __init__(self, data: dict[str, Any]) -> None:
+        if "rounded" in data:
+            raise BadFileError("its surface is one among rounded shapes; `cfree verify` reads it")
         required = dict.fromkeys(("of", "obstacles", "surface"), REQUIRED)
         super().__init__(data, **required, smaller_robot=[], larger_bounds=None, auxiliary=[], cores=[])
         self.check_decimals("start", self.start)

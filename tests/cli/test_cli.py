@@ -455,7 +455,7 @@ def test_figures_are_written_as_asked(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--only", "24"), "there are the figures 1 to 23"),
+        (("--only", "25"), "there are the figures 1 to 24"),
         (("--renderer", "gl"), "pyvista"),
         (("--only", "6,x"), 'as in "7" or "7,9"'),
         (("--format", "png,gif"), "--format: 'gif'; give"),
