@@ -113,7 +113,7 @@ def test_what_takes_polygons_says_so() -> None:
     scene = Scene(ROBOT, [cfree.Curved.circle((3, 3), 1)], bounds=(0, 0, 9, 9), start=(0, 0, 0), goal=(1, 1, 0))
     pose = cfree.Pose(0, 0)
     for call in (
-                lambda: cfree.turn_in_place(scene, pose),
+        lambda: cfree.turn_in_place(scene, pose),
         lambda: cfree.MotionChecker(scene), lambda: cfree.PoseChecker(scene),
         lambda: cfree.arrangements.arrangement(scene),
         lambda: cfree.save(scene, "round.svg"), lambda: cfree.save(scene, "round.geojson"),
