@@ -3,7 +3,6 @@
 #include "forbidden/kept_patches.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <stdexcept>
 #include <unordered_map>
@@ -47,7 +46,7 @@ std::vector<Block> blocks(const Shape& s) {
 std::size_t hash_of(const Shape& s, const Block& block) {
     std::uint64_t h = 0;
     const auto add = [&](Index v) {
-        for (const double c : {s.xy[2 * v], s.xy[2 * v + 1]}) h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
+        for (const double c : {s.xy[2 * v], s.xy[2 * v + 1]}) h = (h ^ bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
     };
     for (Index v = block.begin; v < block.end; ++v) add(v);
     if (block.begin == block.end)

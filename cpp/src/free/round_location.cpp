@@ -44,7 +44,8 @@ ExactPose exact_pose(const Ball& x, const Ball& y, int shift, int chart, const D
 // An end of a piece that is as high as the pose counts as below it, for all pieces: as for a ray just above.
 PointLocation::Nearby PointLocation::look_among_grown(const ExactPose& q) const {
     Nearby seen;
-    const auto [tau_lo, tau_hi] = around(q.p, q.r);
+    const std::array<double, 2> interval = around(q.p, q.r);
+    const double tau_lo = interval[0], tau_hi = interval[1];
     RoundView view(scene, q, tau_lo, tau_hi);
     const Index part = index.part_of(q.chart, 0.5 * (tau_lo + tau_hi));
     const Int W = q.W << static_cast<unsigned>(scene.shift);
