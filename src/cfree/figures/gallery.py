@@ -238,10 +238,10 @@ def draw_all(
 
     Examples
     --------
-    >>> draw_all("never", only=[24])
+    >>> draw_all("never", only=[25])
     Traceback (most recent call last):
         ...
-    ValueError: figure 24: there are the figures 1 to 23
+    ValueError: figure 25: there are the figures 1 to 24
     """
     folder, chosen, suffixes = (
         Path(directory),
