@@ -159,9 +159,9 @@ def test_blockers_are_the_obstacles_without_which_a_path_exists() -> None:
 
 @pytest.mark.slow
 def test_an_obstacle_whose_removal_leaves_the_question_open_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without the plug, which is obstacle 0, the gap is narrower than the disc by 2**-39."""
+    """Without the plug, which is obstacle 0, the gap is narrower than the disc by 2**-129."""
     monkeypatch.setattr(curved, "PATCHES", 10_000)
-    tight = [Curved.circle((x, 0), 1 + Fraction(1, 2**40)) for x in (0, 3)]
+    tight = [Curved.circle((x, 0), 1 + Fraction(1, 2**130)) for x in (0, 3)]
     plug = Curved.circle(("1.5", 0), "0.1")
     found = blockers(hall(disc("0.5"), [plug, *tight, box(4, -1, 9, 1)[0]]))
     assert 0 in found.undecided and [blocker.obstacle for blocker in found] == [1, 2, 3]

@@ -132,10 +132,6 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
                 return cheapest(paths, larger, options.preferences)
             if proofs := _proofs(query, goal, inside, name):
                 return proofs
-            if sides == SIDES[0] and isinstance(goal, Pose):
-                proof = separated_by_cells(scene, start, goal, options)
-                if proof is not None:
-                    return [proof]
             answers = [outer.path_or_proof(start, end, options) for end in ends]
             if paths := [path for path in map(for_scene, answers) if path]:
                 return cheapest(paths, larger, options.preferences)
@@ -151,6 +147,9 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
             raise UndecidedError(f"{held.said()}, {more}; give another clearance")
     if options.exact_discs and (paths := _among_discs(query, goal)):
         return cheapest(paths, larger, options.preferences)
+    proof = separated_by_cells(scene, start, goal, options) if isinstance(goal, Pose) else None
+    if proof is not None:
+        return [proof]
     smaller = _grown(scene, inside, scene.bounds)
     inner = PosePlanner(smaller)
     # the scene's bounds, not the wider ones of a proof

@@ -309,9 +309,6 @@ class CurvedQuery:
                 poses, is_early = [*self._poses_for(goals, true)], bool(searches)
                 if is_early and (path := self._first_path(true, poses, searches.pop(0))):
                     return path
-                by_cells = self._by_cells(goals) if is_early and not self._is_tried else None
-                if by_cells is not None:
-                    return by_cells
                 inner = self._asked(ask, outward=False)
                 if isinstance(inner, Path):
                     guides = self._guides(true, inner, poses) if self._thorough or is_early else ()
@@ -319,6 +316,9 @@ class CurvedQuery:
                         return path
                 elif inner is not None:
                     return self._for_curves(inner)
+                by_cells = self._by_cells(goals) if self._thorough and not self._is_tried else None
+                if by_cells is not None:
+                    return by_cells
             try:
                 answer = self._asked(ask, outward=True) if self._thorough or not true else None
                 if isinstance(answer, Path):
