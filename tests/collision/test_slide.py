@@ -23,7 +23,7 @@ import cfree._core as _core
 import cfree.verify
 import strategies
 from cfree import FormatError, MotionChecker, Path, Pose, PoseChecker, Rotation, Scene, Slide, clearance, is_free, save
-from cfree.cli.report import answer_facts
+from cfree.cli.report import Shapes, answer_facts
 from cfree.collision import Touch
 from cfree.errors import InvalidPoseError, UnsupportedError
 from cfree.formats.answers.answer_file import load_answer as load
@@ -406,7 +406,8 @@ def test_a_path_with_slides_is_of_use_everywhere(tmp_path: FilePath) -> None:
     assert path.goal == Pose(0, 7, "90deg") and path.is_free(MotionChecker(TEE))
     assert path.turning == pytest.approx(math.pi / 2) and path.length > 11
     assert cfree.verify.answer(TEE, path).verified
-    assert answer_facts(path, TEE)["slides"] == 2 and answer_facts(path, TEE)["translations"] == 2
+    facts = answer_facts(path, Shapes(TEE, TEE, list))
+    assert facts["slides"] == 2 and facts["translations"] == 2
     for form in ("csv", "yaml", "geojson"):
         save(path, tmp_path / f"way.{form}", step=0.1, scene=TEE)
     samples = path.sample(0.1)

@@ -3,6 +3,7 @@
 import math
 import pickle
 import random
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -26,6 +27,12 @@ def box(x: float, y: float, width: float, height: float) -> Polygon:
 
 
 BAR = box(0, 0, 2, 1)
+HOW = (
+    "decided_by_identity",
+    "decided_by_filter",
+    "decided_by_intervals",
+    "decided_exactly",
+)  # depends on what came before
 HOUSES = [box(10 * x, 10 * y, 3, 2 + x) for x in range(4) for y in range(3)]
 WALL = box(5, -20, 1, 60)
 
@@ -37,7 +44,8 @@ def assert_same_bytes(one: Boundary, other: Boundary) -> None:
         assert getattr(one.trapezoids, name).tobytes() == getattr(other.trapezoids, name).tobytes(), name
     for name in ISOLATED_COLUMNS:
         assert getattr(one.isolated, name).tobytes() == getattr(other.isolated, name).tobytes(), name
-    assert one.stats == other.stats
+    one_, other_ = (replace(x.stats, **dict.fromkeys(HOW, 0)) for x in (one, other))
+    assert one_ == other_
     assert one == other
 
 

@@ -58,7 +58,7 @@ def live_surfaces(result: Boundary) -> dict[str, int]:
     surfaces = {
         (KINDS[PatchKind(kind)], code) for kind, code in zip(result.patch_kind[live], codes.tolist(), strict=True)
     }
-    return {name: sum(kind == name for kind, _ in surfaces) for name in KINDS.values()}
+    return {name: sum(kind == name for kind, _ in surfaces) for name in KINDS.values() if name != "arc-arc"}
 
 
 def slice_facts(plain: PlainScene, tau: str) -> dict[str, Any]:
