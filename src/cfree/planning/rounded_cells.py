@@ -16,11 +16,10 @@ from itertools import count
 
 import cfree._core as _core
 from cfree.exact.pose import Pose
-from cfree.forbidden.columns import COLUMNS, Ints, Trapezoids
 from cfree.libraries import np
 from cfree.planning.options import Options
 from cfree.planning.separation import Pieces, Separated
-from cfree.scene.features import SceneFeatures, features_of_cores
+from cfree.scene.features import features_of_cores
 from cfree.scene.frame import frame_of
 from cfree.scene.rounded import Cores, Rounded, rounded_shapes
 from cfree.scene.scene import Scene, grown_scene
@@ -86,16 +85,4 @@ def _surface(scene: Scene, cores: Cores, start: Pose, goal: Pose, go_on: Callabl
     # the outer surface of the deeper cell has the other pose outside
     outer = {int(cell): k for k, cell in zip(count(), space.cell_of.tolist()) if bounding[k]}
     deepest = max((outer[cell] for cell in first | second if cell in outer), key=lambda k: int(depth[k]))
-    return _pieces(features, boundary, np.flatnonzero(surfaces.component == deepest).astype(np.int32))
-
-
-def _pieces(features: SceneFeatures, boundary: _core.Boundary, faces: Ints) -> Pieces:
-    patches, trapezoids = boundary.patches, boundary.trapezoids
-    patch = trapezoids.patch[faces]
-    robot, obstacle = (
-        np.column_stack([shape.owner_polygon[number[patch]], shape.owner_vertex[number[patch]]])
-        for shape, number in ((features.robot, patches.robot), (features.obstacles, patches.obstacle))
-    )
-    columns = {name: getattr(trapezoids, name)[faces] for name in COLUMNS}
-    columns["patch"] = np.arange(len(faces), dtype=np.int32)
-    return Pieces(patches.kind[patch], robot, obstacle, Trapezoids(**columns))
+    return Pieces.of_faces(features, boundary, np.flatnonzero(surfaces.component == deepest).astype(np.int32))

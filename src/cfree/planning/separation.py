@@ -86,8 +86,14 @@ class Pieces(Value):
     @classmethod
     def _of(cls, core: _core.Separation) -> Pieces:
         """Wrap the trapezoids of a separating surface of the core."""
-        features, faces = SceneFeatures.of(core.features), core.faces
-        patches, trapezoids = core.boundary.patches, core.boundary.trapezoids
+        features = SceneFeatures.of(core.features)
+        pieces = cls.of_faces(features, core.boundary, core.faces)
+        return replace(pieces, auxiliary=tuple(_auxiliary(features, pieces.table)))
+
+    @classmethod
+    def of_faces(cls, features: SceneFeatures, boundary: _core.Boundary, faces: Ints) -> Pieces:
+        """Wrap some trapezoids of a boundary of the core, without auxiliary names."""
+        patches, trapezoids = boundary.patches, boundary.trapezoids
         patch = trapezoids.patch[faces]
         robot, obstacle = (
             np.column_stack([shape.owner_polygon[number[patch]], shape.owner_vertex[number[patch]]])
@@ -95,8 +101,7 @@ class Pieces(Value):
         )
         columns = {name: getattr(trapezoids, name)[faces] for name in COLUMNS}
         columns["patch"] = np.arange(len(faces), dtype=np.int32)
-        table = Trapezoids(**columns)
-        return cls(patches.kind[patch], robot, obstacle, table, tuple(_auxiliary(features, table)))
+        return cls(patches.kind[patch], robot, obstacle, Trapezoids(**columns))
 
 
 def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary]:

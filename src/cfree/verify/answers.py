@@ -173,14 +173,7 @@ def answer(
         **_of_kind(outcome),
         **_of_decimals(read),
     }
-    refuted = {finding.kind for finding in findings}
-    how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
-    how |= {MOVED: SKIPPED} if outcome.moved and _is_left(outcome) else {}
-    how |= {DECIMALS: SKIPPED} if read and read.decimals == "approximate" else {}
-    how |= dict.fromkeys(refuted, REFUTED)
-    checks = tuple(Check(name, how[name], text) for name, text in extents.items())
-    proved = "" if findings else _sentence(outcome, read)
-    return Verification(checks, tuple(findings), (), _since(begin), proved, _record(scene, outcome), _claim(outcome))
+    return _result(scene, outcome, read, extents, findings, begin)
 
 
 def _of_rounded(
@@ -203,14 +196,26 @@ def _of_rounded(
         SIDES: "start and goal are on two sides of it: rays meet it an even, and an odd, number of times",
         **_of_decimals(read),
     }
+    return _result(scene, proof, read, extents, findings, begin)
+
+
+def _result(
+    scene: Scene,
+    outcome: Path | Proof,
+    read: Read | None,
+    extents: dict[str, str],
+    findings: Sequence[Finding],
+    begin: float,
+) -> Verification:
+    """Return the result of checks of these extents."""
     refuted = {finding.kind for finding in findings}
     how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
-    how |= {MOVED: SKIPPED} if proof.moved and _is_left(proof) else {}
+    how |= {MOVED: SKIPPED} if outcome.moved and _is_left(outcome) else {}
     how |= {DECIMALS: SKIPPED} if read and read.decimals == "approximate" else {}
     how |= dict.fromkeys(refuted, REFUTED)
     checks = tuple(Check(name, how[name], text) for name, text in extents.items())
-    proved = "" if findings else _sentence(proof, read)
-    return Verification(checks, tuple(findings), (), _since(begin), proved, _record(scene, proof), _claim(proof))
+    proved = "" if findings else _sentence(outcome, read)
+    return Verification(checks, tuple(findings), (), _since(begin), proved, _record(scene, outcome), _claim(outcome))
 
 
 def _refuted(finding: Finding, begin: float) -> Verification:
