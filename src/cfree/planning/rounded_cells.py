@@ -85,4 +85,4 @@ def _surface(scene: Scene, cores: Cores, start: Pose, goal: Pose, go_on: Callabl
     # the outer surface of the deeper cell has the other pose outside
     outer = {int(cell): k for k, cell in zip(count(), space.cell_of.tolist()) if bounding[k]}
     deepest = max((outer[cell] for cell in first | second if cell in outer), key=lambda k: int(depth[k]))
-    return Pieces.of_faces(features, boundary, np.flatnonzero(surfaces.component == deepest).astype(np.int32))
+    return Pieces._of_faces(features, boundary, np.flatnonzero(surfaces.component == deepest).astype(np.int32))

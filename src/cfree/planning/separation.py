@@ -87,11 +87,11 @@ class Pieces(Value):
     def _of(cls, core: _core.Separation) -> Pieces:
         """Wrap the trapezoids of a separating surface of the core."""
         features = SceneFeatures.of(core.features)
-        pieces = cls.of_faces(features, core.boundary, core.faces)
+        pieces = cls._of_faces(features, core.boundary, core.faces)
         return replace(pieces, auxiliary=tuple(_auxiliary(features, pieces.table)))
 
     @classmethod
-    def of_faces(cls, features: SceneFeatures, boundary: _core.Boundary, faces: Ints) -> Pieces:
+    def _of_faces(cls, features: SceneFeatures, boundary: _core.Boundary, faces: Ints) -> Pieces:
         """Wrap some trapezoids of a boundary of the core, without auxiliary names."""
         patches, trapezoids = boundary.patches, boundary.trapezoids
         patch = trapezoids.patch[faces]
