@@ -227,12 +227,12 @@ void bind_polygons(nb::module_& m) {
             cfree::SceneShapes shapes = shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds));
             for (std::size_t k = 0; radii && k < radii->size(); ++k) {
                 const cfree::Ratio radius = ::ratio_of((*radii)[k]);
-                if (k == 0) shapes.robot_radius = radius;
-                else shapes.obstacle_radii.push_back(radius);
+                if (k < shapes.robot.size()) shapes.robot_rounding.push_back({radius, {}});
+                else shapes.obstacle_rounding.push_back({radius, {}});
             }
             new (f) cfree::SceneFeatures(cfree::scene_features(shapes, whole ? *whole : cfree::WholeScene{}));
         }, "robot"_a, "obstacles"_a, "workspace"_a.none(), "bounds"_a.none(), "whole"_a.none() = nb::none(),
-             "radii"_a.none() = nb::none(), "Radii by which the robot and each obstacle are grown.",
+             "radii"_a.none() = nb::none(), "Radii by which the robot's polygons and the obstacles are grown.",
              nb::sig("def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
                      "bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, "
                      "radii: Sequence[fractions.Fraction] | None = None) -> None"))

@@ -32,7 +32,9 @@ static std::shared_ptr<const Polygon> square(const Ratio& x, const Ratio& y, con
 }
 
 static SceneFeatures features(Shapes robot, Shapes obstacles, const Ratio& robot_radius, std::vector<Ratio> radii) {
-    const SceneShapes shapes{std::move(robot), std::move(obstacles), {}, {}, robot_radius, std::move(radii)};
+    SceneShapes shapes{std::move(robot), std::move(obstacles), {}, {}};
+    shapes.robot_rounding.assign(shapes.robot.size(), {robot_radius, {}});
+    for (const Ratio& radius : radii) shapes.obstacle_rounding.push_back({radius, {}});
     CHECK(!range_fault(shapes));
     return scene_features(shapes);
 }
@@ -45,7 +47,7 @@ static int order_of_lines(const Shape& s, Index e, Index f) {
     };
     const auto [h, m] = term(e);
     const auto [k, n] = term(f);
-    const RootSum r(s.radii[s.edge_radius[e]].exact), t(s.radii[s.edge_radius[f]].exact);
+    const RootSum r(s.radii[s.vertex_radius[s.v[e]]].exact), t(s.radii[s.vertex_radius[s.v[f]]].exact);
     return (h * n - k * m + (r - t) * m * n).sign();
 }
 
@@ -61,7 +63,7 @@ static void check_classes(const Shape& s) {
     };
     CHECK(in_order(s.point) && in_order(s.line) && in_order(s.direction));
     for (Index e = 0; e < static_cast<Index>(s.v.size()); ++e) {
-        CHECK(s.edge_radius[e] == s.vertex_radius[s.v[e]] && s.edge_radius[e] == s.vertex_radius[s.w[e]]);
+        CHECK(s.vertex_radius[s.v[e]] == s.vertex_radius[s.w[e]]);
         for (Index f = 0; f < e; ++f) {
             if (!s.has_extent(e) || !s.has_extent(f)) continue;
             const auto E = edge<Int>(s, e), F = edge<Int>(s, f);
@@ -75,8 +77,6 @@ static void check_classes(const Shape& s) {
             const bool is_one_place = s.X[p] == s.X[q] && s.Y[p] == s.Y[q];
             CHECK((is_one_place && s.vertex_radius[p] == s.vertex_radius[q]) == (s.point[p] == s.point[q]));
         }
-    for (Index k = 0; k < s.pieces(); ++k)
-        for (Index v = s.piece[k]; v < s.piece[k + 1]; ++v) CHECK(s.piece_radius[k] == s.vertex_radius[s.piece_vertex[v]]);
 }
 
 // True if an exact number of the scene's integers is within a ball, and the ball is small.
@@ -160,13 +160,12 @@ static SceneShapes polygons_of_all_kinds() {
 static void radii_of_zero_change_nothing() {
     SceneShapes shapes = polygons_of_all_kinds();
     const auto plain = scene_features(shapes);
-    shapes.obstacle_radii.assign(shapes.obstacles.size(), number("0"));
+    shapes.obstacle_rounding.assign(shapes.obstacles.size(), {});
     const auto zero = scene_features(shapes);
     CHECK(!plain.scene->is_round && !zero.scene->is_round && plain.rim == zero.rim && plain.scene->scale == zero.scene->scale);
     for (const Scene* scene : {plain.scene.get(), zero.scene.get()})
         for (const Shape* s : {&scene->robot, &scene->obstacles})
-            CHECK(s->radii.empty() && s->lengths.empty() &&
-                  s->vertex_radius.size() + s->edge_radius.size() + s->piece_radius.size() == 0);
+            CHECK(s->radii.empty() && s->lengths.empty() && s->vertex_radius.empty() && !s->has_arcs());
     const Shape &A = plain.scene->robot, &B = zero.scene->robot, &O = plain.scene->obstacles, &P = zero.scene->obstacles;
     CHECK(same_features(A, B) && same_numbers(A, B) && same_features(O, P) && same_numbers(O, P));
 }
@@ -174,13 +173,13 @@ static void radii_of_zero_change_nothing() {
 static void one_radius_of_all_changes_no_class() {
     SceneShapes shapes = polygons_of_all_kinds();
     const auto plain = scene_features(shapes);
-    shapes.robot_radius = number("1/4");
+    shapes.robot_rounding.assign(shapes.robot.size(), {number("1/4"), {}});
     const auto grown = scene_features(shapes);
     check(grown);
     CHECK(same_features(plain.scene->obstacles, grown.scene->obstacles));  // all of radius 0
-    shapes.workspace = {}, shapes.bounds = {}, shapes.robot_radius = {};
+    shapes.workspace = {}, shapes.bounds = {}, shapes.robot_rounding = {};
     const auto open = scene_features(shapes);
-    shapes.obstacle_radii.assign(shapes.obstacles.size(), number("1/4"));
+    shapes.obstacle_rounding.assign(shapes.obstacles.size(), {number("1/4"), {}});
     const auto grown_obstacles = scene_features(shapes);
     check(grown_obstacles);
     CHECK(same_features(open.scene->obstacles, grown_obstacles.scene->obstacles));
@@ -307,15 +306,15 @@ static void workspace_and_bounds_have_no_radius_and_reach_past_the_robots() {
                        {thin({{number("9"), number("4")}})},
                        box(number("0"), number("0"), number("9"), number("9")),
                        std::array{number("1"), number("1"), number("8"), number("8")},
-                       number("5"),
-                       {number("7")}};
+                       {{number("5"), {}}},
+                       {{number("7"), {}}}};
     CHECK(!range_fault(shapes));
     const auto f = scene_features(shapes);
     check(f);
     const Shape &A = f.scene->robot, &O = f.scene->obstacles;
     CHECK((A.radii.size() == 2 && A.vertex_radius == std::vector<Index>{1, 0} && A.point[0] != A.point[1]));  // the reference point
-    CHECK((A.layer == std::vector<Index>{body_layer, reference_layer} && A.piece_radius == std::vector<Index>{1, 0}));
-    CHECK(O.vertex_radius[0] == 1 && O.piece_radius[0] == 1);
+    CHECK((A.layer == std::vector<Index>{body_layer, reference_layer}));
+    CHECK(O.vertex_radius[0] == 1);
     for (Index v = 1; v < static_cast<Index>(O.vertex_radius.size()); ++v) CHECK(O.vertex_radius[v] == 0);
     // the frame is around the grown obstacle and thicker than the robot, the rim around all that touches
     CHECK(O.X[2] >= 9 + 7 + 10 && O.X[1] <= -10);
@@ -329,7 +328,7 @@ static void the_whole_of_parts_has_radii() {
     WholeScene whole;
     whole.add(*unit_box());
     CHECK(!whole.is_round && whole.box && (*whole.box)[2] == 1);
-    whole.add(*thin({{number("5"), number("1/2")}}), number("1/3"));
+    whole.add(*thin({{number("5"), number("1/2")}}), {number("1/3"), {}});
     CHECK(whole.is_round && whole.scale == 6 && (*whole.box)[2] == 32 && (*whole.box)[0] == 0 && (*whole.box)[1] == 0);
     const auto part = scene_features({{unit_box()}, {unit_box()}, {}, {}}, whole);  // of polygons alone
     check(part);
@@ -342,20 +341,20 @@ static void wrong_radii_are_named() {
         return wrong ? wrong->kind + " " + std::to_string(wrong->index) + ": " + wrong->message : "";
     };
     const auto point = thin({{number("0"), number("0")}});
-    CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, number("-1/4")}) == "robot 0: the radius -1/4 is below 0; give 0 or more");
-    CHECK(fault({{unit_box()}, {unit_box(), unit_box()}, {}, {}, {}, {number("0"), number("-2")}}) ==
+    CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, {{number("-1/4"), {}}}}) == "robot 0: the radius -1/4 is below 0; give 0 or more");
+    CHECK(fault({{unit_box()}, {unit_box(), unit_box()}, {}, {}, {}, {{number("0"), {}}, {number("-2"), {}}}}) ==
           "obstacles 1: the radius -2 is below 0; give 0 or more");
-    CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, {}, {number("0"), number("2")}}) ==
-          "obstacles -1: 2 radii for 1 obstacles; give one for each, or none");
+    CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, {}, {{number("0"), {}}, {number("2"), {}}}}) ==
+          "obstacles -1: 2 radii for 1 polygons; give one for each, or none");
     const std::string thin_one = ": a point or a segment has no interior; give it a radius above 0";
     CHECK(fault({{unit_box(), point}, {unit_box()}, {}, {}}) == "robot 1" + thin_one);
-    CHECK(fault({{unit_box()}, {point}, {}, {}, number("1"), {number("0")}}) == "obstacles 0" + thin_one);
-    CHECK(fault({{unit_box()}, {point}, {}, {}, number("1")}) == "obstacles 0" + thin_one);
-    CHECK(fault({{unit_box()}, {point}, {}, {}, {}, {number("1")}}) == "");
-    CHECK(fault({{point}, {unit_box()}, {}, {}, number("1")}) == "");
-    CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, number("1e151")}) ==
+    CHECK(fault({{unit_box()}, {point}, {}, {}, {{number("1"), {}}}, {{number("0"), {}}}}) == "obstacles 0" + thin_one);
+    CHECK(fault({{unit_box()}, {point}, {}, {}, {{number("1"), {}}}}) == "obstacles 0" + thin_one);
+    CHECK(fault({{unit_box()}, {point}, {}, {}, {}, {{number("1"), {}}}}) == "");
+    CHECK(fault({{point}, {unit_box()}, {}, {}, {{number("1"), {}}}}) == "");
+    CHECK(fault({{unit_box()}, {unit_box()}, {}, {}, {{number("1e151"), {}}}}) ==
           "robot 0: the radius 1e151 is larger than 1e150; scale the scene");
-    const std::string fine = fault({{unit_box()}, {unit_box()}, {}, {}, {}, {number("1e-400")}});
+    const std::string fine = fault({{unit_box()}, {unit_box()}, {}, {}, {}, {{number("1e-400"), {}}}});
     CHECK(fine.starts_with("obstacles 0: with the denominator 1e400 of its radius, the scene's coordinates, over one"));
 }
 

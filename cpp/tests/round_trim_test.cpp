@@ -90,7 +90,7 @@ static void check_patch(const Scene& s, const Feature& x, int chart, const Event
         for (Index p = 0; p < A.pieces(); ++p) {
             const auto robot = piece(A, p, [&](const Point& v) { return Point{at.x + c * v.x - d * v.y, at.y + d * v.x + c * v.y}; });
             for (Index k = 0; k < O.pieces(); ++k) {
-                const Real rho = Real(A.radii[A.piece_radius[p]].exact) + Real(O.radii[O.piece_radius[k]].exact);
+                const Real rho = Real(A.radii[A.vertex_radius[A.piece_vertex[A.piece[p]]]].exact) + Real(O.radii[O.vertex_radius[O.piece_vertex[O.piece[k]]]].exact);
                 const Real gap = distance_of(robot, piece(O, k, [](const Point& v) { return v; })) - rho;
                 is_free &= gap > -1e-9L;
             }

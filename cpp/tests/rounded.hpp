@@ -88,10 +88,10 @@ inline SceneFeatures random_scene(bool with_one_radius = false) {
     };
     SceneShapes shapes;
     shapes.robot.push_back(shared(shape(6)));
-    shapes.robot_radius = {random_between(1, 12), 4};
+    shapes.robot_rounding.assign(shapes.robot.size(), {{random_between(1, 12), 4}, {}});
     for (int k = 0; k < 3; ++k) {
         shapes.obstacles.push_back(shared(shape(9)));
-        shapes.obstacle_radii.push_back(with_one_radius && k > 0 ? shapes.obstacle_radii[0] : Ratio{random_between(1, 12), random_between(1, 3)});
+        shapes.obstacle_rounding.push_back(with_one_radius && k > 0 ? shapes.obstacle_rounding[0] : Rounding{{random_between(1, 12), random_between(1, 3)}, {}});
     }
     return scene_features(shapes);
 }
@@ -107,10 +107,16 @@ inline Feature random_feature(const Scene& s, bool with_lines = true) {
     }
 }
 
+inline std::vector<Rounding> roundings(const std::vector<Ratio>& radii) {
+    std::vector<Rounding> result;
+    for (const Ratio& radius : radii) result.push_back({radius, {}});
+    return result;
+}
+
 inline SceneFeatures scene_of(Polygon robot, const Ratio& r, std::vector<Polygon> obstacles, std::vector<Ratio> radii) {
     SceneShapes shapes;
     shapes.robot.push_back(shared(std::move(robot)));
     for (Polygon& o : obstacles) shapes.obstacles.push_back(shared(std::move(o)));
-    shapes.robot_radius = r, shapes.obstacle_radii = std::move(radii);
+    shapes.robot_rounding = roundings({r}), shapes.obstacle_rounding = roundings(radii);
     return scene_features(shapes);
 }

@@ -8,8 +8,9 @@
 
 namespace cfree {
 
-inline Box edge_box(const Shape& s, Index e) {
+inline Box edge_box(const Shape& s, Index e) {  // of an edge of a ring, and of the vertex where it starts
     Box box;
+    if (s.has_arcs()) box.add(s.x[e], s.y[e]);
     box.add(s.x[s.v[e]], s.y[s.v[e]]), box.add(s.x[s.w[e]], s.y[s.w[e]]);
     return box;
 }

@@ -52,7 +52,7 @@ bool CoincidentSurfaces::is_patch(const Feature& contact) const {
     const Index i = contact.robot, j = contact.obstacle;
     if (!O.emit[j] || A.layer[i] != O.layer[j]) return false;
     if (contact.kind == Kind::vertex_vertex) return A.convex[i] && O.convex[j];
-    return contact.kind == Kind::vertex_edge ? A.convex[i] && O.has_extent(j) : O.convex[j] && A.has_extent(i);
+    return contact.kind == Kind::vertex_edge ? A.convex[i] && O.makes_surfaces(j) : O.convex[j] && A.makes_surfaces(i);
 }
 
 std::vector<Feature> CoincidentSurfaces::before(const Feature& contact) const {

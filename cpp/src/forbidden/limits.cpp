@@ -63,9 +63,8 @@ double Limits::helix_at(const Feature& contact, const Feature& helix) const {
     const bool on_edge = contact.kind == Kind::vertex_edge;
     const Shape& shape = on_edge ? scene.obstacles : scene.robot;
     const Index e = on_edge ? contact.obstacle : contact.robot, x = on_edge ? helix.obstacle : helix.robot;
-    const Index v = shape.v[e], w = shape.w[e];
-    if (shape.point[x] == shape.point[v]) return 0;
-    if (shape.point[x] == shape.point[w]) return 1;
+    const Index v = shape.v[e];
+    if (const int end = end_at(shape, e, x); end >= 0) return end;
     const UserUnits of;
     const Vec<double> E = of.edge(shape, e), p = of.vertex(shape, x), q = of.vertex(shape, v);
     return ((p.x - q.x) * E.x + (p.y - q.y) * E.y) / (E.x * E.x + E.y * E.y);

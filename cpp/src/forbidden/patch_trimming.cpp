@@ -23,10 +23,10 @@ Patches list_patches(const Scene& scene) {
     };
     for (Index j = 0; j < O.ring_vertices; ++j) {
         if (!O.emit[j]) continue;
-        for (Index i = 0; O.has_extent(j) && i < A.ring_vertices; ++i)
+        for (Index i = 0; O.makes_surfaces(j) && i < A.ring_vertices; ++i)
             if (A.layer[i] == O.layer[j] && A.convex[i]) add(Kind::vertex_edge, i, j);
         for (Index i = 0; O.convex[j] && i < A.ring_vertices; ++i)
-            if (A.layer[i] == O.layer[j] && A.has_extent(i)) add(Kind::edge_vertex, i, j);
+            if (A.layer[i] == O.layer[j] && A.makes_surfaces(i)) add(Kind::edge_vertex, i, j);
         for (Index i = 0; scene.is_round && O.convex[j] && i < A.ring_vertices; ++i)
             if (A.layer[i] == O.layer[j] && A.convex[i] && (A.vertex_radius[i] != 0 || O.vertex_radius[j] != 0))
                 for (const int quadrant : {0, 1, 2, 3}) {

@@ -7,7 +7,7 @@
 namespace cfree {
 
 RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to, const std::vector<Index>& edges)
-    : Trimmer(s, on), orders(s, on), edges_at_centre(edges) {
+    : Trimmer(s, on), orders(s, on), edges_at_centre(edges), has_arcs(s.robot.has_arcs() || s.obstacles.has_arcs()) {
     events = {from, to};
     if (is_circle(on.contact)) {
         live = in_cones(on.contact);
@@ -135,6 +135,8 @@ bool RoundTrimmer::shape(Index p, Index k, const Sample& at, Pillar& out) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index *a = &A.piece_vertex[A.piece[p]], *b = &O.piece_vertex[O.piece[k]];
     const Index n = A.piece[p + 1] - A.piece[p], m = O.piece[k + 1] - O.piece[k];
+    const auto is_arc = [](const Shape& of, Index v) { return of.has_arcs() && of.is_arc[v] != 0; };
+    out.has_arcs = std::any_of(a, a + n, [&](Index v) { return is_arc(A, v); }) || std::any_of(b, b + m, [&](Index v) { return is_arc(O, v); });
     const Index *ga = n > 1 ? &A.piece_edge[A.piece[p]] : nullptr, *fb = m > 1 ? &O.piece_edge[O.piece[k]] : nullptr;
     const auto add_arcs = [&](Index from, Index to, Index y) {  // the robot's vertices from one to another at one of the obstacle
         for (Index x = from; x <= to; ++x) {
@@ -182,20 +184,42 @@ bool RoundTrimmer::has_extent(const Feature& circle) const {
     return scene.robot.vertex_radius[circle.robot] != 0 || scene.obstacles.vertex_radius[circle.obstacle] != 0;
 }
 
-// Sign of a joint: 1 left of the line or outside the circle; of those that are on it at every angle 0.
-int RoundTrimmer::joint_sign(const Pillar& pillar, int k, const Sample& at) {
-    const auto [edge, arc] = joint(pillar, k);
-    const Feature line = pillar.edge(edge).line, circle = pillar.circle(arc);
+// The circle of a joint: of those that have it, that about the end of the line's edge.
+Feature RoundTrimmer::circle_of(const Pillar& pillar, const Joint& j) const {
+    const Feature &line = pillar.edge(j.edge).line, circle = pillar.circle(j.arc);
+    return has_arcs ? circle_at_end(scene, line, smooth_end(scene, line, circle)) : circle;
+}
+
+// Sign of a joint that its features prove to be the same at every angle: of those on the line 0, of those on the circle, where it
+// is inside of the pillar, -1.
+std::optional<int> RoundTrimmer::known_sign(const Feature& line, const Feature& circle) const {
     const Feature& x = surface.contact;
-    if (is_smooth(scene, x, circle))  // two tangents of one circle, or two lines through a point
+    if (is_line(x)) {  // two tangents of one circle, or two lines through a point
+        if (!is_smooth(scene, x, circle)) return {};
         return code(scene, x) != code(scene, line) && has_extent(circle) ? 1 : 0;
+    }
+    if (!has_arcs) return {};
+    const int end = smooth_end(scene, line, x);
+    if (end >= 0 && end == smooth_end(scene, line, circle)) return -1;
+    return !has_extent(circle) && line_of_joint(scene, x, circle) ? std::optional(-1) : std::nullopt;  // a point of the arc
+}
+
+// Sign of a joint: 1 left of the line or outside the circle; of others that are on it at every angle 0.
+int RoundTrimmer::joint_sign(const Pillar& pillar, int k, const Sample& at) {
+    const Joint j = joint(pillar, k);
+    const Feature line = pillar.edge(j.edge).line, circle = circle_of(pillar, j);
+    if (const auto sign = known_sign(line, circle)) return *sign;
     return sign_of(line, circle, at);
 }
 
+bool RoundTrimmer::is_stub(const Feature& line) const {
+    return line.kind == Kind::vertex_edge ? scene.obstacles.is_stub(line.obstacle) : scene.robot.is_stub(line.robot);
+}
+
 void RoundTrimmer::watch_joint(const Pillar& pillar, int k, int sign, Cover& out) const {
-    const auto [edge, arc] = joint(pillar, k);
-    const Feature line = pillar.edge(edge).line, circle = pillar.circle(arc);
-    if (!is_smooth(scene, surface.contact, circle)) out.watched.push_back({line, circle, sign, true});
+    const Joint j = joint(pillar, k);
+    const Feature line = pillar.edge(j.edge).line, circle = circle_of(pillar, j);
+    if (!known_sign(line, circle)) out.watched.push_back({line, circle, sign, true});
 }
 
 void RoundTrimmer::watch_edge(const Edge& edge, Cover& out) const {
@@ -230,10 +254,7 @@ Feature RoundTrimmer::feature_after(const Pillar& pillar, int k, int branch) con
     Feature f = is_edge ? pillar.edge(edge).line : pillar.circle(arc);
     const Feature& x = surface.contact;
     if (is_line(x)) {
-        if (is_smooth(scene, x, f)) {
-            const bool at_end = code(scene, f) == code(scene, ends[1]);
-            return ends[at_end ? 1 : 0];
-        }
+        if (const int end = smooth_end(scene, x, f); end >= 0) return ends[static_cast<std::size_t>(end)];
         f.branch = static_cast<std::int8_t>(is_line(f) ? 0 : branch);
     } else {
         f.branch = static_cast<std::int8_t>(is_smooth(scene, f, x) ? 0 : branch);
@@ -337,6 +358,7 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
     Cover out;
     const Feature& x = surface.contact;
     const int count = pillar.count();
+    if (pillar.has_arcs) return on_any_circle(pillar, joint_signs(pillar, at), at);
     for (int k = 0; k < count; ++k)  // the circle is one of its own: all but that arc is inside
         if (code(scene, with_branch(pillar.circle(k), x.branch)) == code(scene, x)) {
             watch_arc(pillar, k, out);
@@ -393,7 +415,8 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
 }
 
 // A circle of another radius than the pillar's rounding may cross each of its features twice. All are watched. A joint that is
-// on the circle at every angle counts as outside: the rim crosses there in either of its features.
+// on the circle at every angle counts as outside: the rim crosses there in either of its features. But if the two touch there,
+// both on the pillar's side of a line, the joint counts as inside: it is, for a pillar a little smaller.
 RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at) {
     Cover out;
     std::vector<Crossing> crossings;
@@ -416,6 +439,7 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     for (int k = 0; k < count; ++k) {
         const Edge& edge = pillar.edge(k);
         watch_edge(edge, out);
+        if (is_stub(edge.line)) continue;
         const int first = of(2 * k), last = of(2 * k + 1);
         const Feature name = is_smooth(scene, edge.line, surface.contact) ? with_branch(edge.line, 0) : edge.line;
         if ((first < 0) != (last < 0)) cross_once(name, last < 0);
@@ -427,6 +451,11 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     for (int k = 0; k < std::max(count, 1); ++k) {
         const Feature circle = pillar.circle(k);
         const int first = count > 0 ? of(2 * k - 1 + n) : 0, last = count > 0 ? of(2 * k) : 0;
+        if (pillar.has_arcs && code(scene, with_branch(circle, surface.contact.branch)) == code(scene, surface.contact)) continue;
+        if (const auto line = line_of_joint(scene, surface.contact, circle)) {  // there they touch, and meet nowhere else
+            if ((first < 0) != (last < 0)) crossings.push_back({with_branch(*line, 0), last >= 0});
+            continue;
+        }
         if ((first < 0) != (last < 0)) {
             cross_once(circle, last < 0);
             continue;
@@ -517,25 +546,41 @@ bool RoundTrimmer::narrow(Cover& cover, const Sample& sample, Span& span) {
 
 // --- at one angle ----------------------------------------------------------------------------------------------------
 
-// True if the line passes through the open pillar at an end of a band: discs around its vertices are on both sides; or if the
-// two curves do not meet there.
+// True if the line passes through the open pillar at an end of a band: discs around its vertices, and its arcs, are on both sides;
+// or if the two curves do not meet there.
 bool RoundTrimmer::crosses_at(const Band& band, Index event) {
     if (!is_line(surface.contact)) return order_at(event, band.area.lower, band.area.upper) != 0;
     const Event& e = events[event];
     const Shape &A = scene.robot, &O = scene.obstacles;
     bool left = false, right = false;
     std::optional<LongRoot> root;
+    const auto sign_of_event = [&](const Feature& first) {
+        const int sign = decide.event_sign_on(first, {}, e.lo, e.hi);
+        if (sign != 0) return sign;
+        if (!root) root = decide.long_root_of(e);
+        return sign_at(orders.exactly(first, {}), *root);
+    };
+    // Sign of V x U, V the edge's vector around the pillar.
+    const Feature& on = surface.contact;
+    const auto turn = [&](bool of_robot, Index edge) {
+        const bool on_edge = on.kind == Kind::vertex_edge;
+        if (of_robot == !on_edge) return of_robot ? decide.cross_sign(A, edge, on.robot) : decide.cross_sign(O, edge, on.obstacle);
+        return on_edge ? -sign_of_event({Kind::edge_edge, edge, on.obstacle}) : sign_of_event({Kind::edge_edge, on.robot, edge});
+    };
+    // True if a vertex is none of an arc, or the arc has the direction of the rim on that side of the line.
+    const auto has_direction = [&](const Shape& s, Index piece, Index at, int side) {
+        if (!s.has_arcs() || !s.is_arc[s.piece_vertex[at]]) return true;
+        const Index before = at > s.piece[piece] ? at - 1 : s.piece[piece + 1] - 1;
+        const bool of_robot = &s == &A;
+        return side * turn(of_robot, s.piece_edge[before]) <= 0 && side * turn(of_robot, s.piece_edge[at]) >= 0;
+    };
     for (Index x = A.piece[band.p]; x < A.piece[band.p + 1]; ++x)
         for (Index y = O.piece[band.k]; y < O.piece[band.k + 1] && !(left && right); ++y)
             for (const int side : {1, -1}) {
                 const Feature circle{Kind::vertex_vertex, A.piece_vertex[x], O.piece_vertex[y], side};
-                if (side < 0 && is_smooth(scene, surface.contact, circle)) continue;
-                int sign = decide.event_sign_on(circle, {}, e.lo, e.hi);
-                if (sign == 0) {
-                    if (!root) root = decide.long_root_of(e);
-                    sign = sign_at(orders.exactly(circle, {}), *root);
-                }
-                (side > 0 ? left : right) |= sign == side;
+                if (side < 0 && is_smooth(scene, on, circle)) continue;
+                if (!has_direction(A, band.p, x, side) || !has_direction(O, band.k, y, side)) continue;
+                (side > 0 ? left : right) |= sign_of_event(circle) == side;
             }
     return left && right;
 }

@@ -32,6 +32,7 @@ private:
     struct Pillar {
         std::vector<Arc> arcs;
         std::vector<Edge> edges;
+        bool has_arcs = false;  // true if a piece has one that is an arc of its shape
         int count() const { return static_cast<int>(edges.size()); }
         // By any number, once around and again.
         const Edge& edge(int k) const { return edges[static_cast<std::size_t>(k + count()) % edges.size()]; }
@@ -57,6 +58,9 @@ private:
     };
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
     bool has_extent(const Feature& circle) const;  // its radius is not 0
+    bool is_stub(const Feature& line) const;
+    Feature circle_of(const Pillar& pillar, const Joint& joint) const;
+    std::optional<int> known_sign(const Feature& line, const Feature& circle) const;
     Joint joint(const Pillar& pillar, int k) const;
     int joint_sign(const Pillar& pillar, int k, const Sample& at);
     void watch_joint(const Pillar& pillar, int k, int sign, Cover& out) const;
@@ -85,6 +89,7 @@ private:
 
     RoundOrders orders;
     const std::vector<Index>& edges_at_centre;
+    const bool has_arcs;       // true if a shape has
     bool is_critical = false;  // true if the sample is itself a critical angle
 };
 

@@ -21,8 +21,8 @@ Code code(const Scene& scene, const Feature& f) {
 Feature end_helix(const Scene& scene, const Feature& contact, int end) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
-    if (contact.kind == Kind::vertex_edge) return {Kind::vertex_vertex, i, end ? O.w[j] : O.v[j]};
-    return {Kind::vertex_vertex, end ? A.w[i] : A.v[i], j};
+    if (contact.kind == Kind::vertex_edge) return {Kind::vertex_vertex, i, end ? O.last_of(j) : O.first_of(j)};
+    return {Kind::vertex_vertex, end ? A.last_of(i) : A.first_of(i), j};
 }
 
 // --- the quadratics, one formula for every number type ---------------------------------------------------------------

@@ -80,12 +80,7 @@ auto place_of_curve(const Scene& scene, const Feature& x, const Feature& f, int 
     if (is_line(x)) {
         const auto U = of.along(x);
         const K square = of.square_of_length(x);
-        if (is_smooth(scene, x, f)) {
-            const bool at_end = x.kind == Kind::vertex_edge
-                                    ? scene.obstacles.point[f.obstacle] == scene.obstacles.point[scene.obstacles.w[x.obstacle]]
-                                    : scene.robot.point[f.robot] == scene.robot.point[scene.robot.w[x.robot]];
-            return CurvePlace<V>{constant(K(at_end ? 1 : 0)), zero, zero, w, false};
-        }
+        if (const int end = smooth_end(scene, x, f); end >= 0) return CurvePlace<V>{constant(K(end)), zero, zero, w, false};
         if (is_line(f)) {
             const auto V_ = of.along(f);
             const auto N = of.rho(x) * of.length(x) * dot(V_, U) - square * of.offset(f, x);

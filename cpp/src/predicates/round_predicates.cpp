@@ -76,14 +76,15 @@ Event Predicates::restored_round(Event x, int place) {
 // True if two curves meet at a root of the polynomial of the three surfaces: if another branch does, they do not.
 bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) const {
     const RoundOrders orders(scene, surface);
-    const Feature &line = is_line(p) ? p : q, &circle = is_line(p) ? q : p;
-    if (is_smooth(scene, line, circle)) {
-        auto branch = x.fine < 0 ? orders.joint_branch(line, circle, x.lo, x.hi) : std::nullopt;
+    if (const auto line = line_of_joint(scene, p, q)) {
+        const Feature& circle = is_circle(p) ? p : q;
+        auto branch = x.fine < 0 ? orders.joint_branch(*line, circle, x.lo, x.hi) : std::nullopt;
         if (!branch) {
             LongRoot root = long_root_of(x);
-            branch = orders.joint_branch(line, circle, root);
+            branch = orders.joint_branch(*line, circle, root);
         }
-        return circle.branch == *branch && (is_line(surface.contact) || line.branch == *branch);
+        const auto is_there = [&](const Feature& f) { return f.branch == *branch || (is_line(f) && is_line(surface.contact)); };
+        return is_there(p) && is_there(q);
     }
     if (x.fine < 0 && orders.order_on(p, q, x.lo, x.hi) != 0) return false;
     LongRoot root = long_root_of(x);

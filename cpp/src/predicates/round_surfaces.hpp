@@ -11,8 +11,11 @@
 //     rho |n|^2 u = delta n + b sqrt(rho^2 |n|^2 - delta^2) J n,     b = -1 where the circle enters, b = 1 where it leaves,
 // counter-clockwise. Along the line P + t U + rho nu, nu the outward normal, a line is met at t = N / D and a circle at
 //     t |U|^2 = B + b sqrt(sigma^2 |U|^2 - M^2),      b = -1 where the line enters, b = 1 where it leaves.
-// A line is smooth with a circle if they are contacts of an edge and of its end: they touch at every orientation, in a joint.
+// A line is smooth with a circle if they are contacts of an edge and of its end: they touch at every orientation, in a joint. At
+// the end of an arc two circles have one joint with a line: that about the arc's centre, and that about its end.
 #pragma once
+#include <optional>
+
 #include "cfree/scene/lengths.hpp"
 #include "predicates/moving_vector.hpp"
 
@@ -26,15 +29,45 @@ struct Site {
 inline bool is_line(const Feature& f) { return f.kind == Kind::vertex_edge || f.kind == Kind::edge_vertex; }
 inline bool is_circle(const Feature& f) { return f.kind == Kind::vertex_vertex; }
 
-// True if a line and a circle are contacts of an edge and of its end.
-inline bool is_smooth(const Scene& scene, const Feature& line, const Feature& circle) {
+// End of an edge, 0 or 1, where its line touches a vertex's circle; -1 if that is at none.
+inline int end_at(const Shape& s, Index e, Index vertex) {
+    const Index p = s.point[vertex];
+    if (p == s.point[s.v[e]]) return 0;
+    if (s.first.empty()) return p == s.point[s.w[e]] ? 1 : -1;
+    if (p == s.point[s.first[e]]) return 0;
+    if (s.stub[e]) return p == s.point[s.last[e]] ? 0 : -1;
+    return p == s.point[s.w[e]] || p == s.point[s.last[e]] ? 1 : -1;
+}
+
+// End of a line, 0 or 1, at which a circle is smooth with it; -1 if it is not.
+inline int smooth_end(const Scene& scene, const Feature& line, const Feature& circle) {
     const Shape &A = scene.robot, &O = scene.obstacles;
-    if (!is_line(line) || !is_circle(circle)) return false;
+    if (!is_line(line) || !is_circle(circle)) return -1;
     if (line.kind == Kind::vertex_edge)
-        return A.point[line.robot] == A.point[circle.robot] &&
-               (O.point[O.v[line.obstacle]] == O.point[circle.obstacle] || O.point[O.w[line.obstacle]] == O.point[circle.obstacle]);
-    return O.point[line.obstacle] == O.point[circle.obstacle] &&
-           (A.point[A.v[line.robot]] == A.point[circle.robot] || A.point[A.w[line.robot]] == A.point[circle.robot]);
+        return A.point[line.robot] == A.point[circle.robot] ? end_at(O, line.obstacle, circle.obstacle) : -1;
+    return O.point[line.obstacle] == O.point[circle.obstacle] ? end_at(A, line.robot, circle.robot) : -1;
+}
+inline bool is_smooth(const Scene& scene, const Feature& line, const Feature& circle) { return smooth_end(scene, line, circle) >= 0; }
+
+// The line whose joint two curves have in common at every orientation: one of them, or that of a stub if they are circles.
+inline std::optional<Feature> line_of_joint(const Scene& scene, const Feature& x, const Feature& y) {
+    if (is_smooth(scene, x, y)) return x;
+    if (is_smooth(scene, y, x)) return y;
+    if (!is_circle(x) || !is_circle(y)) return {};
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (O.has_arcs() && A.point[x.robot] == A.point[y.robot])
+        if (const Index e = O.stub_between(x.obstacle, y.obstacle); e >= 0) return Feature{Kind::vertex_edge, x.robot, e};
+    if (A.has_arcs() && O.point[x.obstacle] == O.point[y.obstacle])
+        if (const Index g = A.stub_between(x.robot, y.robot); g >= 0) return Feature{Kind::edge_vertex, g, x.obstacle};
+    return {};
+}
+
+// The circle about the end of a line's edge, of all that have a joint there.
+inline Feature circle_at_end(const Scene& scene, const Feature& line, int end) {
+    const Shape& s = line.kind == Kind::vertex_edge ? scene.obstacles : scene.robot;
+    const Index e = line.kind == Kind::vertex_edge ? line.obstacle : line.robot, vertex = end == 0 ? s.v[e] : s.w[e];
+    if (line.kind == Kind::vertex_edge) return {Kind::vertex_vertex, line.robot, vertex};
+    return {Kind::vertex_vertex, vertex, line.obstacle};
 }
 
 template <>
@@ -137,12 +170,15 @@ private:
     const Scene& scene;
 };
 
-// Quadratic of the angles at which a joint of two of three surfaces is on the third one, if two are smooth.
+// Quadratic of the angles at which a joint that two of three surfaces have in common is on the third one.
 template <class K>
 std::optional<Trig<K>> joint_of_three(const RoundSurfaces<K>& of, const Scene& scene, const Feature& x, const Feature& y, const Feature& z) {
-    for (const auto& [line, circle, on] : {std::array{&x, &y, &z}, std::array{&y, &x, &z}, std::array{&x, &z, &y},
-                                           std::array{&z, &x, &y}, std::array{&y, &z, &x}, std::array{&z, &y, &x}})
-        if (is_smooth(scene, *line, *circle)) return of.joint(*line, *circle, *on);
+    const std::array<std::array<const Feature*, 3>, 3> pairs{{{&x, &y, &z}, {&x, &z, &y}, {&y, &z, &x}}};
+    for (const bool are_circles : {false, true})  // an event may name a joint of a line with a circle that touches the surface
+        for (const auto& [first, second, on] : pairs) {
+            if ((is_circle(*first) && is_circle(*second)) != are_circles) continue;
+            if (const auto line = line_of_joint(scene, *first, *second)) return of.joint(*line, is_circle(*first) ? *first : *second, *on);
+        }
     return {};
 }
 

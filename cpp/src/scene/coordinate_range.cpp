@@ -42,7 +42,7 @@ struct Extreme {
     bool is_radius = false;
 };
 
-// A radius below 0, none where a polygon has no interior, or another number of them than of obstacles.
+// A radius below 0, none where a polygon has no interior, or another number of them than of polygons.
 std::optional<RangeFault> radius_fault(const SceneShapes& shapes) {
     const auto fault = [](const char* kind, Index index, const Polygon& polygon, const Ratio& radius) -> std::optional<RangeFault> {
         if (radius.n.sign() < 0) return RangeFault{kind, index, "the radius " + text_of(radius) + " is below 0; give 0 or more"};
@@ -50,14 +50,15 @@ std::optional<RangeFault> radius_fault(const SceneShapes& shapes) {
             return RangeFault{kind, index, "a point or a segment has no interior; give it a radius above 0"};
         return {};
     };
-    const std::size_t count = shapes.obstacles.size(), radii = shapes.obstacle_radii.size();
-    if (radii != 0 && radii != count)
-        return RangeFault{"obstacles", -1, std::to_string(radii) + " radii for " + std::to_string(count) +
-                                               " obstacles; give one for each, or none"};
-    for (std::size_t k = 0; k < shapes.robot.size(); ++k)
-        if (auto wrong = fault("robot", static_cast<Index>(k), *shapes.robot[k], shapes.robot_radius)) return wrong;
-    for (std::size_t k = 0; k < count; ++k)
-        if (auto wrong = fault("obstacles", static_cast<Index>(k), *shapes.obstacles[k], shapes.obstacle_radius(k))) return wrong;
+    for (const auto& [kind, polygons, roundings] : {std::tuple{"robot", &shapes.robot, &shapes.robot_rounding},
+                                                    {"obstacles", &shapes.obstacles, &shapes.obstacle_rounding}}) {
+        if (!roundings->empty() && roundings->size() != polygons->size())
+            return RangeFault{kind, -1, std::to_string(roundings->size()) + " radii for " + std::to_string(polygons->size()) +
+                                            " polygons; give one for each, or none"};
+        for (std::size_t k = 0; k < polygons->size(); ++k)
+            if (auto wrong = fault(kind, static_cast<Index>(k), *(*polygons)[k], roundings->empty() ? Ratio{} : (*roundings)[k].radius))
+                return wrong;
+    }
     return shapes.workspace ? fault("workspace", -1, *shapes.workspace, {}) : std::nullopt;
 }
 
@@ -70,13 +71,23 @@ std::vector<Extreme> extremes(const SceneShapes& shapes) {
                 if (abs(*c) > abs(*widest)) widest = c;
         result.push_back({kind, index, *widest, polygon.denominator});
     };
-    const auto add_radius = [&](const char* kind, std::size_t index, const Ratio& radius) {
-        if (!radius.n.is_zero()) result.push_back({kind, static_cast<Index>(index), radius.n, radius.d, true});
+    const auto add_radii = [&](const char* kind, std::size_t index, const std::vector<Rounding>& all) {
+        if (all.empty()) return;
+        const auto add_radius = [&](const Ratio& radius) {
+            if (!radius.n.is_zero()) result.push_back({kind, static_cast<Index>(index), radius.n, radius.d, true});
+        };
+        add_radius(all[index].radius);
+        for (const Arc& arc : all[index].arcs) {
+            add_radius(arc.radius);
+            for (const Ratio* c : {&arc.centre.x, &arc.centre.y}) result.push_back({kind, static_cast<Index>(index), c->n, c->d});
+        }
     };
-    add_radius("robot", 0, shapes.robot_radius);
-    for (std::size_t k = 0; k < shapes.robot.size(); ++k) add("robot", static_cast<Index>(k), *shapes.robot[k]);
+    for (std::size_t k = 0; k < shapes.robot.size(); ++k) {
+        add_radii("robot", k, shapes.robot_rounding);
+        add("robot", static_cast<Index>(k), *shapes.robot[k]);
+    }
     for (std::size_t k = 0; k < shapes.obstacles.size(); ++k) {
-        add_radius("obstacles", k, shapes.obstacle_radius(k));
+        add_radii("obstacles", k, shapes.obstacle_rounding);
         add("obstacles", static_cast<Index>(k), *shapes.obstacles[k]);
     }
     if (shapes.workspace) add("workspace", -1, *shapes.workspace);

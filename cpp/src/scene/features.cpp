@@ -50,7 +50,15 @@ Points rectangle(const Int& x0, const Int& y0, const Int& x1, const Int& y1) { r
 // A radius times the common denominator.
 Int scaled(const Ratio& radius, const Int& scale) { return radius.n * (scale / radius.d); }
 
-// Builder of a shape from polygons.
+// An edge of a shape with arcs; see Shape.
+struct ArcEdge {
+    Index v, w, first, last;
+    bool is_stub = false;
+    Index ring = -1;  // of a piece: its number as an edge of a ring, if it is one
+};
+
+// Builder of a shape from polygons. Its rings' vertices come first; others, ends of arcs and of stubs, are put behind them in the
+// end, and are numbered from -1 downwards until then.
 struct Builder {
     const Int& scale;
     std::vector<Int> radii{0};  // that occur, in order
@@ -59,6 +67,13 @@ struct Builder {
     std::vector<Index> next, previous, layer, piece{0}, piece_vertex, piece_layer;
     Owners owners;
     std::vector<char> convex, emit;
+    // Only of polygons with arcs: other vertices and their radii; edges of rings by the vertices where they start, and of pieces by
+    // the places of these; vertices that are arcs.
+    Points others;
+    std::vector<Index> other_radius;
+    std::map<Index, ArcEdge> ring_edges;
+    std::map<std::size_t, ArcEdge> piece_edges;
+    std::vector<Index> arcs;
 
     explicit Builder(const Int& common) : scale(common) {}
 
@@ -71,14 +86,19 @@ struct Builder {
     Index count() const { return static_cast<Index>(x.size()); }
 
     // Number the radii that occur; before polygons are added.
-    template <class Radii>
-    void number_radii(const Radii& all) {
-        for (const Ratio& radius : all) radii.push_back(scaled(radius, scale));
+    void number_radii(const std::vector<Rounding>& all) {
+        for (const Rounding& rounding : all) {
+            radii.push_back(scaled(rounding.radius, scale));
+            for (const Arc& arc : rounding.arcs) radii.push_back(scaled(rounding.radius, scale) + scaled(arc.radius, scale));
+        }
         std::sort(radii.begin(), radii.end());
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
     }
     bool is_round() const { return radii.size() > 1; }
     const Int& radius(Index v) const { return radii[vertex_radius[v]]; }
+    Index class_of(const Int& radius) const {
+        return static_cast<Index>(is_round() ? std::lower_bound(radii.begin(), radii.end(), radius) - radii.begin() : 0);
+    }
 
     // Set the class of the radius of the latest vertices.
     void set_radius(Index radius_class) { vertex_radius.resize(x.size(), radius_class); }
@@ -90,29 +110,39 @@ struct Builder {
             next.push_back(first + (k + 1) % n), previous.push_back(first + (k + n - 1) % n);
     }
 
+    Index add_vertex(const Int& at_x, const Int& at_y, bool is_convex, bool emits, Index owner, Index number) {
+        x.push_back(at_x), y.push_back(at_y);
+        convex.push_back(is_convex), emit.push_back(emits), layer.push_back(body_layer);
+        owners.polygon.push_back(owner), owners.vertex.push_back(number);
+        return count() - 1;
+    }
+    Index add_other(const Vec<Int>& p, Index radius_class) {
+        others.X.push_back(p.x), others.Y.push_back(p.y);
+        other_radius.push_back(radius_class);
+        return -static_cast<Index>(others.X.size());
+    }
+
     template <class Owner>
-    void add_polygon(const Polygon& polygon, const Ratio& radius, Index owner, bool emit_outer, Owner owner_of) {
+    void add_polygon(const Polygon& polygon, const Rounding& rounding, Index owner, bool emit_outer, Owner owner_of) {
+        if (!rounding.arcs.empty()) return add_with_arcs(polygon, rounding, owner);
         const Int factor = scale / polygon.denominator;
         const Index first = count();
-        const auto radius_class = static_cast<Index>(
-            is_round() ? std::lower_bound(radii.begin(), radii.end(), scaled(radius, scale)) - radii.begin() : 0);
         for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
             const Index start = count();
-            for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
-                x.push_back(polygon.vertices.X[k] * factor), y.push_back(polygon.vertices.Y[k] * factor);
-                convex.push_back(polygon.convex[k]);
-                emit.push_back(emit_outer || r > 0);
-                layer.push_back(body_layer);
-                owners.polygon.push_back(owner), owners.vertex.push_back(owner_of(r, k));
-            }
+            for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k)
+                add_vertex(polygon.vertices.X[k] * factor, polygon.vertices.Y[k] * factor, polygon.convex[k], emit_outer || r > 0, owner,
+                           owner_of(r, k));
             close_ring(start);
         }
-        set_radius(radius_class);
+        set_radius(class_of(scaled(rounding.radius, scale)));
         for (const auto& vertices : polygon.pieces()) {
             for (const Index v : vertices) piece_vertex.push_back(first + v);
             close_piece(body_layer);
         }
     }
+
+    void number_others();
+    void add_with_arcs(const Polygon& polygon, const Rounding& rounding, Index owner);
 
     void close_piece(Index of_layer) {
         piece.push_back(static_cast<Index>(piece_vertex.size()));
@@ -130,6 +160,112 @@ struct Builder {
         close_ring(start);
     }
 };
+
+// Put the other vertices behind those of rings and bounds.
+void Builder::number_others() {
+    const auto numbered = [base = count()](Index& v) {
+        if (v < 0) v = base - 1 - v;
+    };
+    for (Index k = 0; k < static_cast<Index>(others.X.size()); ++k) {
+        x.push_back(others.X[k]), y.push_back(others.Y[k]);
+        vertex_radius.push_back(other_radius[k]);
+    }
+    for (Index& v : piece_vertex) numbered(v);
+    for (auto& [e, edge] : ring_edges) numbered(edge.v), numbered(edge.w);
+    for (auto& [k, edge] : piece_edges) numbered(edge.v), numbered(edge.w), numbered(edge.first), numbered(edge.last);
+}
+
+// The ring has a vertex for each corner and for each arc, its centre. Where an arc is smooth with its neighbour there is no corner.
+// A convex piece for each arc, between it and its chord, joins those of the polygon.
+void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, Index owner) {
+    const Int factor = scale / polygon.denominator, grown = scaled(rounding.radius, scale);
+    const Index at_corner = class_of(grown), count_of_points = polygon.vertices.size();
+    std::vector<Vec<Int>> points;
+    for (Index k = 0; k < count_of_points; ++k) points.push_back({polygon.vertices.X[k] * factor, polygon.vertices.Y[k] * factor});
+    const auto place = [&](const RatioPoint& p) { return Vec<Int>{scaled(p.x, scale), scaled(p.y, scale)}; };
+    const auto key = [](const Vec<Int>& p, const Vec<Int>& q) { return std::array{p.x, p.y, q.x, q.y}; };
+    std::map<std::array<Int, 4>, const Arc*> arc_of;
+    for (const Arc& arc : rounding.arcs) arc_of[key(place(arc.from), place(arc.to))] = &arc;
+    struct Side {
+        Index from, to;  // points
+        const Arc* arc;
+        Vec<Int> centre;
+        Index vertex = 0;                // of the arc
+        std::array<Vec<Int>, 2> towards;  // directions at its ends
+    };
+    std::vector<Side> sides;  // by their first points
+    std::vector<Index> before(static_cast<std::size_t>(count_of_points));
+    std::size_t matched = 0;
+    for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r)
+        for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
+            const Index to = k + 1 < polygon.offsets[r + 1] ? k + 1 : polygon.offsets[r];
+            const auto arc = arc_of.find(key(points[k], points[to]));
+            Side side{k, to, arc == arc_of.end() ? nullptr : arc->second, {}, 0, {points[to] - points[k], points[to] - points[k]}};
+            if (side.arc) {
+                side.centre = place(side.arc->centre);
+                for (const int end : {0, 1}) {
+                    const Vec<Int> from_centre = points[end ? to : k] - side.centre;
+                    side.towards[static_cast<std::size_t>(end)] = {-from_centre.y, from_centre.x};
+                }
+                ++matched;
+            }
+            sides.push_back(side), before[to] = k;
+        }
+    if (matched != rounding.arcs.size()) throw BrokenInvariant("an arc that is no side of its polygon");
+    // vertices of the rings: of each point, if it is a corner, and of each arc
+    std::vector<Index> vertex(static_cast<std::size_t>(count_of_points));
+    std::vector<char> is_corner(vertex.size());
+    for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
+        const Index start = count();
+        for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
+            Side &in = sides[before[k]], &out = sides[k];
+            const Int turn = cross(in.towards[1], out.towards[0]);
+            is_corner[k] = (!in.arc && !out.arc) || !turn.is_zero() || dot(in.towards[1], out.towards[0]).sign() < 0;
+            if (is_corner[k]) {
+                vertex[k] = add_vertex(points[k].x, points[k].y, turn.sign() >= 0, true, owner, count() - start);
+                vertex_radius.push_back(at_corner);
+            }
+            if (!out.arc) continue;
+            out.vertex = add_vertex(out.centre.x, out.centre.y, true, true, owner, count() - start);
+            vertex_radius.push_back(class_of(grown + scaled(out.arc->radius, scale)));
+            arcs.push_back(out.vertex);
+        }
+        close_ring(start);
+    }
+    for (Index k = 0; k < count_of_points; ++k)
+        if (!is_corner[k]) vertex[k] = add_other(points[k], at_corner);
+    const auto stub = [&](Index k, const Vec<Int>& towards, Index first, Index last) {
+        return ArcEdge{vertex[k], add_other({points[k].x + towards.x, points[k].y + towards.y}, at_corner), first, last, true};
+    };
+    const auto begin = [&](const Side& side) { return is_corner[side.from] ? vertex[side.from] : sides[before[side.from]].vertex; };
+    for (const Side& in : sides) {  // edges of the rings
+        const Index to = in.to;
+        const Side& out = sides[to];
+        const Index last = is_corner[to] ? vertex[to] : out.vertex;
+        if (!in.arc) ring_edges[begin(in)] = {vertex[in.from], vertex[to], begin(in), last};
+        else if (is_corner[to] || out.arc) ring_edges[in.vertex] = stub(to, in.towards[1], in.vertex, last);
+        if (out.arc && is_corner[to]) ring_edges[vertex[to]] = stub(to, out.towards[0], vertex[to], out.vertex);
+    }
+    for (const auto& corners : polygon.pieces()) {
+        for (std::size_t n = 0; n < corners.size(); ++n) {
+            const Index k = corners[n], to = corners[n + 1 < corners.size() ? n + 1 : 0];
+            const bool is_side = sides[k].to == to && !sides[k].arc;
+            piece_edges[piece_vertex.size()] = {vertex[k], vertex[to], vertex[k], vertex[to], false, is_side ? begin(sides[k]) : -1};
+            piece_vertex.push_back(vertex[k]);
+        }
+        close_piece(body_layer);
+    }
+    for (const Side& side : sides) {
+        if (!side.arc) continue;
+        piece_edges[piece_vertex.size()] = stub(side.to, side.towards[1], side.vertex, vertex[side.to]);
+        piece_vertex.push_back(side.vertex);
+        piece_edges[piece_vertex.size()] = {vertex[side.to], vertex[side.from], vertex[side.to], vertex[side.from]};
+        piece_vertex.push_back(vertex[side.to]);
+        piece_edges[piece_vertex.size()] = stub(side.from, side.towards[0], vertex[side.from], side.vertex);
+        piece_vertex.push_back(vertex[side.from]);
+        close_piece(body_layer);
+    }
+}
 
 // Number items in order of appearance, equal ones alike; `before` orders them.
 template <class Before>
@@ -172,22 +308,19 @@ std::vector<Index> place_orders(const Points& points) {
     return place;
 }
 
-// Add radii and lengths, without their doubles. Returned for each edge is a key, the same for edges of one direction whose
+// Add radii and lengths, without their doubles, and where circles of arcs touch. Returned for each edge is a key, the same for edges of one direction whose
 // lines, moved outwards by their radii s, are one: their offset times |D|, v x D + s |D|, for the least integer vector D along
 // the edge. If |D| is irrational the two parts are equal only one by one, and are a pair.
 std::vector<std::pair<Int, Int>> add_radii(Shape& s, Builder& from, const Points& points) {
     for (const Int& radius : from.radii) s.radii.push_back({radius, {}});
     s.vertex_radius = std::move(from.vertex_radius);
-    for (std::size_t p = 0; p + 1 < from.piece.size(); ++p)
-        s.piece_radius.push_back(s.vertex_radius[from.piece_vertex[from.piece[p]]]);
     std::vector<std::pair<Int, Int>> keys(s.v.size());
     s.lengths.resize(s.v.size());
     for (Index e = 0; e < static_cast<Index>(s.v.size()); ++e) {
         const Index v = s.v[e], w = s.w[e];
-        s.edge_radius.push_back(s.vertex_radius[v]);
         if (points.same(v, w)) continue;
         const Vec<Int> E{points.X[w] - points.X[v], points.Y[w] - points.Y[v]};
-        const Int divisor = gcd(abs(E.x), abs(E.y)), &radius = s.radii[s.edge_radius[e]].exact;
+        const Int divisor = gcd(abs(E.x), abs(E.y)), &radius = s.radii[s.vertex_radius[v]].exact;
         const Vec<Int> D{E.x / divisor, E.y / divisor};
         const Int square = dot(D, D), root = root_below(square), offset = cross(Vec<Int>{points.X[v], points.Y[v]}, D);
         const bool is_rational = root * root == square;
@@ -197,21 +330,53 @@ std::vector<std::pair<Int, Int>> add_radii(Shape& s, Builder& from, const Points
     return keys;
 }
 
+// Enter which vertices are arcs, and where circles touch in joints of stubs.
+void add_touches(Shape& s, const std::vector<Index>& arcs) {
+    s.is_arc.assign(s.point.size(), 0);
+    for (const Index v : arcs) s.is_arc[v] = 1;
+    for (Index e = 0; e < static_cast<Index>(s.v.size()); ++e) {
+        if (!s.stub[e]) continue;
+        const std::array points{s.point[s.v[e]], s.point[s.first[e]], s.point[s.last[e]]};
+        for (const auto& [p, q] : {std::pair{points[0], points[1]}, {points[0], points[2]}, {points[1], points[2]}})
+            if (p != q) s.touches.push_back({std::min(p, q), std::max(p, q), e});
+    }
+    std::sort(s.touches.begin(), s.touches.end());
+    s.touches.erase(std::unique(s.touches.begin(), s.touches.end(), [](const auto& x, const auto& y) {
+        return x.first == y.first && x.second == y.second;
+    }), s.touches.end());
+}
+
 Shape finished(Builder&& from, int shift, bool is_round) {
     Shape s;
+    from.number_others();
     Points points(std::move(from.x), std::move(from.y));
     s.ring_vertices = static_cast<Index>(from.next.size());
     s.v.resize(from.next.size()), s.w = from.next;
     std::iota(s.v.begin(), s.v.end(), 0);
+    if (!from.arcs.empty()) s.first = s.v, s.last = s.w, s.stub.assign(s.v.size(), 0);
+    const auto set_edge = [&](Index e, const ArcEdge& edge) {
+        s.v[e] = edge.v, s.w[e] = edge.w, s.first[e] = edge.first, s.last[e] = edge.last, s.stub[e] = edge.is_stub;
+    };
+    for (const auto& [e, edge] : from.ring_edges) set_edge(e, edge);
     // pieces run along edges of rings and along diagonals, each in one direction once
     for (std::size_t p = 0; p + 1 < from.piece.size(); ++p)
         for (Index k = from.piece[p]; k < from.piece[p + 1]; ++k) {
+            if (const auto given = from.piece_edges.find(static_cast<std::size_t>(k)); given != from.piece_edges.end()) {
+                const ArcEdge& edge = given->second;
+                s.piece_edge.push_back(edge.ring >= 0 ? edge.ring : static_cast<Index>(s.v.size()));
+                if (edge.ring >= 0) continue;
+                for (auto* column : {&s.v, &s.w, &s.first, &s.last}) column->push_back(0);
+                s.stub.push_back(0);
+                set_edge(s.piece_edge.back(), edge);
+                continue;
+            }
             const Index v = from.piece_vertex[k], w = from.piece_vertex[k + 1 < from.piece[p + 1] ? k + 1 : from.piece[p]];
             if (v < s.ring_vertices && from.next[v] == w) {
                 s.piece_edge.push_back(v);
             } else {
                 s.piece_edge.push_back(static_cast<Index>(s.v.size()));
                 s.v.push_back(v), s.w.push_back(w);
+                if (!from.arcs.empty()) s.first.push_back(v), s.last.push_back(w), s.stub.push_back(0);
             }
         }
     const std::vector<Index> place = place_orders(points);
@@ -247,6 +412,7 @@ Shape finished(Builder&& from, int shift, bool is_round) {
     const std::size_t rings = from.next.size();
     s.vertex_rank = ranks(s.point, rings, [&](Index v) { return std::pair(place[from.next[v]], place[from.previous[v]]); });
     s.edge_rank = ranks(s.line, rings, [&](Index e) { return std::pair(place[s.v[e]], place[s.w[e]]); });
+    if (!from.arcs.empty()) add_touches(s, from.arcs);
     s.previous = std::move(from.previous), s.layer = std::move(from.layer);
     s.convex = std::move(from.convex), s.emit = std::move(from.emit);
     s.piece = std::move(from.piece), s.piece_vertex = std::move(from.piece_vertex), s.piece_layer = std::move(from.piece_layer);
@@ -336,7 +502,38 @@ Vec<Int> place_near(const Box& box, const Int& scale) {
     return {floor_divide(box.x0 + box.x1, 2 * step) * step, floor_divide(box.y0 + box.y1, 2 * step) * step};
 }
 
+bool is_rounded(const Rounding& rounding) { return !rounding.radius.n.is_zero() || !rounding.arcs.empty(); }
+
+// How far a rounded polygon reaches beyond its corners, at most: an arc is as near to them as its radius.
+Ratio reach_beyond_corners(const Rounding& rounding) {
+    Ratio most{0, 1};
+    for (const Arc& arc : rounding.arcs)
+        if (most < arc.radius) most = arc.radius;
+    return most + rounding.radius;
+}
+
+template <class Use>
+void for_each_number(const Rounding& rounding, Use use) {
+    use(rounding.radius);
+    for (const Arc& arc : rounding.arcs) {
+        for (const RatioPoint* p : {&arc.from, &arc.to, &arc.centre}) use(p->x), use(p->y);
+        use(arc.radius);
+    }
+}
+
+const Rounding& of_polygon(const std::vector<Rounding>& all, std::size_t k) {
+    static const Rounding none;
+    return all.empty() ? none : all.at(k);
+}
+
 }  // namespace
+
+Ratio SceneShapes::robot_radius() const {
+    Ratio most{0, 1};
+    for (const Rounding& rounding : robot_rounding)
+        if (const Ratio reach = reach_beyond_corners(rounding); most < reach) most = reach;
+    return most;
+}
 
 Int floor_divide(const Int& n, const Int& d) {
     Int q, rest;
@@ -344,17 +541,19 @@ Int floor_divide(const Int& n, const Int& d) {
     return rest.sign() < 0 ? Int(q - 1) : q;
 }
 
-void WholeScene::add(const Polygon& polygon, const Ratio& radius) {
+void WholeScene::add(const Polygon& polygon, const Rounding& rounding) {
     include_short(short_part, polygon.denominator);
-    for (const Int* denominator : {&polygon.denominator, &radius.d}) {
+    std::vector<const Int*> denominators{&polygon.denominator};
+    for_each_number(rounding, [&](const Ratio& x) { denominators.push_back(&x.d); });
+    for (const Int* denominator : denominators) {
         if (scale % *denominator == 0) continue;
         const Int more = lcm(scale, *denominator) / scale;
         scale *= more;
         if (box)
             for (Int& c : *box) c *= more;
     }
-    is_round |= !radius.n.is_zero();
-    const Int factor = scale / polygon.denominator, reach = scaled(radius, scale);
+    is_round |= is_rounded(rounding);
+    const Int factor = scale / polygon.denominator, reach = scaled(reach_beyond_corners(rounding), scale);
     for (Index k = 0; k < polygon.offsets[1]; ++k) {
         const Int x = polygon.vertices.X[k] * factor, y = polygon.vertices.Y[k] * factor;
         if (!box) box = {x - reach, y - reach, x + reach, y + reach};
@@ -375,8 +574,8 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     for (const auto* polygons : {&shapes.obstacles, &shapes.robot})
         for (const auto& polygon : *polygons) include(polygon->denominator);
     if (shapes.workspace) include(shapes.workspace->denominator);
-    include(shapes.robot_radius.d);
-    for (const Ratio& radius : shapes.obstacle_radii) include(radius.d);
+    for (const auto* all : {&shapes.robot_rounding, &shapes.obstacle_rounding})
+        for (const Rounding& rounding : *all) for_each_number(rounding, [&](const Ratio& x) { include(x.d); });
     std::vector<Int> bounds;
     if (shapes.bounds) {
         for (const Ratio& bound : *shapes.bounds) include(bound.d);
@@ -384,14 +583,14 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     }
     Builder robot(scale), obstacles(scale);
     robot.reserve(shapes.robot), obstacles.reserve(shapes.obstacles);
-    robot.number_radii(std::array{shapes.robot_radius}), obstacles.number_radii(shapes.obstacle_radii);
+    robot.number_radii(shapes.robot_rounding), obstacles.number_radii(shapes.obstacle_rounding);
     const bool is_round = whole.is_round || robot.is_round() || obstacles.is_round();
     const auto own = [](std::size_t, Index k) { return k; };
     for (std::size_t k = 0; k < shapes.robot.size(); ++k)
-        robot.add_polygon(*shapes.robot[k], shapes.robot_radius, static_cast<Index>(k), true, own);
+        robot.add_polygon(*shapes.robot[k], of_polygon(shapes.robot_rounding, k), static_cast<Index>(k), true, own);
     for (std::size_t k = 0; k < shapes.obstacles.size(); ++k)
-        obstacles.add_polygon(*shapes.obstacles[k], shapes.obstacle_radius(k), static_cast<Index>(k), true, own);
-    const Int robot_radius = scaled(shapes.robot_radius, scale);
+        obstacles.add_polygon(*shapes.obstacles[k], of_polygon(shapes.obstacle_rounding, k), static_cast<Index>(k), true, own);
+    const Int robot_radius = scaled(shapes.robot_radius(), scale);
     std::optional<Box> given;  // box around all obstacles of the whole, with their radii, and bounds
     const auto give = [&](const Int& x, const Int& y) { given ? given->add(x, y) : void(given = Box{x, y, x, y}); };
     if (whole.box) {

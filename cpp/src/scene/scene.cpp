@@ -61,6 +61,12 @@ void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, 
     for (std::size_t k = 0; k < X.size(); ++k) xy.push_back(nearest(X[k], scale)), xy.push_back(nearest(Y[k], scale));
 }
 
+Index Shape::stub_between(Index vertex, Index other) const {
+    const Index p = std::min(point[vertex], point[other]), q = std::max(point[vertex], point[other]);
+    const auto found = std::lower_bound(touches.begin(), touches.end(), Touch{p, q, -1});
+    return found != touches.end() && found->first == p && found->second == q ? found->stub : -1;
+}
+
 std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,
                                           int near_shift) {
     const auto is_zero = [](const Vec<Int>& p) { return p.x.is_zero() && p.y.is_zero(); };

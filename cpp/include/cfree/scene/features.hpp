@@ -20,14 +20,26 @@
 
 namespace cfree {
 
-// Shapes of a scene. Each polygon of the robot and each obstacle is grown by its radius; a thin one has a radius above 0.
+// A convex arc, counter-clockwise and of less than half a turn, in place of a polygon's side between two of its vertices.
+struct Arc {
+    RatioPoint from, to, centre;
+    Ratio radius;
+};
+
+// How a polygon is rounded: some of its sides are arcs, then it is grown. A thin one has a radius above 0.
+struct Rounding {
+    Ratio radius = {};
+    std::vector<Arc> arcs = {};
+};
+
+// Shapes of a scene.
 struct SceneShapes {
     std::vector<std::shared_ptr<const Polygon>> robot, obstacles;
     std::shared_ptr<const Polygon> workspace;         // optional; the whole robot stays in it
     std::optional<std::array<Ratio, 4>> bounds;       // xmin, ymin, xmax, ymax: the reference point stays in them
-    Ratio robot_radius = {};                          // of all its polygons
-    std::vector<Ratio> obstacle_radii = {};           // one for each obstacle; or empty, and all are 0
-    Ratio obstacle_radius(std::size_t k) const { return obstacle_radii.empty() ? Ratio{} : obstacle_radii.at(k); }
+    std::vector<Rounding> robot_rounding = {}, obstacle_rounding = {};  // one for each polygon; or empty, and none is rounded
+    // The largest of the robot's radii: the robot is within the corners grown by it.
+    Ratio robot_radius() const;
 };
 
 // Data of the whole scene that the features of its parts need, so that all parts have the numbers of the whole.
@@ -37,7 +49,7 @@ struct WholeScene {
     Int short_part = 1;                     // see Scene; of its obstacles
     bool is_round = false;                  // true if a radius is above 0
     // Add an obstacle.
-    void add(const Polygon& polygon, const Ratio& radius = {});
+    void add(const Polygon& polygon, const Rounding& rounding = {});
 };
 
 inline constexpr Index body_layer = 0, reference_layer = 1;

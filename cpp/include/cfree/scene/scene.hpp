@@ -7,8 +7,13 @@
 // A shape may be rounded: each of its polygons, which is then called a core, and may be a point or a segment, is grown by a
 // radius of its own. In such a scene vertices share a point only with one radius, and edges share a line only if these lines,
 // moved outwards by their radii, are one.
+//
+// Sides of a polygon may be convex arcs. The ring then has the arc's centre as a vertex, with the arc's radius; a vertex where an
+// arc meets its neighbour smoothly is none of the ring's. The edge between an arc and a corner, or another arc, is a stub: it has
+// no length, and the arc's direction at its end.
 #pragma once
 #include <array>
+#include <compare>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -49,14 +54,32 @@ struct Shape {
     // Convex pieces, counter-clockwise; piece k has vertices piece_vertex[piece[k] .. piece[k + 1]) and as many edges,
     // none when it is a single point.
     std::vector<Index> piece, piece_vertex, piece_edge, piece_layer;
-    // Only in scenes with a radius, else empty: different radii by class, which rise from 0, the radius of class 0; classes of
-    // the radius of each vertex, edge and piece; lengths of edges.
+    // Only in scenes with a radius, else empty: different radii by class, which rise from 0, the radius of class 0; class of the
+    // radius of each vertex; lengths of edges. An edge has the radius of its ends.
     std::vector<Radius> radii;
-    std::vector<Index> vertex_radius, edge_radius, piece_radius;
+    std::vector<Index> vertex_radius;
     std::vector<Length> lengths;
 
     Index pieces() const { return static_cast<Index>(piece.size()) - 1; }
+    // Vertices at the ends of each edge whose circles it touches there, beside v and w: those of arcs. Only with arcs, else empty.
+    std::vector<Index> first, last;
+    std::vector<char> stub;   // of each edge: true if it is one; its line touches the circles of v and of these two in one place
+    std::vector<char> is_arc;  // of each vertex: true if it is an arc's centre
+    // Pairs of points whose circles touch in the joint of a stub, the lower first, in order: arcs and their ends.
+    struct Touch {
+        Index first, second, stub;
+        auto operator<=>(const Touch&) const = default;
+    };
+    std::vector<Touch> touches;
+    // Stub in whose joint the circles of two vertices touch; -1 if there is none.
+    Index stub_between(Index vertex, Index other) const;
+
+    bool has_arcs() const { return !is_arc.empty(); }
+    Index first_of(Index e) const { return first.empty() ? v[e] : first[e]; }
+    Index last_of(Index e) const { return last.empty() ? w[e] : last[e]; }
+    bool is_stub(Index e) const { return !stub.empty() && stub[e] != 0; }
     bool has_extent(Index e) const { return v[e] != w[e]; }  // or is the ring a single point
+    bool makes_surfaces(Index e) const { return has_extent(e) && !is_stub(e); }
     // Vertices in the user's units, correctly rounded: x0, y0, x1, ...
     std::vector<double> xy;
     // Set X and Y and the doubles, also those of radii and lengths. Both shapes of a scene have the same scale, integers in a
