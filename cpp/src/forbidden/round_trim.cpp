@@ -501,18 +501,31 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
             const Feature other = with_branch(c.curve, 0);
             const int sign = sign_of(other, seam, at);
             out.watched.push_back({other, seam, sign, sign == 0});
+            if (sign != 0 || is_smooth(scene, other, x)) continue;
+            for (const int side : {1, -1}) {  // one of the two is always there: the other one passes it where the surfaces touch
+                const int touches = sign_of(with_branch(other, side), {}, at);
+                out.watched.push_back({with_branch(other, side), {}, touches, touches == 0});
+            }
         }
         const int ahead = orders.coordinate_sign(c.curve, 0, tau), back = orders.coordinate_sign(c.curve, 1, tau);
         placed.push_back({c, ahead >= 0 ? (back <= 0 ? 0 : 1) : (back > 0 ? 2 : 3)});
     }
     if (is_critical) return;
-    std::sort(placed.begin(), placed.end(), [&](const Placed& p, const Placed& q) {
-        if (p.quadrant != q.quadrant) return p.quadrant < q.quadrant;
+    const auto order = [&](const Placed& p, const Placed& q) {
+        if (p.quadrant != q.quadrant) return p.quadrant - q.quadrant;
         Surface there = surface;
         there.contact.branch = static_cast<std::int8_t>((x.branch + p.quadrant) & 3);
-        const int order = RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, tau);
-        return order != 0 ? order < 0 : p.crossing.enters < q.crossing.enters;
+        return RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, tau);
+    };
+    std::sort(placed.begin(), placed.end(), [&](const Placed& p, const Placed& q) {
+        const int sign = order(p, q);
+        return sign != 0 ? sign < 0 : p.crossing.enters > q.crossing.enters;
     });
+    // where a joint that is on the circle reaches out of it, nothing is covered between its two features
+    for (std::size_t k = 0; k + 1 < placed.size();)
+        if (placed[k].crossing.enters && order(placed[k], placed[k + 1]) == 0) placed.erase(placed.begin() + static_cast<std::ptrdiff_t>(k), placed.begin() + static_cast<std::ptrdiff_t>(k) + 2);
+        else ++k;
+    if (placed.empty()) return;
     bool is_covered = placed.back().crossing.enters;
     Feature from = seams[0];
     for (const auto& [crossing, quadrant] : placed) {
