@@ -130,6 +130,17 @@ std::vector<std::shared_ptr<Polygon>> polygons_of(nb::list outers) {
     return found;
 }
 
+using GivenRounding = std::pair<nb::object, std::vector<std::vector<nb::object>>>;
+cfree::Rounding rounding_of(const GivenRounding& given) {
+    cfree::Rounding result{::ratio_of(given.first), {}};
+    for (const auto& arc : given.second) {
+        if (arc.size() != 7) throw nb::value_error("an arc has seven numbers: x and y of its ends and centre, and the radius");
+        const auto number = [&](std::size_t k) { return ::ratio_of(arc[k]); };
+        result.arcs.push_back({{number(0), number(1)}, {number(2), number(3)}, {number(4), number(5)}, number(6)});
+    }
+    return result;
+}
+
 cfree::SceneShapes shapes_of(std::vector<std::shared_ptr<Polygon>> robot, std::vector<std::shared_ptr<Polygon>> obstacles,
                              std::shared_ptr<Polygon> workspace, std::optional<std::array<nb::object, 4>> bounds) {
     cfree::SceneShapes shapes{{robot.begin(), robot.end()}, {obstacles.begin(), obstacles.end()}, std::move(workspace), {}};
@@ -206,6 +217,7 @@ void bind_polygons(nb::module_& m) {
     nb::class_<cfree::Owners> owners(m, "Owners");
     column(owners, "polygon", &cfree::Owners::polygon);
     column(owners, "vertex", &cfree::Owners::vertex);
+    column(owners, "polygon_of_end", &cfree::Owners::polygon_of_end);
     nb::class_<cfree::WholeScene>(m, "WholeScene")
         .def("__init__", [](cfree::WholeScene* w, const nb::int_& scale, const std::optional<std::array<nb::int_, 4>>& box,
                             const nb::int_& short_part) {
@@ -223,19 +235,18 @@ void bind_polygons(nb::module_& m) {
         .def("__init__", [](cfree::SceneFeatures* f, std::vector<std::shared_ptr<Polygon>> robot,
                             std::vector<std::shared_ptr<Polygon>> obstacles, std::shared_ptr<Polygon> workspace,
                             std::optional<std::array<nb::object, 4>> bounds, const cfree::WholeScene* whole,
-                            const std::optional<std::vector<nb::object>>& radii) {
+                            const std::optional<std::vector<GivenRounding>>& rounding) {
             cfree::SceneShapes shapes = shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds));
-            for (std::size_t k = 0; radii && k < radii->size(); ++k) {
-                const cfree::Ratio radius = ::ratio_of((*radii)[k]);
-                if (k < shapes.robot.size()) shapes.robot_rounding.push_back({radius, {}});
-                else shapes.obstacle_rounding.push_back({radius, {}});
-            }
+            for (std::size_t k = 0; rounding && k < rounding->size(); ++k)
+                (k < shapes.robot.size() ? shapes.robot_rounding : shapes.obstacle_rounding).push_back(rounding_of((*rounding)[k]));
             new (f) cfree::SceneFeatures(cfree::scene_features(shapes, whole ? *whole : cfree::WholeScene{}));
         }, "robot"_a, "obstacles"_a, "workspace"_a.none(), "bounds"_a.none(), "whole"_a.none() = nb::none(),
-             "radii"_a.none() = nb::none(), "Radii by which the robot's polygons and the obstacles are grown.",
+             "rounding"_a.none() = nb::none(),
+             "How the robot's polygons and the obstacles are rounded: the radius by which each is grown, and its sides that are "
+             "arcs, by x and y of their ends and centre, and radius.",
              nb::sig("def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
                      "bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, "
-                     "radii: Sequence[fractions.Fraction] | None = None) -> None"))
+                     "rounding: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None) -> None"))
         .def_ro("scene", &cfree::SceneFeatures::scene)
         .def_ro("robot", &cfree::SceneFeatures::robot)
         .def_ro("obstacles", &cfree::SceneFeatures::obstacles)

@@ -58,6 +58,12 @@ void bind_scene(nb::module_& m) {
                      [](const cfree::Shape& s) {  // of vertices, of convex ones, of vertices of pieces
                          return std::tuple(s.convex.size(), std::count(s.convex.begin(), s.convex.end(), 1), s.piece_vertex.size());
                      })
+        .def_prop_ro("radius",
+                     [](const cfree::Shape& s) {  // of each vertex; empty if no shape is rounded
+                         std::vector<nb::int_> radius;
+                         for (const auto c : s.vertex_radius) radius.push_back(integer(s.radii[c].exact));
+                         return radius;
+                     })
         .def_prop_ro("convex", [](const cfree::Shape& s) { return flags(s.convex); })
         .def_prop_ro("emit", [](const cfree::Shape& s) { return flags(s.emit); });
     rows<2>(shape, "xy", &cfree::Shape::xy);

@@ -17,6 +17,9 @@ class Shape:
     def counts(self) -> tuple[int, int, int]: ...
 
     @property
+    def radius(self) -> list[int]: ...
+
+    @property
     def convex(self) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), writable=False)]: ...
 
     @property
@@ -140,6 +143,9 @@ class Owners:
     @property
     def vertex(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), writable=False)]: ...
 
+    @property
+    def polygon_of_end(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), writable=False)]: ...
+
 class WholeScene:
     def __init__(self, scale: int, box: Sequence[int] | None, short_part: int) -> None: ...
 
@@ -155,8 +161,10 @@ class WholeScene:
     def box(self) -> tuple[int, int, int, int] | None: ...
 
 class SceneFeatures:
-    def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, radii: Sequence[fractions.Fraction] | None = None) -> None:
-        """Radii by which the robot and each obstacle are grown."""
+    def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, rounding: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None) -> None:
+        """
+        How the robot's polygons and the obstacles are rounded: the radius by which each is grown, and its sides that are arcs, by x and y of their ends and centre, and radius.
+        """
 
     @property
     def scene(self) -> Scene: ...

@@ -316,12 +316,15 @@ def test_rounded_robot_stays_in_a_workspace_of_lines() -> None:
 
 
 REFUSED = {
-    "ellipse": (Scene(disc(0, 0, 1), [Curved.ellipse((5, 0), (1, 2))]), "obstacle 0: not a polygon"),
-    "two radii": (Scene([disc(0, 0, 1), disc(2, 0, 2)], [SQUARE]), r"robot\[1\]: grown by 2, and robot\[0\] by 1"),
+    "ellipse": (Scene(disc(0, 0, 1), [Curved.ellipse((5, 0), (1, 2))]), "obstacle 0: not bounded by lines"),
+    "concave arc": (
+        Scene(disc(0, 0, 1), [Curved([(0, 0), (4, 0), Arc((0, 4), center=(4, 4), clockwise=True)])]),
+        "obstacle 0: not bounded by lines and convex arcs",
+    ),
     "round workspace": (Scene(disc(0, 0, 1), [], workspace=disc(0, 0, 3)), "workspace: round"),
     "irrational radius": (
         Scene(Curved([(1, 0), Arc((0, 1), center=(0, 0)), Arc((1, 0), center=("1/2", "1/2"))]), [SQUARE]),
-        "robot: not a polygon",
+        "robot: not bounded by lines",
     ),
 }
 

@@ -121,8 +121,8 @@ def handle(corners: Corners) -> core.Polygon:
 @pytest.mark.parametrize("name", SCENES)
 def test_euler_numbers_are_those_counted_by_hand(name: str) -> None:
     (robot, r), obstacles, euler, surfaces = SCENES[name]
-    radii = [exact(r), *(exact(radius) for _, radius in obstacles)]
-    features = core.SceneFeatures([handle(robot)], [handle(c) for c, _ in obstacles], None, None, None, radii)
+    rounding = [(exact(radius), ()) for radius in (r, *(radius for _, radius in obstacles))]
+    features = core.SceneFeatures([handle(robot)], [handle(c) for c, _ in obstacles], None, None, None, rounding)
     cells = core.glue(core.compute_boundary(features.scene, 1, False, lambda share: True), 1)
     assert cells.vertices - len(cells.twin) // 2 + len(cells.component) == euler
     assert cells.components == surfaces

@@ -124,9 +124,9 @@ def made(scene: Scene, radius: Fraction) -> tuple[Any, ...]:
     shapes = rounded_shapes(scene)
     assert shapes is not None
     parts, others = shapes.robot, shapes.obstacles
-    radii = [radius, *(other.radius for other in others)]
+    radii = [radius] * len(parts) + [other.radius for other in others]
     handles = [part.handle for part in parts], [other.handle for other in others]
-    features = core.SceneFeatures(*handles, None, None, None, radii)
+    features = core.SceneFeatures(*handles, None, None, None, [(radius, ()) for radius in radii])
     boundary = core.compute_boundary(features.scene, 1, False, lambda _: True)
     numbered = SceneFeatures.of(features)
     return parts, others, numbered, boundary, free_space(boundary_of(scene, numbered, boundary))

@@ -116,9 +116,9 @@ struct Builder {
         owners.polygon.push_back(owner), owners.vertex.push_back(number);
         return count() - 1;
     }
-    Index add_other(const Vec<Int>& p, Index radius_class) {
+    Index add_other(const Vec<Int>& p, Index radius_class, Index owner) {
         others.X.push_back(p.x), others.Y.push_back(p.y);
-        other_radius.push_back(radius_class);
+        other_radius.push_back(radius_class), owners.polygon_of_end.push_back(owner);
         return -static_cast<Index>(others.X.size());
     }
 
@@ -215,6 +215,7 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
     // vertices of the rings: of each point, if it is a corner, and of each arc
     std::vector<Index> vertex(static_cast<std::size_t>(count_of_points));
     std::vector<char> is_corner(vertex.size());
+    const Index first = count();
     for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
         const Index start = count();
         for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
@@ -222,20 +223,20 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
             const Int turn = cross(in.towards[1], out.towards[0]);
             is_corner[k] = (!in.arc && !out.arc) || !turn.is_zero() || dot(in.towards[1], out.towards[0]).sign() < 0;
             if (is_corner[k]) {
-                vertex[k] = add_vertex(points[k].x, points[k].y, turn.sign() >= 0, true, owner, count() - start);
+                vertex[k] = add_vertex(points[k].x, points[k].y, turn.sign() >= 0, true, owner, count() - first);
                 vertex_radius.push_back(at_corner);
             }
             if (!out.arc) continue;
-            out.vertex = add_vertex(out.centre.x, out.centre.y, true, true, owner, count() - start);
+            out.vertex = add_vertex(out.centre.x, out.centre.y, true, true, owner, count() - first);
             vertex_radius.push_back(class_of(grown + scaled(out.arc->radius, scale)));
             arcs.push_back(out.vertex);
         }
         close_ring(start);
     }
     for (Index k = 0; k < count_of_points; ++k)
-        if (!is_corner[k]) vertex[k] = add_other(points[k], at_corner);
+        if (!is_corner[k]) vertex[k] = add_other(points[k], at_corner, owner);
     const auto stub = [&](Index k, const Vec<Int>& towards, Index first, Index last) {
-        return ArcEdge{vertex[k], add_other({points[k].x + towards.x, points[k].y + towards.y}, at_corner), first, last, true};
+        return ArcEdge{vertex[k], add_other({points[k].x + towards.x, points[k].y + towards.y}, at_corner, owner), first, last, true};
     };
     const auto begin = [&](const Side& side) { return is_corner[side.from] ? vertex[side.from] : sides[before[side.from]].vertex; };
     for (const Side& in : sides) {  // edges of the rings

@@ -73,8 +73,8 @@ def boundary(
     InvariantError
         If the computation contradicts itself: a fault of cfree. Its `state` is the scene.
     UnsupportedError
-        If a shape is neither a polygon nor rounded, or parts of the robot have different radii. Rounded shapes are
-        polygons, segments and points grown by a rational radius: discs, stadiums, rounded convex polygons.
+        If a shape is not rounded, that is, bounded by lines and convex arcs of rational radii: polygons, discs,
+        stadiums, grown polygons, half discs, lenses.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 

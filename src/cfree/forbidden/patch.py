@@ -13,7 +13,6 @@ from cfree.exact.half_angle import theta_in
 from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.libraries import ArrayLike, NDArray, np
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
-from cfree.scene.rounded import core_rings
 from cfree.value import Value
 
 if TYPE_CHECKING:
@@ -36,11 +35,12 @@ class Place:
         0 the outer ring, k + 1 the hole k.
     index : int
         Vertex of the `Polygon`, counted over all its rings; for an edge, the vertex where t = 0. A rounded shape has
-        the vertices of its core: the polygon that is grown, the ends of a stadium's segment, or a disc's centre.
+        the vertices of its core: the polygon that is grown, the ends of a stadium's segment, or a disc's centre. Of a
+        shape with other arcs they are its corners and arcs, in order; arcs are cut at quarter circles.
     end : int or None
         For an edge, the vertex where t = 1. Edges of the workspace run against its rings: forbidden is on their left.
         A critical angle may be named by a diagonal of a convex piece: then the two are not neighbours. -1 is a corner
-        of the finite frame that stands for everything outside the bounds or the workspace.
+        of the finite frame that stands for everything outside the bounds or the workspace, or an end of an arc.
     """
 
     polygon: int
@@ -197,32 +197,34 @@ def contact(boundary: BoundaryRecord, code: int) -> Contact:
 
 
 def robot_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Place:
-    polygon, index, end = _owner(boundary.features.robot, feature, is_edge)
+    polygon, ring, index, end = _owner(boundary.features.robot, feature, is_edge)
     if polygon == BOUNDS:
         return Place(polygon, "reference point", 0, 0)
-    return Place(polygon, "robot", _ring(core_rings(boundary.scene.robot[polygon]), index), index, end)
+    return Place(polygon, "robot", ring, index, end)
 
 
 def obstacle_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Place:
     scene = boundary.scene
-    polygon, index, end = _owner(boundary.features.obstacles, feature, is_edge)
+    polygon, ring, index, end = _owner(boundary.features.obstacles, feature, is_edge)
     if polygon == BOUNDS:
         return Place(polygon, "bounds", 0, index, end)
     if polygon == WORKSPACE:
         if scene.workspace is None:
             raise InvariantError("a feature of a workspace in a scene that has none", state=feature)
         return Place(polygon, "workspace", _ring(scene.workspace.ring_offsets, index), index, end)
-    name = scene.obstacle_names[polygon]
-    return Place(polygon, name, _ring(core_rings(scene.obstacles[polygon]), index), index, end)
+    return Place(polygon, scene.obstacle_names[polygon], ring, index, end)
 
 
-def _owner(shape: ShapeFeatures, feature: int, is_edge: bool) -> tuple[int, int, int | None]:
-    """Return polygon, vertex and, for an edge, the vertex where it ends."""
+def _owner(shape: ShapeFeatures, feature: int, is_edge: bool) -> tuple[int, int, int, int | None]:
+    """Return polygon, ring, vertex and, for an edge, the vertex where it ends; -1 for an end of an arc that is none."""
     start, end = (int(shape.v[feature]), int(shape.w[feature])) if is_edge else (feature, feature)
-    owners = shape.owner_vertex
-    if max(start, end) >= len(owners):
-        return BOUNDS, -1, -1 if is_edge else None
-    return int(shape.owner_polygon[start]), int(owners[start]), int(owners[end]) if is_edge else None
+    rings, ends = len(shape.owner_vertex), len(shape.xy) - len(shape.owner_of_end)
+    if ends == len(shape.xy) and max(start, end) >= rings:
+        return BOUNDS, 0, -1, -1 if is_edge else None
+    known = next((vertex for vertex in (start, end) if vertex < rings), None)
+    polygon = int(shape.owner_of_end[start - ends] if known is None else shape.owner_polygon[known])
+    first, last = (int(shape.owner_vertex[vertex]) if vertex < rings else -1 for vertex in (start, end))
+    return polygon, 0 if known is None else int(shape.ring[known]), first, last if is_edge else None
 
 
 def _ring(offsets: Sequence[int], vertex: int) -> int:

@@ -17,7 +17,7 @@ from cfree.errors import IncompleteError, InvariantError, UnsupportedError
 from cfree.exact.half_angle import tau_in
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, Ints, IsolatedParts, Trapezoids
 from cfree.forbidden.kinds import PatchKind
-from cfree.libraries import ArrayLike, Floats, NDArray, np
+from cfree.libraries import ArrayLike, Floats, Int32s, NDArray, np
 from cfree.scene.features import BOUNDS, SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.value import Value
@@ -185,9 +185,18 @@ class BoundaryRecord(Value):
     @property
     def _radii(self) -> Floats:
         """The sum of the radii of both features of each patch."""
-        a, b = self.features.robot.radius, self.features.obstacles.radius
-        sums: Floats = a[self.contact_robot] + b[self.contact_obstacle]
+        i, j = self._starts
+        sums: Floats = self.features.robot.radius[i] + self.features.obstacles.radius[j]
         return sums
+
+    @property
+    def _starts(self) -> tuple[Int32s, Int32s]:
+        """Vertices of both features of each patch; of an edge that at its beginning."""
+        a, b, i, j = self.features.robot, self.features.obstacles, self.contact_robot, self.contact_obstacle
+        return (
+            np.where(self.contact_kind == Kind.EDGE_VERTEX, a.v[i], i),
+            np.where(self.contact_kind == Kind.VERTEX_EDGE, b.v[j], j),
+        )
 
     @cached_property
     def patch_start(self) -> NDArray[np.int64]:
@@ -197,8 +206,8 @@ class BoundaryRecord(Value):
     @cached_property
     def ruled(self) -> Floats:
         ruled = self.ruled_near.copy()
-        ruled[:, 0:2] = self.features.obstacles.xy[self.contact_obstacle]
-        ruled[:, 4:6] = self.features.robot.xy[self.contact_robot]
+        i, j = self._starts
+        ruled[:, 0:2], ruled[:, 4:6] = self.features.obstacles.xy[j], self.features.robot.xy[i]
         ruled = self._moved_outwards(ruled)
         ruled.flags.writeable = False
         return ruled
@@ -208,11 +217,11 @@ class BoundaryRecord(Value):
         """The rows of `ruled` in the features' frame; see `evaluate_near`."""
         a, b = self.features.robot, self.features.obstacles
         on_edge, on_vertex = self.contact_kind == Kind.VERTEX_EDGE, self.contact_kind == Kind.EDGE_VERTEX
-        i, j = self.contact_robot, self.contact_obstacle
+        i, j = self._starts
         ruled = np.zeros((len(i), 8))
         ruled[:, 0:2], ruled[:, 4:6] = b.near[j], a.near[i]
-        ruled[on_edge, 2:4] = (b.near[b.w] - b.near[b.v])[j[on_edge]]
-        ruled[on_vertex, 6:8] = (a.near[a.w] - a.near[a.v])[i[on_vertex]]
+        ruled[on_edge, 2:4] = (b.near[b.w] - b.near[b.v])[self.contact_obstacle[on_edge]]
+        ruled[on_vertex, 6:8] = (a.near[a.w] - a.near[a.v])[self.contact_robot[on_vertex]]
         return self._moved_outwards(ruled)
 
     def _moved_outwards(self, ruled: Floats) -> Floats:

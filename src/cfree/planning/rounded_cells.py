@@ -31,15 +31,16 @@ PAIRS = 4_000  # most pairs of corners for which cells are computed: some second
 def separated_by_cells(scene: Scene, start: Pose, goal: Pose, options: Options) -> Separated | None:
     """Return a proof that no motion joins two poses; None if cells give none.
 
-    The scene's shapes must be rounded, with discs on the robot or on all obstacles, and few.
+    The scene's shapes must be polygons, segments and points grown by discs, the robot's parts by one radius, with discs
+    on the robot or on all obstacles, and few.
     """
     clearance = options.clearance
     shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
-    if shapes is None or scene.bounds is not None:
+    if shapes is None or shapes.has_arcs or scene.bounds is not None or (radius := shapes.robot_radius) is None:
         return None
     corners = [sum(len(part.handle) for part in parts) for parts in (shapes.robot, shapes.obstacles)]
-    is_grown = shapes.robot[0].radius or (shapes.obstacles and all(other.radius for other in shapes.obstacles))
-    if corners[0] * corners[1] > PAIRS or not is_grown or (scene.workspace and not shapes.robot[0].radius):
+    is_grown = radius or (shapes.obstacles and all(other.radius for other in shapes.obstacles))
+    if corners[0] * corners[1] > PAIRS or not is_grown or (scene.workspace and not radius):
         return None
     end = math.inf if options.max_seconds is None else time.monotonic() + options.max_seconds
     for power in SMALLER:

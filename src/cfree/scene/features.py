@@ -10,7 +10,6 @@ reference point, as a shape of its own, meets the complement of `bounds`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -46,11 +45,9 @@ class ShapeFeatures:
         Common denominator of all coordinates.
     """
 
-    def __init__(
-        self, core: _core.Shape, near: _core.Shape, owners: _core.Owners, scale: int, radii: Sequence[float] = ()
-    ) -> None:
+    def __init__(self, core: _core.Shape, near: _core.Shape, owners: _core.Owners, scale: int) -> None:
         self.core, self.scale = core, scale
-        self._near, self._owners, self._radii = near, owners, radii
+        self._near, self._owners = near, owners
 
     @cached_property
     def xy(self) -> Floats:
@@ -87,14 +84,25 @@ class ShapeFeatures:
         """Vertex (r,) of that polygon."""
         return self._owners.vertex
 
+    @property
+    def owner_of_end(self) -> Int32s:
+        """Polygon of each of the last vertices, which are ends of arcs or have the direction of one."""
+        return self._owners.polygon_of_end
+
+    @cached_property
+    def ring(self) -> Int32s:
+        """Ring (r,) of that polygon, by which its vertices come one after another."""
+        polygon, numbers = self.owner_polygon, np.arange(len(self.previous))
+        rings = np.cumsum(self.previous >= numbers)
+        first = np.append(True, polygon[1:] != polygon[:-1])
+        before = np.maximum.accumulate(np.where(first, numbers, 0))
+        return (rings - rings[before]).astype(np.int32)
+
     @cached_property
     def radius(self) -> Floats:
-        """Radius (r,) by which each vertex is grown, in the user's units."""
-        radius = np.zeros(len(self.previous))
-        if self._radii:
-            own = self.owner_polygon >= 0
-            radius[own] = np.array(self._radii)[self.owner_polygon[own]]
-        return radius
+        """Radius by which each vertex is grown, in the user's units; a convex arc's vertex is its centre."""
+        radius = np.array([r / self.scale for r in self.core.radius])
+        return radius if len(radius) else np.zeros(len(self.core.xy))
 
     @cached_property
     def vertices(self) -> tuple[Point, ...]:
@@ -143,13 +151,11 @@ class SceneFeatures:
     made: _core.SceneFeatures
 
     @classmethod
-    def of(
-        cls, made: _core.SceneFeatures, robot_radii: Sequence[float] = (), obstacle_radii: Sequence[float] = ()
-    ) -> SceneFeatures:
-        """Wrap the features that the core has made of a scene; with radii if its shapes are grown."""
+    def of(cls, made: _core.SceneFeatures) -> SceneFeatures:
+        """Wrap the features that the core has made of a scene."""
         core, scale = made.scene, made.scene.scale
-        robot = ShapeFeatures(core.robot, core.near.robot, made.robot, scale, robot_radii)
-        obstacles = ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale, obstacle_radii)
+        robot = ShapeFeatures(core.robot, core.near.robot, made.robot, scale)
+        obstacles = ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale)
         return cls(robot, obstacles, core, scale, made.rim, made)
 
     @property
@@ -196,7 +202,7 @@ def grown_features(scene: Scene) -> SceneFeatures:
     Raises
     ------
     UnsupportedError
-        If a shape is not rounded, or parts of the robot have different radii; the message names the shape.
+        If a shape is not rounded; the message names it.
     """
     return kept(scene, _grown) if scene.curved else scene_features(scene)
 
@@ -210,12 +216,10 @@ def _grown(scene: Scene) -> SceneFeatures:
 
 def features_of_cores(cores: Cores, scene: Scene) -> SceneFeatures:
     """Number the features of grown cores in the workspace and the bounds of a scene."""
-    radii = [cores.robot[0].radius, *(shape.radius for shape in cores.obstacles)]
     robot, obstacles = ([shape.handle for shape in shapes] for shapes in (cores.robot, cores.obstacles))
     _, _, workspace, bounds = core_shapes((), (), scene.workspace, scene.bounds)
-    made = _core.SceneFeatures(robot, obstacles, workspace, bounds, None, radii)
-    of_robot, *of_obstacles = map(float, radii)
-    features = SceneFeatures.of(made, [of_robot] * len(robot), of_obstacles or [0.0])
+    rounding = [shape.rounding for shape in (*cores.robot, *cores.obstacles)]
+    features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, bounds, None, rounding))
     refuse_too_many(features)
     return features
 

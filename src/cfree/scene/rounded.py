@@ -1,26 +1,48 @@
-"""Rounded shapes: points, segments and polygons grown by discs, the shapes whose boundary of C the core trims exactly.
+"""Rounded shapes, which the core trims exactly: points, segments and polygons, with arcs for some sides, grown by discs.
 
-A polygon, a grown polygon, a disc, and a convex shape whose arcs of one radius are tangent to its lines are rounded
-shapes. docs/theory/rounded-shapes.md.
+Polygons, grown polygons, discs, and shapes of lines and convex arcs of rational radii are rounded shapes.
+docs/theory/rounded-shapes.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import cfree._core as _core
 from cfree.curves.curved import Curved
 from cfree.curves.drawn import Line
+from cfree.curves.pieces import quarters_of
 from cfree.curves.rings import Circle, Piece, Span
+from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, rational_root
 from cfree.exact.vectors import cross, dot, minus
 from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
     from cfree.scene.scene import AnyShape, Scene
+
+
+FINEST_CUTS = 5  # of a quarter circle in halves, for chords that meet no other side
+
+
+@dataclass(frozen=True, slots=True)
+class CoreArc:
+    """A convex arc in place of a side of a core, counter-clockwise and at most a quarter circle."""
+
+    start: ExactPoint
+    end: ExactPoint
+    center: ExactPoint
+    radius: Fraction
+
+    @property
+    def numbers(self) -> tuple[Fraction, ...]:
+        """All of its numbers, in the core's order."""
+        return *self.start, *self.end, *self.center, self.radius
 
 
 @dataclass(frozen=True)
@@ -31,10 +53,13 @@ class Rounded:
     ----------
     core : Polygon, or tuple of one or two points
     radius : Fraction
+    arcs : tuple of CoreArc
+        In place of some of the polygon's sides.
     """
 
     core: Polygon | tuple[ExactPoint, ...]
     radius: Fraction
+    arcs: tuple[CoreArc, ...] = ()
 
     @property
     def handle(self) -> _core.Polygon:
@@ -45,6 +70,11 @@ class Rounded:
         assert thin is not None, "its numbers are fractions"
         return thin
 
+    @property
+    def rounding(self) -> tuple[Fraction, list[tuple[Fraction, ...]]]:
+        """The core's form of the rest."""
+        return self.radius, [arc.numbers for arc in self.arcs]
+
 
 @dataclass(frozen=True)
 class Cores:
@@ -52,17 +82,26 @@ class Cores:
 
     Attributes
     ----------
-    robot : tuple of Rounded
-        Its parts, of one radius.
-    obstacles : tuple of Rounded
+    robot, obstacles : tuple of Rounded
     """
 
     robot: tuple[Rounded, ...]
     obstacles: tuple[Rounded, ...]
 
+    @property
+    def has_arcs(self) -> bool:
+        """True if a core has sides that are arcs."""
+        return any(shape.arcs for shape in (*self.robot, *self.obstacles))
+
+    @property
+    def robot_radius(self) -> Fraction | None:
+        """The radius of all parts of the robot; None if they have several."""
+        radii = {part.radius for part in self.robot}
+        return radii.pop() if len(radii) == 1 else None
+
 
 def rounded(shape: AnyShape) -> Rounded | None:
-    """Return a shape as a grown core; None if it is none, or its radius is irrational.
+    """Return a shape as a grown core; None if it is none, or a radius is irrational.
 
     Examples
     --------
@@ -72,17 +111,19 @@ def rounded(shape: AnyShape) -> Rounded | None:
     >>> stadium = Curved([(0, 0), (4, 0), Arc((4, 2), center=(4, 1)), (0, 2), Arc((0, 0), center=(0, 1))])
     >>> [tuple(map(int, p)) for p in rounded(stadium).core], rounded(Curved.ellipse((0, 0), (1, 2))) is None
     ([(4, 1), (0, 1)], True)
+    >>> half = rounded(Curved([(1, 0), Arc((-1, 0), center=(0, 0))]))
+    >>> [tuple(map(int, p)) for p in half.core.exact_vertices], half.radius, len(half.arcs)
+    ([(1, 0), (0, 1), (-1, 0)], Fraction(0, 1), 2)
     """
     if isinstance(shape, Polygon):
         return Rounded(shape, Fraction(0))
     if shape.grown and shape.is_polygon:
         return Rounded(shape._base(), shape.grown)
-    if shape.holes:
-        return None
-    if isinstance(shape.path, Circle):
+    if isinstance(shape.path, Circle) and not shape.holes:
         return Rounded((shape.path.center,), shape.path.radius + shape.grown)
-    found = _convex(shape.curves[0])
-    return None if found is None else Rounded(found.core, found.radius + shape.grown)
+    found = None if shape.holes else _convex(shape.curves[0])
+    found = found or _with_arcs(shape)
+    return None if found is None else Rounded(found.core, found.radius + shape.grown, found.arcs)
 
 
 def _convex(ring: Sequence[Piece]) -> Rounded | None:
@@ -127,13 +168,92 @@ def _direction(piece: Piece, *, at_end: bool) -> ExactPoint:
     return -piece.sense * y, piece.sense * x
 
 
-def core_rings(shape: AnyShape) -> Sequence[int]:
-    """Return where the rings of a rounded shape's core begin among its vertices, and their end."""
-    if isinstance(shape, Polygon):
-        return shape.ring_offsets
-    found = rounded(shape)
-    assert found is not None, "the scene has rounded shapes"
-    return found.core.ring_offsets if isinstance(found.core, Polygon) else (0, len(found.core))
+# --- arcs in place of sides ---
+
+Side = tuple[ExactPoint, ExactPoint, Span | None]
+
+
+def _with_arcs(shape: Curved) -> Rounded | None:
+    """Return a shape of lines and convex arcs, as the polygon of their chords; None if it is none."""
+    rings: list[list[Side]] = []
+    for r, ring in enumerate(shape.curves):
+        sides = _sides(ring, is_hole=r > 0)
+        if sides is None:
+            return None
+        rings.append(sides)
+    for cuts in range(FINEST_CUTS + 1):
+        if (found := _on_chords([list(_cut(ring, 2**cuts)) for ring in rings])) is not None:
+            return found
+    return None
+
+
+def _sides(ring: Sequence[Piece], *, is_hole: bool) -> list[Side] | None:
+    """Return lines and quarters of convex arcs, the shape on their left; None if there are others, or cusps."""
+    sides: list[Side] = []
+    for piece in ring:
+        if isinstance(piece, Line):
+            sides.append((piece.start, piece.end, None))
+            continue
+        if not isinstance(piece, Span) or not piece.is_circular or rational_root(dot(piece.u, piece.u)) is None:
+            return None
+        for center, u, v, rest in quarters_of(piece):
+            part = Span(center, u, v, 0, rest) if rest < 1 else Span(center, u, v, 1, Fraction(0))
+            sides.append((part.at(0, Fraction(0)), part.end, part))
+    within = [float(cross(start, end)) for start, end, _ in sides]  # twice the area
+    beyond = [arc.sense * (arc.sweep - math.sin(arc.sweep)) * float(dot(arc.u, arc.u)) for *_, arc in sides if arc]
+    if (math.fsum(within + beyond) < 0) != is_hole:
+        sides = [(end, start, arc and _reversed(arc)) for start, end, arc in reversed(sides)]
+    for before, after in zip([sides[-1], *sides[:-1]], sides, strict=True):
+        into, out = _towards(before, at_end=True), _towards(after, at_end=False)
+        if (after[2] and after[2].sense < 0) or (cross(into, out) == 0 and dot(into, out) < 0):
+            return None
+    return sides
+
+
+def _reversed(arc: Span) -> Span:
+    u = minus(arc.end, arc.center)
+    return Span(arc.center, u, (arc.sense * u[1], -arc.sense * u[0]), arc.quarters, arc.rest)
+
+
+def _towards(side: Side, *, at_end: bool) -> ExactPoint:
+    start, end, arc = side
+    return _direction(arc or Line(start, end), at_end=at_end)
+
+
+def _cut(ring: Sequence[Side], parts: int) -> Iterator[Side]:
+    for start, end, arc in ring:
+        if arc is None or parts == 1:
+            yield start, end, arc
+            continue
+        places = [start, *(arc.at(0, _half_tangent(arc.sweep * k / parts)) for k in range(1, parts)), end]
+        for first, last in pairwise(places):
+            yield first, last, arc
+
+
+def _half_tangent(angle: float) -> Fraction:
+    """Return a simple number near the tangent of half an angle below a quarter turn."""
+    return Fraction(round(math.tan(angle / 2) * 256), 256)
+
+
+def _on_chords(rings: Sequence[Sequence[Side]]) -> Rounded | None:
+    """Return the polygon of chords with its arcs; None if it is no polygon, or has not all ends of arcs as vertices."""
+    try:
+        outer, *holes = ([start for start, _, _ in ring] for ring in rings)
+        core = Polygon(outer, holes)
+    except InvalidPolygonError:
+        return None
+    arcs = []
+    for start, end, arc in (side for ring in rings for side in ring):
+        if arc is None:
+            continue
+        radius = rational_root(dot(arc.u, arc.u))
+        assert radius is not None, "it has been looked at"
+        arcs.append(CoreArc(start, end, arc.center, radius))
+    vertices, next_of = core.exact_vertices, core.next
+    chords = {(vertices[k], vertices[int(next_of[k])]) for k in range(len(vertices))}
+    if any((arc.start, arc.end) not in chords for arc in arcs):
+        return None
+    return Rounded(core, Fraction(0), tuple(arcs))
 
 
 def why_not_rounded(scene: Scene) -> str:
@@ -143,20 +263,15 @@ def why_not_rounded(scene: Scene) -> str:
     --------
     >>> from cfree.scene.scene import Scene
     >>> print(why_not_rounded(Scene(Curved.circle((0, 0), 1), [Curved.ellipse((3, 0), (1, 2))])))
-    obstacle 0: not a polygon, segment or point grown by a rational radius; ...
+    obstacle 0: not bounded by lines and convex arcs of rational radii; ...
     """
     remedy = "give scene.outer(error) or scene.inner(error), on the command line what cfree convert --outer writes"
     if isinstance(scene.workspace, Curved):
         return f"workspace: round; give it as a polygon, or {remedy}"
     names = [f"robot[{k}]" if len(scene.robot) > 1 else "robot" for k in range(len(scene.robot))]
-    for name, shape in zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True):
-        if rounded(shape) is None:
-            return f"{name}: not a polygon, segment or point grown by a rational radius; {remedy}"
-    radii = [part.radius for shape in scene.robot if (part := rounded(shape))]
-    other = next(k for k, radius in enumerate(radii) if radius != radii[0])
-    return (
-        f"robot[{other}]: grown by {radii[other]}, and robot[0] by {radii[0]}; give its parts one radius, or {remedy}"
-    )
+    shapes = zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True)
+    name = next(name for name, shape in shapes if rounded(shape) is None)
+    return f"{name}: not bounded by lines and convex arcs of rational radii; {remedy}"
 
 
 def rounded_shapes(scene: Scene) -> Cores | None:
@@ -165,6 +280,4 @@ def rounded_shapes(scene: Scene) -> Cores | None:
         return None
     robot, obstacles = ([rounded(shape) for shape in shapes] for shapes in (scene.robot, scene.obstacles))
     parts, others = [x for x in robot if x], [x for x in obstacles if x]
-    if len(parts) < len(robot) or len(others) < len(obstacles) or len({part.radius for part in parts}) > 1:
-        return None
-    return Cores(tuple(parts), tuple(others))
+    return Cores(tuple(parts), tuple(others)) if len(parts + others) == len(robot + obstacles) else None

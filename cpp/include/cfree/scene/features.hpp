@@ -55,9 +55,10 @@ struct WholeScene {
 inline constexpr Index body_layer = 0, reference_layer = 1;
 inline constexpr Index bounds_owner = -1, workspace_owner = -2;  // used in place of polygons of the user's robot or obstacles
 
-// Owners of the vertices of a shape's rings.
+// Owners of the vertices of a shape's rings. The vertices of a polygon with arcs are its corners and its arcs, in order.
 struct Owners {
     std::vector<Index> polygon, vertex;
+    std::vector<Index> polygon_of_end;  // of the last vertices of the shape, ends of arcs and of stubs
 };
 
 struct SceneFeatures {

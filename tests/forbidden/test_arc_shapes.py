@@ -1,0 +1,158 @@
+"""Boundaries of shapes with convex arcs, against exact tests of poses, slices in shapely, and closed formulas."""
+
+from __future__ import annotations
+
+import math
+import random
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+from cfree import Curved, Pose, Scene, boundary, free_space, is_free
+from cfree.contact import shape_features
+from cfree.curves import Arc
+from cfree.scene.rounded import rounded, rounded_shapes
+
+Ring = list[tuple[int, int] | tuple[int, int, tuple[int, int]]]
+
+# corners, with the centre of the arc from one to the next
+HALF: Ring = [(5, 0, (0, 0)), (-5, 0)]
+DOME: Ring = [(4, 3, (0, 0)), (-4, 3)]
+SECTOR: Ring = [(0, 0), (5, 0, (0, 0)), (3, 4)]
+LENS: Ring = [(0, -4, (-3, 0)), (0, 4, (3, 0))]
+CORNERS: Ring = [(2, 0), (9, 0, (9, 1)), (10, 1), (10, 5, (7, 5)), (7, 8), (0, 8), (0, 2, (2, 2))]
+HAT: Ring = [(-6, -3), (6, -3), (6, 0), (5, 0, (0, 0)), (-5, 0), (-6, 0)]
+DROP: Ring = [(-4, 3, (0, 0)), (4, 3), (0, 6)]
+RINGS = {"half": HALF, "dome": DOME, "sector": SECTOR, "lens": LENS, "corners": CORNERS, "hat": HAT, "drop": DROP}
+CONVEX = ("half", "dome", "sector", "lens", "corners")
+
+
+def shape(ring: Ring, x: Any = 0, y: Any = 0, by: Any = 1) -> Curved:
+    """A ring times a factor, then moved."""
+
+    def place(p: Any) -> tuple[Fraction, Fraction]:
+        return p[0] * Fraction(by) + Fraction(x), p[1] * Fraction(by) + Fraction(y)
+
+    path: list[Any] = [place(ring[0])]
+    for k, corner in enumerate(ring):
+        after = ring[(k + 1) % len(ring)]
+        path.append(Arc(place(after), center=place(corner[2])) if len(corner) == 3 else place(after))
+    if path[-1] == path[0]:
+        path.pop()
+    return Curved(path)
+
+
+def fine(shape: Any, n: int = 400) -> Any:
+    """The shape in shapely, its arcs by many chords."""
+    form = rounded(shape)
+    assert form is not None
+    region = shapely.Polygon(form.core.vertices)  # type: ignore[union-attr]
+    for arc in form.arcs:
+        (x, y), r = map(float, arc.center), float(arc.radius)
+        first, last = (math.atan2(float(p[1]) - y, float(p[0]) - x) for p in (arc.start, arc.end))
+        angles = np.linspace(first, first + (last - first) % math.tau, n)
+        region = region.union(shapely.Polygon(np.column_stack([x + r * np.cos(angles), y + r * np.sin(angles)])))
+    return region
+
+
+@pytest.mark.parametrize("name", RINGS)
+def test_chords_and_arcs_are_the_shape(name: str) -> None:
+    form = rounded(shape(RINGS[name]))
+    assert form is not None and form.arcs and form.radius == 0
+    assert math.isclose(fine(shape(RINGS[name])).area, shape_features(shape(RINGS[name])).area, rel_tol=1e-4)
+    for arc in form.arcs:
+        for end in (arc.start, arc.end):
+            assert sum((p - c) ** 2 for p, c in zip(end, arc.center, strict=True)) == arc.radius**2
+
+
+def test_chords_that_meet_other_sides_are_cut_finer() -> None:
+    notched = Curved([(5, 0), Arc((-5, 0), center=(0, 0)), (-1, 0), (3, 3), (1, 0)])
+    form = rounded(notched)
+    assert form is not None and len(form.arcs) > 2
+    assert math.isclose(fine(notched).area, shape_features(notched).area, rel_tol=1e-4)
+
+
+@pytest.mark.parametrize(
+    "curved",
+    [
+        Curved([(0, 0), (4, 0), Arc((0, 4), center=(4, 4), clockwise=True)]),  # concave
+        Curved([(0, 0), (2, 0), Arc((0, 2), through=("3/2", "3/2"))]),  # of an irrational radius
+        Curved.ellipse((0, 0), (2, 1)),
+    ],
+)
+def test_other_shapes_are_not_rounded(curved: Curved) -> None:
+    assert rounded(curved) is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("one", "other"), [(a, b) for a in CONVEX for b in CONVEX if a <= b])
+def test_volume_of_a_convex_pair_is_that_of_the_formula(one: str, other: str) -> None:
+    robot, obstacle = shape(RINGS[one], 1, 2), shape(RINGS[other], 7, -3, "1/2")
+    a, b = shape_features(robot), shape_features(obstacle)
+    # the mean over all orientations of the area of a sum
+    expected = 2 * math.pi * (a.area + b.area) + a.perimeter * b.perimeter
+    space = free_space(boundary(Scene(robot, [obstacle], bounds=(-40, -40, 40, 40))))
+    assert abs(float(space.volumes.sum()) - (math.tau * 6400 - expected)) < 1e-8
+    assert space.volume_errors.sum() < 1e-8
+
+
+def random_shape(rng: random.Random, far: int) -> Any:
+    x, y = rng.randint(-far, far), rng.randint(-far, far)
+    grown = Fraction(rng.randint(1, 6), 3)
+    name = rng.choice([*RINGS, "disc", "triangle"])
+    if name == "disc":
+        return Curved.circle((x, y), Fraction(rng.randint(1, 9), 2))
+    if name == "triangle":
+        ring = [(x, y), (x + rng.randint(1, 6), y), (x, y + rng.randint(1, 6))]
+        return Curved(ring, grown=grown) if rng.random() < 0.5 else ring
+    return shape(RINGS[name], x, y, rng.choice([1, 1, "1/2"]))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(12))
+def test_cells_and_slices_of_random_scenes(seed: int) -> None:
+    rng = random.Random(seed)
+    parts = [random_shape(rng, 2) for _ in range(1 + seed % 2)]
+    scene = Scene(parts, [random_shape(rng, 14) for _ in range(rng.randint(1, 3))])
+    if rounded_shapes(scene) is None or not scene.curved:
+        pytest.skip("polygons alone")
+    found = boundary(scene)
+    space = free_space(found)
+    assert np.all(found.complex.euler % 2 == 0)
+    theta = rng.uniform(0, math.tau)
+    cut = found.slice(theta)
+    x0, y0, x1, y1 = cut.forbidden.bounds
+    for _ in range(200):
+        pose = Pose(rng.uniform(x0, x1), rng.uniform(y0, y1), rng.uniform(0, math.tau))
+        assert (space.locate(pose) >= 0) == is_free(scene, pose), pose
+    for _ in range(100):
+        x, y = rng.uniform(x0, x1), rng.uniform(y0, y1)
+        if shapely.boundary(cut.forbidden).distance(shapely.Point(x, y)) > 2 * cut.error:
+            assert is_free(scene, Pose(x, y, theta)) == (not cut.forbidden.contains(shapely.Point(x, y)))
+
+
+def test_parts_of_a_robot_have_radii_of_their_own() -> None:
+    car = [
+        Curved([(0, 0), (4, 0), (4, 2), (0, 2)], grown="1/4"),
+        Curved.circle((5, 1), "1/2"),
+        [(-1, 0), (0, 1), (-1, 2)],
+    ]
+    scene = Scene(car, [Curved.circle((9, 1), 1), [(0, 4), (8, 5), (0, 6)]])
+    space = free_space(boundary(scene))
+    rng = random.Random(3)
+    for _ in range(100):
+        pose = Pose(rng.uniform(-3, 12), rng.uniform(-4, 8), rng.uniform(0, math.tau))
+        assert (space.locate(pose) >= 0) == is_free(scene, pose), pose
+
+
+def test_places_of_arcs_have_names() -> None:
+    found = boundary(Scene(shape(HALF, by="1/5"), [shape(SECTOR, 3, 0), [(0, 5), (2, 5), (1, 7)]]))
+    kinds = {patch.kind for patch in found.patches if patch.is_live}
+    assert kinds == {"v-e", "e-v", "arc-arc"}
+    for k in range(len(found.trapezoids)):
+        part = found.trapezoid(k)
+        named = [part.lower, part.upper, *part.start.features, *part.stop.features]
+        assert all(feature.obstacle.polygon in (0, 1) and feature.robot.polygon == 0 for feature in named)
