@@ -1,4 +1,4 @@
-"""Rounded shapes, which the core trims exactly: points, segments and polygons, with arcs for some sides, grown by discs.
+"""Rounded shapes, which the core trims exactly: points, segments, and polygons with arcs as sides, grown by discs.
 
 Polygons, grown polygons, discs, and shapes of lines and convex arcs of rational radii are rounded shapes.
 docs/theory/rounded-shapes.md.
