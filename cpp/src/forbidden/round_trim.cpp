@@ -477,13 +477,26 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
         placed.push_back({c, ahead >= 0 ? (back <= 0 ? 0 : 1) : (back > 0 ? 2 : 3)});
     }
     if (is_critical) return;
-    std::sort(placed.begin(), placed.end(), [&](const Placed& p, const Placed& q) {
-        if (p.quadrant != q.quadrant) return p.quadrant < q.quadrant;
+    const auto order = [&](const Placed& p, const Placed& q) {
+        if (p.quadrant != q.quadrant) return p.quadrant - q.quadrant;
         Surface there = surface;
         there.contact.branch = static_cast<std::int8_t>((x.branch + p.quadrant) & 3);
-        const int order = RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, tau);
-        return order != 0 ? order < 0 : p.crossing.enters < q.crossing.enters;
+        return RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, tau);
+    };
+    std::sort(placed.begin(), placed.end(), [&](const Placed& p, const Placed& q) {
+        const int sign = order(p, q);
+        return sign != 0 ? sign < 0 : p.crossing.enters < q.crossing.enters;
     });
+    // where it leaves and enters in one place, at a corner on the circle, it is covered on both sides or on none: twice, as the
+    // first such place may follow others
+    for (int again = 0; again < 2; ++again)
+        for (std::size_t k = 0; k + 1 < placed.size(); ++k) {
+            const bool is_one = !placed[k].crossing.enters && placed[k + 1].crossing.enters && order(placed[k], placed[k + 1]) == 0;
+            const bool is_covered_before = placed[(k + placed.size() - 1) % placed.size()].crossing.enters;
+            if (!is_one || is_covered_before) continue;
+            const auto here = placed.begin() + static_cast<std::ptrdiff_t>(k);
+            placed.erase(here, here + 2), --k;
+        }
     bool is_covered = placed.back().crossing.enters;
     Feature from = seams[0];
     for (const auto& [crossing, quadrant] : placed) {
