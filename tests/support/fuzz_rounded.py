@@ -45,6 +45,8 @@ from rounded_scenes import (
 )
 
 POSES = 40
+ARC = 64  # chords of a quarter turn
+SLICES = 96  # of a volume
 DOUBT = 1e-7  # of a distance in doubles, in the scene's size
 
 
@@ -58,7 +60,11 @@ class Built(NamedTuple):
 
 
 def handle(points: Core) -> _core.Polygon:
-    made = _core.Polygon.thin([list(p) for p in points]) if len(points) < 3 else _core.Polygon.of([[list(p) for p in points]])
+    made = (
+        _core.Polygon.thin([list(p) for p in points])
+        if len(points) < 3
+        else _core.Polygon.of([[list(p) for p in points]])
+    )
     assert made is not None
     return made
 
@@ -100,7 +106,9 @@ class Truth:
         self.spread = spread + float(own)
         # no point moves farther in a turn of a radian about the middle, the reference point included if it has bounds
         self.arm = max(self.spread, 0.0 if plain.bounds is None else math.hypot(*map(float, middle)))
-        self.size = max(float(self.high[k] - self.low[k]) for k in (0, 1)) + 2 * spread + float(max(s for _, s in self.others))
+        self.size = (
+            max(float(self.high[k] - self.low[k]) for k in (0, 1)) + 2 * spread + float(max(s for _, s in self.others))
+        )
         self.base = tuple(Fraction(round(v)) for v in self.low)
         self.shapes = [(self._near(c), float(s)) for (c,), s in self.others]
         self.walls: Any = None
@@ -219,13 +227,18 @@ def poses(truth: Truth, r: Draw) -> Iterator[Pose]:
     """Poses around the scene, some of them on lattices and in contact."""
     grow = Fraction(truth.spread).limit_denominator(16) + 1
     for k in range(POSES):
-        tau = r.choice([Fraction(0), Fraction(1), Fraction(-1), HALF_TURN, HALF_TURN]) if k % 3 == 0 else r.on(-1, 1, 64)
+        tau = (
+            r.choice([Fraction(0), Fraction(1), Fraction(-1), HALF_TURN, HALF_TURN]) if k % 3 == 0 else r.on(-1, 1, 64)
+        )
         if tau == HALF_TURN:
             tau = Fraction(r.choice([1, -1]), r.choice([2, 3]))
         chart = r.randint(0, 1)
         turn = rotation(tau, chart)
         parts = r.choice([2, 4, 61])
-        at = [r.on(math.floor(lo - grow), math.ceil(hi + grow), parts) for lo, hi in zip(truth.low, truth.high, strict=True)]
+        at = [
+            r.on(math.floor(lo - grow), math.ceil(hi + grow), parts)
+            for lo, hi in zip(truth.low, truth.high, strict=True)
+        ]
         if k % 4 == 0:  # a corner of the robot above a corner of an obstacle, one sum of radii away
             p = r.choice(truth.robot_points)
             core, s = r.choice(truth.plain.obstacles)
@@ -282,21 +295,28 @@ def moved_freely(pose: Pose, truth: Truth, r: Draw) -> Pose:
 
 
 def forbidden_slice(truth: Truth, turn: Point, outwards: float) -> tuple[Any, Point]:
-    """Forbidden positions near the scene at an orientation, a little larger or smaller, and the origin they are from."""
+    """Forbidden positions near the scene at an orientation, a little larger or smaller, and their origin."""
     centre = mapped((truth.middle,), turn=turn)[0]  # type: ignore[arg-type]
     origin = truth.base[0] - centre[0], truth.base[1] - centre[1]
     regions = []
     for part, _ in truth.plain.robot:
         turned = [(float(x - centre[0]), float(y - centre[1])) for x, y in mapped(part, turn=turn)]
         for (shape, rho), (core, _) in zip(truth.shapes, truth.plain.obstacles, strict=True):
-            regions.append(shapely.buffer(minkowski(shape, turned, core, part), max(0.0, rho + outwards), quad_segs=24))
+            regions.append(
+                shapely.buffer(minkowski(shape, turned, core, part), max(0.0, rho + outwards), quad_segs=ARC)
+            )
     return shapely.union_all(regions), origin
 
 
 def minkowski(shape: Any, turned: list[tuple[float, float]], core: Core, part: Core) -> Any:
     """Sum of an obstacle and the robot's negative: of triangles and segments."""
-    ours, theirs = triangles(turned), triangles(list(shape.exterior.coords)[:-1] if shape.geom_type == "Polygon" else list(shape.coords))
-    sums = [shapely.MultiPoint([(q[0] - p[0], q[1] - p[1]) for p in a for q in b]).convex_hull for a in ours for b in theirs]
+    ours, theirs = (
+        triangles(turned),
+        triangles(list(shape.exterior.coords)[:-1] if shape.geom_type == "Polygon" else list(shape.coords)),
+    )
+    sums = [
+        shapely.MultiPoint([(q[0] - p[0], q[1] - p[1]) for p in a for q in b]).convex_hull for a in ours for b in theirs
+    ]
     return shapely.union_all(sums)
 
 
@@ -304,7 +324,9 @@ def triangles(points: list[tuple[float, float]]) -> list[list[tuple[float, float
     if len(points) < 3:
         return [points]
     ring = shapely.Polygon(points)
-    pieces = shapely.constrained_delaunay_triangles(ring) if hasattr(shapely, "constrained_delaunay_triangles") else None
+    pieces = (
+        shapely.constrained_delaunay_triangles(ring) if hasattr(shapely, "constrained_delaunay_triangles") else None
+    )
     if pieces is None:
         pieces = [t for t in shapely.ops.triangulate(ring) if ring.covers(t.representative_point())]
         return [list(t.exterior.coords)[:-1] for t in pieces]
@@ -312,14 +334,32 @@ def triangles(points: list[tuple[float, float]]) -> list[list[tuple[float, float
 
 
 def slice_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
-    """Places of one free region of a slice in several cells, or in none."""
+    """Places of one free region of a slice in several cells, or in none; and another area of the forbidden ones."""
     if truth.plain.workspace is not None or truth.plain.bounds is not None:
         return
     tau, chart = r.on(-1, 1, 61), r.randint(0, 1)
+    for found, region in slice_cells(space, truth, tau, chart, r):
+        if len(found) > 1 or -1 in found:
+            yield f"cells {sorted(found)} of one region of the slice at tau {tau}, chart {chart}: {region}"
+    expected, _ = forbidden_slice(truth, rotation(tau, chart), 0.0)
+    xy, start, _ = _core.Slicer(space.boundary).rings(chart, float(tau))
+    points = xy.reshape(-1, 2)
+    area = sum(signed_area(points[i:j] - points[i]) for i, j in pairwise(start.tolist()))
+    radius = max(float(rho) for _, rho in truth.others)
+    if abs(area - expected.area) > 1e-3 * radius * expected.length + 1e-6 * truth.size**2:
+        yield f"area {area} of the slice at tau {tau}, chart {chart}; it is {expected.area}"
+
+
+def signed_area(points: Any) -> float:
+    x, y = points.T
+    return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
+
+
+def slice_cells(space: Built, truth: Truth, tau: Fraction, chart: int, r: Draw) -> Iterator[tuple[set[int], Any]]:
+    """The cells of some places in each free region of a slice, within a box around the forbidden ones."""
     margin = 2e-3 * truth.size
     grown, origin = forbidden_slice(truth, rotation(tau, chart), margin)
-    around = shapely.box(*grown.bounds).buffer(1)
-    free = around.difference(grown)
+    free = shapely.box(*grown.bounds).buffer(1).difference(grown)
     for region in getattr(free, "geoms", [free]):
         if region.area < margin**2:
             continue
@@ -327,11 +367,31 @@ def slice_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
         x0, y0, x1, y1 = region.bounds
         trial = [shapely.Point(r.uniform(x0, x1), r.uniform(y0, y1)) for _ in range(8)]
         places += [p for p in trial if region.covers(p)]
-        found = {
-            cell_at(space, Pose(origin[0] + Fraction(p.x), origin[1] + Fraction(p.y), tau, chart)) for p in places
-        }
-        if len(found) > 1 or -1 in found:
-            yield f"cells {sorted(found)} of one region of the slice at tau {tau}, chart {chart}: {places[0]}"
+        at = [Pose(origin[0] + Fraction(p.x), origin[1] + Fraction(p.y), tau, chart) for p in places]
+        yield {cell_at(space, pose) for pose in at}, region
+
+
+def volume_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
+    """Volumes of bounded cells against areas of slices."""
+    volumes, _ = space.space.volumes()
+    bounded = np.flatnonzero(np.isfinite(volumes))
+    if truth.plain.workspace is not None or truth.plain.bounds is not None or not len(bounded):
+        return
+    summed, edges = np.zeros(len(volumes)), np.zeros(len(volumes))
+    step = math.tau / SLICES
+    for k in range(SLICES):
+        chart, half = divmod(((k + 0.5) * step + math.pi / 2) % math.tau, math.pi)
+        tau = Fraction(math.tan((half - math.pi / 2) / 2)).limit_denominator(10**6)
+        for found, region in slice_cells(space, truth, tau, int(chart), r):
+            for cell in found:
+                summed[cell] += step * region.area
+                edges[cell] += step * region.length
+    # regions are smaller by a margin, and so are sums; less than all of a slice is missing at both ends
+    for cell in bounded.tolist():
+        missing = volumes[cell] - summed[cell]
+        most = 6e-3 * truth.size * edges[cell] + 0.05 * volumes[cell] + 0.05 * truth.size**2 * step
+        if not -0.1 * most < missing < most:
+            yield f"volume {volumes[cell]} of cell {cell}, {summed[cell]} in slices"
 
 
 class Counts(NamedTuple):
@@ -356,7 +416,9 @@ def counts(space: Built) -> Counts:
 def difference(one: Counts, other: Counts, unit: float, has_slits: bool) -> str | None:
     """A difference of two counts, volumes of the second times a unit; of full cells only where slits may be cut."""
     least = 1e-9 * (1 + max(one.volumes, default=0.0))
-    volumes = [[v for v in (w * f for w in c.volumes) if not has_slits or v > least] for c, f in ((one, 1.0), (other, unit))]
+    volumes = [
+        [v for v in (w * f for w in c.volumes) if not has_slits or v > least] for c, f in ((one, 1.0), (other, unit))
+    ]
     if not has_slits and (one.surfaces, one.cells) != (other.surfaces, other.cells):
         return f"surfaces {one.surfaces} and {other.surfaces}, cells {one.cells} and {other.cells}"
     if len(volumes[0]) != len(volumes[1]):
@@ -365,6 +427,21 @@ def difference(one: Counts, other: Counts, unit: float, has_slits: bool) -> str 
     if any(abs(v - w) > error for v, w in zip(*volumes, strict=True)):
         return f"volumes {volumes[0]} and {volumes[1]}, errors {error}"
     return None
+
+
+def thin_faults(plain: RoundScene) -> Iterator[str]:
+    """Other surfaces of polygons than of the same ones with tiny radii; in general position they are as many."""
+    if any(len(c) < 3 for c, _ in (*plain.robot, *plain.obstacles)):
+        return
+    tiny = Fraction(1, 2**40)
+    versions = [
+        plain._replace(
+            robot=tuple(Shape(c, s) for c, _ in plain.robot), obstacles=tuple(Shape(c, s) for c, _ in plain.obstacles)
+        )
+        for s in (Fraction(0), tiny)
+    ]
+    if text := difference(*(counts(built(one))._replace(errors=1e-6) for one in versions), 1.0, False):
+        yield f"polygons, and radii of 2^-40: {text}"
 
 
 def laws(plain: RoundScene, r: Draw) -> Iterator[tuple[str, RoundScene, float, bool]]:
@@ -391,6 +468,10 @@ def faults(plain: RoundScene, name: str, all_laws: bool = False) -> Iterator[str
     truth = Truth(plain)
     yield from location_faults(space, truth, r)
     yield from slice_faults(space, truth, r)
+    if all_laws or r.random() < 0.1:
+        yield from volume_faults(space, truth, r)
+    if name.startswith("generic"):
+        yield from thin_faults(plain)
     ours = counts(space)
     variants = list(laws(plain, r))
     for law, other, unit, cuts in variants if all_laws else [r.choice(variants)]:
@@ -435,12 +516,18 @@ def smaller(plain: RoundScene) -> Iterator[RoundScene]:
                 yield plain._replace(**{name: shapes[:k] + shapes[k + 1 :]})
             for m in range(len(core)):
                 if len(core) > 1 and len(core) != 3:
-                    yield plain._replace(**{name: (*shapes[:k], Shape(core[:m] + core[m + 1 :], radius), *shapes[k + 1 :])})
+                    yield plain._replace(
+                        **{name: (*shapes[:k], Shape(core[:m] + core[m + 1 :], radius), *shapes[k + 1 :])}
+                    )
             if len(core) == 3:
                 yield plain._replace(**{name: (*shapes[:k], Shape(core[:2], radius), *shapes[k + 1 :])})
             for digits in (1, 2, 4, 10, 100):
-                other = tuple((Fraction(round(x * digits), digits), Fraction(round(y * digits), digits)) for x, y in core)
-                if other != core and sum(len(str(v)) for p in other for v in p) < sum(len(str(v)) for p in core for v in p):
+                other = tuple(
+                    (Fraction(round(x * digits), digits), Fraction(round(y * digits), digits)) for x, y in core
+                )
+                if other != core and sum(len(str(v)) for p in other for v in p) < sum(
+                    len(str(v)) for p in core for v in p
+                ):
                     yield plain._replace(**{name: (*shapes[:k], Shape(other, radius), *shapes[k + 1 :])})
     first = plain.obstacles[0].core[0]
     if first != (0, 0) and plain.bounds is None:

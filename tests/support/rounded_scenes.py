@@ -37,7 +37,9 @@ def core(points: Iterable[tuple[object, object]]) -> Core:
     return tuple((Fraction(x), Fraction(y)) for x, y in points)  # type: ignore[arg-type]
 
 
-def mapped(points: Core, x: object = 0, y: object = 0, turn: tuple[object, object] = (1, 0), factor: object = 1) -> Core:
+def mapped(
+    points: Core, x: object = 0, y: object = 0, turn: tuple[object, object] = (1, 0), factor: object = 1
+) -> Core:
     """Points scaled and turned, then moved."""
     (c, s), f = (Fraction(v) for v in turn), Fraction(factor)  # type: ignore[arg-type]
     dx, dy = Fraction(x), Fraction(y)  # type: ignore[arg-type]
@@ -87,15 +89,18 @@ class Draw(random.Random):
 
     def room(self) -> Fraction:
         """Room in a fit: none, a little more or less, or much."""
-        return self.choice([Fraction(0), Fraction(1, 2 ** self.randint(3, 60)), -Fraction(1, 2 ** self.randint(3, 60)), HALF])
+        return self.choice(
+            [Fraction(0), Fraction(1, 2 ** self.randint(3, 60)), -Fraction(1, 2 ** self.randint(3, 60)), HALF]
+        )
 
     def any_core(self) -> Core:
         """A small core at the origin."""
         length = self.on(HALF, 2)
         return self.choice(
             [
-                POINT, core([(0, 0), (length, 0)]), core([(0, 0), (0, length)]), core([(0, 0), (length, self.on(0, 2))]),
-                rectangle(self.on(HALF, 2), self.on(HALF, 1)), TRIANGLE, L_SHAPE, mapped(U_SHAPE, factor=HALF),
+                POINT, core([(0, 0), (length, 0)]), core([(0, 0), (0, length)]),
+                core([(0, 0), (length, self.on(0, 2))]), rectangle(self.on(HALF, 2), self.on(HALF, 1)),
+                TRIANGLE, L_SHAPE, mapped(U_SHAPE, factor=HALF),
             ]
         )  # fmt: skip
 
@@ -149,7 +154,9 @@ def chain(r: Draw) -> RoundScene:
         c, d = r.choice(TURNS[:4])
         by = s + after + r.choice([Fraction(0), Fraction(0), 2 * own, own])
         x, y, s = x + by * c, y + by * d, after
-    robot = r.choice([POINT, core([(0, 0), (r.radius(), 0)]), mapped(SQUARE, factor=r.radius()), mapped(TRIANGLE, factor=HALF)])
+    robot = r.choice(
+        [POINT, core([(0, 0), (r.radius(), 0)]), mapped(SQUARE, factor=r.radius()), mapped(TRIANGLE, factor=HALF)]
+    )
     return RoundScene((Shape(robot, own),), tuple(others))
 
 
@@ -209,7 +216,9 @@ def polygons(r: Draw) -> RoundScene:
 
 def congruent(r: Draw) -> RoundScene:
     """One shape, turned and moved, as robot and as each obstacle."""
-    form = r.choice([TRIANGLE, L_SHAPE, SQUARE, rectangle(1, HALF), core([(0, 0), (2, 0)]), Z_SHAPE, core([(0, 0), (3, 0), (0, 4)])])
+    form = r.choice(
+        [TRIANGLE, L_SHAPE, SQUARE, rectangle(1, HALF), core([(0, 0), (2, 0)]), Z_SHAPE, core([(0, 0), (3, 0), (0, 4)])]
+    )
     own = r.radius()
     turns = [(c, s) for c, s in TURNS]
     others = [Shape(mapped(form, r.on(-4, 4), r.on(-4, 4), r.choice(turns)), own) for _ in range(r.randint(1, 3))]
@@ -235,7 +244,10 @@ def parts(r: Draw) -> RoundScene:
     """A robot of several parts, apart or not."""
     own, s = r.radius(8), r.radius()
     cores = [mapped(r.any_core(), r.on(-2, 2), r.on(-2, 2), factor=HALF) for _ in range(r.randint(2, 3))]
-    others = [Shape(mapped(r.any_core(), r.on(-4, 4), r.on(-4, 4)), r.choice([s, s, r.radius()])) for _ in range(r.randint(1, 3))]
+    others = [
+        Shape(mapped(r.any_core(), r.on(-4, 4), r.on(-4, 4)), r.choice([s, s, r.radius()]))
+        for _ in range(r.randint(1, 3))
+    ]
     return RoundScene(tuple(Shape(c, own) for c in cores), tuple(others))
 
 
@@ -246,12 +258,81 @@ def radii(r: Draw) -> RoundScene:
         form = mapped(r.any_core(), r.on(-3, 3), r.on(-3, 3))
         s = r.choice([Fraction(0), r.radius(), r.on(1, 4), Fraction(1, 64)])
         others.append(Shape(form, s))
-    return RoundScene((Shape(mapped(r.any_core(), r.on(-1, 1), r.on(-1, 1)), r.choice([Fraction(0), r.radius(8)])),), tuple(others))
+    return RoundScene(
+        (Shape(mapped(r.any_core(), r.on(-1, 1), r.on(-1, 1)), r.choice([Fraction(0), r.radius(8)])),), tuple(others)
+    )
+
+
+def grid(r: Draw) -> RoundScene:
+    """Corners and radii on one coarse lattice, so that edges are as long as radii; some in 3-4-5 triangles."""
+
+    def any_form() -> Core:
+        a, b = r.randint(1, 2), r.randint(1, 2)
+        return r.choice(
+            [
+                POINT, core([(0, 0), (a, 0)]), core([(0, 0), (0, a)]), core([(0, 0), (a, 0), (a, b), (0, b)]),
+                core([(0, 0), (a, 0), (0, b)]), core([(0, 0), (3, 0), (0, 4)]), core([(0, 0), (4, 3)]), L_SHAPE,
+            ]
+        )  # fmt: skip
+
+    def radius() -> Fraction:
+        return r.choice([Fraction(0), HALF, Fraction(1), Fraction(1), Fraction(2), Fraction(5, 2)])
+
+    own, s = r.choice([Fraction(0), HALF, Fraction(1)]), radius()
+    others = [
+        Shape(mapped(any_form(), r.randint(-3, 3), r.randint(-3, 3)), r.choice([s, s, radius()]))
+        for _ in range(r.randint(1, 4))
+    ]
+    return RoundScene((Shape(mapped(any_form(), r.randint(-1, 1), r.randint(-1, 1)), own),), tuple(others))
+
+
+def permanent(r: Draw) -> RoundScene:
+    """A disc as the robot, its centre elsewhere: shapes touch from inside or outside at every angle, or meet."""
+    own, others = r.choice([Fraction(0), HALF, Fraction(1)]), list[Shape]()
+    for _ in range(r.randint(2, 5)):
+        x, y = r.choice([(0, 0), (3, 0), (0, 4), (-3, 0), (0, -4), (2, 0), (0, 2), (4, 0), (1, 1)])
+        form = r.choice(
+            [POINT, POINT, core([(0, 0), (2, 0)]), core([(0, 0), (0, 2)]), rectangle(1, 1), rectangle(2, HALF)]
+        )
+        others.append(
+            Shape(mapped(form, x, y), r.choice([Fraction(1), Fraction(2), Fraction(3), Fraction(4), Fraction(5), HALF]))
+        )
+    return RoundScene((Shape(core([r.choice([(0, 0), (1, 0), (3, 4)])]), own),), tuple(others))
+
+
+def double(r: Draw) -> RoundScene:
+    """Cores that are there twice, with one radius or several; parts of the robot twice."""
+    form, own = mapped(r.any_core(), r.on(-1, 1), r.on(-1, 1)), r.radius()
+    others = []
+    for _ in range(r.randint(1, 2)):
+        one = mapped(r.any_core(), r.on(-3, 3), r.on(-3, 3))
+        s = r.radius()
+        others += [Shape(one, s), Shape(one, r.choice([s, s, r.radius(), Fraction(0)]))]
+        if len(one) > 2 and r.random() < 0.5:
+            others.append(Shape((one[1], one[2]), s))
+    robot = [form, r.choice([form, mapped(form, 1), form[:2]])] if r.random() < 0.5 else [form]
+    return RoundScene(tuple(Shape(c, own) for c in robot), tuple(others))
 
 
 FAMILIES: dict[str, Callable[[Draw], RoundScene]] = {
     f.__name__: f
-    for f in (generic, lattice, stadiums, chain, fit, letters, boxes, polygons, congruent, collinear, parts, radii)
+    for f in (
+        generic,
+        lattice,
+        stadiums,
+        chain,
+        fit,
+        letters,
+        boxes,
+        polygons,
+        congruent,
+        collinear,
+        parts,
+        radii,
+        grid,
+        permanent,
+        double,
+    )
 }
 
 
@@ -343,5 +424,7 @@ def scene(family: str, seed: int) -> RoundScene:
     if change == "bounds":
         return made._replace(bounds=(x0 - by, y0 - by, x1 + r.on(HALF, 4), y1 + by))
     if change == "workspace":
-        return made._replace(workspace=core([(x0 - by, y0 - by), (x1 + by, y0 - by), (x1 + by, y1 + by), (x0 - by, y1 + by)]))
+        return made._replace(
+            workspace=core([(x0 - by, y0 - by), (x1 + by, y0 - by), (x1 + by, y1 + by), (x0 - by, y1 + by)])
+        )
     return made
