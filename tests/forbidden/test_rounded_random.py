@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fuzz_rounded import Draw, Truth, all_faults, built, counts, euler_numbers, location_faults, surface_faults
-from rounded_scenes import FAMILIES, RoundScene, Shape, core, mirrored, scene
+from rounded_scenes import FAMILIES, TURNS, RoundScene, Shape, all_mapped, core, mirrored, scene, swapped
 
 TRIANGLE = [(0, 0), (2, 0), (0, 1)]
 
@@ -71,3 +71,36 @@ def test_angles_are_as_narrow_as_doubles_however_they_were_found() -> None:
             assert np.all(high - low < 1e-13)
     one, other = (counts(built(each)).volumes for each in (plain, mirrored(plain)))
     assert np.allclose(one, other, rtol=1e-12, atol=0)
+
+
+def discs(*places: tuple[Any, Any, Any]) -> list[Shape]:
+    return [shape([(x, y)], radius) for x, y, radius in places]
+
+
+FLOOR, CEILING = shape([(-3, -2), (3, -2), (3, -1), (-3, -1)], 0), shape([(-3, 1), (3, 1), (3, 2), (-3, 2)], 0)
+ENDS = [shape([(x, -2), (x, 2)], "1/2") for x in (-3, 3)]
+# robot among obstacles that leave just no room for it between them: cells, one of them around all
+PINCHED = {
+    "discs of radius 1, 2 and 3": (among(shape([(0, 0)], 0), *discs((0, 0, 1), (3, 0, 2), (0, 4, 3))), 2),
+    "the same, a reference point elsewhere": (among(shape([(1, 2)], 0), *discs((0, 0, 1), (3, 0, 2), (0, 4, 3))), 2),
+    "discs on a lattice": (among(shape([(0, 0)], "1/4"), *discs(*((x, y, "1/4") for x in (0, 1) for y in (0, 1)))), 2),
+    "a disc in a corridor": (among(shape([(0, 0)], 0), FLOOR, CEILING, *ENDS, *discs((0, 0, 1))), 3),
+    "a disc with room": (among(shape([(0, 0)], 0), FLOOR, CEILING, *ENDS, *discs((0, 0, "99/100"))), 2),
+    "stadiums at a joint": (among(shape([(0, 1)], 0), shape([(0, 1), (2, 1)], 1), shape([(1, -2), (2, -1)], 1)), 1),
+    "a corner of the robot": (among(shape(TRIANGLE, "1/4"), *discs((0, 0, "3/4"), ("6/5", "8/5", "3/4"))), 1),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PINCHED)
+def test_a_touch_at_every_angle_parts_cells_in_any_direction(name: str) -> None:
+    """Whether it is in the direction of an axis, where patches end anyway, or not."""
+    plain, cells = PINCHED[name]
+    first = counts(built(plain))
+    assert first.cells == cells
+    for turn in TURNS:
+        other = counts(built(all_mapped(plain, turn=turn)))
+        assert (other.surfaces, other.cells) == (first.surfaces, cells), turn
+        assert np.allclose(other.volumes, first.volumes, rtol=1e-12, atol=0)
+    if (exchanged := swapped(plain)) is not None:
+        assert counts(built(exchanged)).surfaces == first.surfaces

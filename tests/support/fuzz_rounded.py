@@ -262,6 +262,8 @@ def location_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
         cell, sign = cell_at(space, pose), truth.sign(pose.x, pose.y, pose.turn)
         if (sign == 1 and cell < 0) or (sign == -1 and cell >= 0):
             yield f"cell {cell} at {pose}: sign {sign}, room {truth.room(pose.x, pose.y, pose.turn)}"
+        if sign == 0 and cell < 0 and (other := free_beside(pose, truth, r)):
+            yield f"no cell at {pose} in contact, and {other} is free"
         if sign == 1:
             free.append((pose, cell))
     for start, cell in free[:6]:
@@ -270,6 +272,16 @@ def location_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
             pose = moved_freely(pose, truth, r)
         if (other := cell_at(space, pose)) != cell:
             yield f"cells {cell} and {other} at {start} and {pose}, joined by free motions"
+
+
+def free_beside(pose: Pose, truth: Truth, r: Draw) -> Pose | None:
+    """A free pose very near, if some are tried."""
+    for _ in range(30):
+        x, y, tau = (v + r.on(-100, 100, 1) * Fraction(1, 2**26) for v in (pose.x, pose.y, pose.tau))
+        other = Pose(x, y, max(Fraction(-1), min(Fraction(1), tau)), pose.chart)
+        if truth.sign(*other[:2], other.turn) == 1:
+            return other
+    return None
 
 
 def cut(x: float) -> Fraction:
