@@ -115,6 +115,11 @@ void RoundTrimmer::cover(Index p, Index k) {
             bounds(band);
             take({band, p, k, &crossing});
         }
+        for (const auto& [lower, upper] : found.touched) {
+            Area pinch{span.from, span.to, curve_of(lower, false), curve_of(upper, false), 0, 1};
+            bounds(pinch);
+            subtract_from_live({pinch, -1, -1, nullptr});
+        }
         if (span.to != whole.to) todo.push_back({span.to, whole.to});
         if (span.from != whole.from) todo.push_back({whole.from, span.from});
     }
@@ -336,6 +341,7 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
     if (count > 0)
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
     if (!reaches(side) || (count == 0 && !reaches(-side))) {
+        if (side > 0 && sign_of(with_branch(circle, side), {}, at) == 0) touch(circle, at, out);
         if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
         return out;
     }
@@ -350,6 +356,22 @@ std::array<Feature, 2> RoundTrimmer::foot(const Pillar& pillar, int edge, int ar
 int RoundTrimmer::foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at) {
     const auto [line, circle] = foot(pillar, edge, arc);
     return sign_of(line, circle, at);
+}
+
+// The centre stays beside an edge, between its ends.
+void RoundTrimmer::watch_beside(const Pillar& pillar, int k, Cover& out) const {
+    for (const int arc : {k, k + 1}) {
+        const auto [line, circle] = foot(pillar, k, arc);
+        out.watched.push_back({line, circle, arc == k ? 1 : -1, true});
+    }
+}
+// The centre stays in the cone of an arc.
+void RoundTrimmer::watch_cone(const Pillar& pillar, int k, Cover& out) const {
+    if (pillar.count() == 0) return;
+    for (const int edge : {k - 1, k}) {
+        const auto [line, circle] = foot(pillar, edge, k);
+        out.watched.push_back({line, circle, edge < k ? 1 : -1, true});
+    }
 }
 
 // Counter-clockwise around the pillar, its rim goes into the circle where this leaves the pillar, and comes out where it enters.
@@ -380,6 +402,7 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         const int touches = sign_of(with_branch(edge.line, 1), {}, at);
         watch_edge(edge, out);
         out.watched.push_back({with_branch(edge.line, 1), {}, touches > 0 ? 1 : -1, touches <= 0});
+        if (touches == 0) watch_beside(pillar, k, out), touch(edge.line, at, out);
         if (touches <= 0) return out;
         out.watched.push_back({with_branch(edge.line, -1), {}, -1, true});
         for (const int j : {2 * k, 2 * k + 1}) watch_joint(pillar, j, 1, out);
@@ -392,12 +415,9 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         const int apart = sign_of(with_branch(circle, 1), {}, at);
         watch_arc(pillar, k, out);
         out.watched.push_back({with_branch(circle, 1), {}, apart >= 0 ? 1 : -1, apart >= 0});
+        if (apart == 0) touch(circle, at, out);
         if (apart >= 0) {
-            for (const int edge : {k - 1, k}) {
-                if (count == 0) break;
-                const auto [line, foot_of] = foot(pillar, edge, k);
-                out.watched.push_back({line, foot_of, edge < k ? 1 : -1, true});
-            }
+            watch_cone(pillar, k, out);
             return out;
         }
         if (count > 0)
@@ -472,18 +492,39 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
         return out;
     }
     // all of the circle is inside, or outside: beyond an edge or an arc, or around the pillar
-    for (int k = 0; k < count; ++k)
-        is_apart |= foot_sign(pillar, k, k, at) > 0 && foot_sign(pillar, k, k + 1, at) < 0 &&
-                    sign_of(with_branch(pillar.edge(k).line, 1), {}, at) <= 0;
+    for (int k = 0; k < count; ++k) {
+        if (foot_sign(pillar, k, k, at) <= 0 || foot_sign(pillar, k, k + 1, at) >= 0) continue;
+        const Feature& line = pillar.edge(k).line;
+        const int reach = sign_of(with_branch(line, 1), {}, at);
+        if (reach == 0) watch_beside(pillar, k, out), touch(line, at, out);
+        is_apart |= reach <= 0;
+    }
     for (int k = 0; k < std::max(count, 1); ++k) {
-        const bool is_in_cone = count == 0 || (foot_sign(pillar, k - 1, k, at) >= 0 && foot_sign(pillar, k, k, at) <= 0);
-        is_apart |= is_in_cone && sign_of(with_branch(pillar.circle(k), 1), {}, at) >= 0;
+        if (count > 0 && (foot_sign(pillar, k - 1, k, at) < 0 || foot_sign(pillar, k, k, at) > 0)) continue;
+        const int gap = sign_of(with_branch(pillar.circle(k), 1), {}, at);
+        if (gap == 0) watch_cone(pillar, k, out), touch(pillar.circle(k), at, out);
+        is_apart |= gap >= 0;
     }
     const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
                            (count == 0 && orders.compare_radius(pillar.circle(0)) > 0);
     if (!is_apart && !is_around)
         out.bands.push_back(quadrant());
     return out;
+}
+
+// Cut the patch where a feature touches it from outside at every angle.
+void RoundTrimmer::touch(const Feature& f, const Sample& at, Cover& out) {
+    const std::array<Feature, 2> curve{with_branch(f, -1), with_branch(f, 1)};
+    if (is_circle(surface.contact)) {
+        const Feature other = with_branch(f, 0);
+        for (const Feature& seam : quadrant()) {
+            const int sign = sign_of(other, seam, at);
+            out.watched.push_back({other, seam, sign, sign == 0});
+        }
+        const Dyadic tau = at.exact();
+        if (orders.coordinate_sign(curve[0], 0, tau) <= 0 || orders.coordinate_sign(curve[0], 1, tau) >= 0) return;
+    }
+    out.touched.push_back(curve);
 }
 
 // The covered parts of the quadrant, from crossings in any order: between one where the circle enters and the next one.
@@ -523,8 +564,10 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
     });
     // where a joint that is on the circle reaches out of it, nothing is covered between its two features
     for (std::size_t k = 0; k + 1 < placed.size();)
-        if (placed[k].crossing.enters && order(placed[k], placed[k + 1]) == 0) placed.erase(placed.begin() + static_cast<std::ptrdiff_t>(k), placed.begin() + static_cast<std::ptrdiff_t>(k) + 2);
-        else ++k;
+        if (const auto here = placed.begin() + static_cast<std::ptrdiff_t>(k); here->crossing.enters && order(*here, here[1]) == 0)
+            placed.erase(here, here + 2);
+        else
+            ++k;
     if (placed.empty()) return;
     bool is_covered = placed.back().crossing.enters;
     Feature from = seams[0];

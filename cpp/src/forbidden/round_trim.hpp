@@ -54,6 +54,7 @@ private:
     };
     struct Cover {
         std::vector<std::array<Feature, 2>> bands;
+        std::vector<std::array<Feature, 2>> touched;  // the same curve twice: free space is pinched there
         std::vector<Watch> watched;
     };
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
@@ -75,6 +76,9 @@ private:
     Cover on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at);
     std::array<Feature, 2> foot(const Pillar& pillar, int edge, int arc) const;
     int foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at);
+    void watch_beside(const Pillar& pillar, int k, Cover& out) const;
+    void watch_cone(const Pillar& pillar, int k, Cover& out) const;
+    void touch(const Feature& f, const Sample& at, Cover& out);
     void clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out);
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);

@@ -184,7 +184,9 @@ int RoundJunction::order(const Feature& surface, const Spot& p, const Spot& q) {
             if (first && second && first->hi < second->lo) return -1;
             if (first && second && second->hi < first->lo) return 1;
         }
-    if (!p.jumps && !q.jumps && !p.given && !q.given && is_known(surface, p, q)) return 0;
+    // where two lines are one, a joint of theirs is on both, but their curve may come to another place
+    const bool is_of_crossing = !p.jumps && !q.jumps && !p.is_limit && !q.is_limit;
+    if (is_of_crossing && !p.given && !q.given && is_known(surface, p, q)) return 0;
     const auto x = place_exactly(surface, p, 0), y = place_exactly(surface, q, 0);
     const Radicals difference{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}};
     return sign_at(difference, here()) * sign_at(x.c, here()) * sign_at(y.c, here());

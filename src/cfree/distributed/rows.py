@@ -39,11 +39,16 @@ class Rows:
 
 
 def gathered(
-    store: SceneStore, shards: Sequence[tuple[int, Shard, NDArray[np.bool_]]], obstacles: Ints | None = None
+    store: SceneStore,
+    shards: Sequence[tuple[int, Shard, NDArray[np.bool_]]],
+    obstacles: Ints | None = None,
+    share_names: bool = True,
 ) -> Rows:
     """Trapezoids of shards, each with its tile's number and flags of the features taken; with more obstacles if given.
 
-    Curves have the names of all on their line, as in a boundary that is computed whole.
+    Curves have the names of all on their line, as in a boundary that is computed whole. These names depend on the
+    obstacles taken, and so do the last digits of doubles at the curves. Names that are not shared are those of the
+    shards, which do not.
     """
     tables = [_table(tile, shard, chosen) for tile, shard, chosen in shards]
     starts = np.cumsum([0, *(len(shard["keys"]) for _, shard, _ in shards)])
@@ -63,7 +68,8 @@ def gathered(
     numbers = _obstacles_of(store, np.unique(np.concatenate(vertices)))
     part = Part(store, numbers if obstacles is None else np.union1d(numbers, obstacles))
     codes = np.zeros(len(keys), np.uint64)
-    codes[used] = part.features.core.named(part.codes(named))
+    own = part.codes(named)
+    codes[used] = part.features.core.named(own) if share_names else own
     contacts = np.stack([part.local(columns["feature"]), columns["kind"], columns["robot"]], axis=1)
     # rows of one patch come one after the other
     is_first = np.append(True, np.any(contacts[1:] != contacts[:-1], axis=1))[: len(contacts)]

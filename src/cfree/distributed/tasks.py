@@ -78,11 +78,19 @@ class Work:
         """The stage whose trapezoids bound cells."""
         return REGULAR if self.plan.get("slits") else TRIMMED
 
-    def rows(self, tile: int, stage: str, around: bool, obstacles: NDArray[np.int64] | None = None) -> Rows:
-        """Trapezoids of a tile, and those of features within reach of its own; with more obstacles if given."""
+    def rows(
+        self,
+        tile: int,
+        stage: str,
+        around: bool,
+        obstacles: NDArray[np.int64] | None = None,
+        share_names: bool = True,
+    ) -> Rows:
+        """Trapezoids of a tile, and those of features within reach of its own; other arguments as in `gathered`."""
         if not around:
             shard = self.shard(stage, tile)
-            return gathered(self.store, [(tile, shard, np.ones(len(shard["feature"]), bool))], obstacles)
+            all_of_it = [(tile, shard, np.ones(len(shard["feature"]), bool))]
+            return gathered(self.store, all_of_it, obstacles, share_names)
         features = Features(self.store)
         own = features.boxes(self.division.listed("features", tile))
         shards = []
@@ -92,7 +100,7 @@ class Work:
             if other != tile:
                 chosen[BoxIndex(features.boxes(shard["feature"])).near(own, self.store.reach)] = True
             shards.append((other, shard, chosen))
-        return gathered(self.store, shards, obstacles)
+        return gathered(self.store, shards, obstacles, share_names)
 
 
 def stamp_of(folder: Path) -> str:
@@ -159,7 +167,7 @@ def measure_task(
     `surface` is that of each component, `origins` are the origins of the volumes, by surface.
     """
     work = opened(folder, stamp)
-    rows = work.rows(tile, work.surfaces, around=False)
+    rows = work.rows(tile, work.surfaces, around=False, share_names=False)  # same doubles for any tiling
     surface_of = surface[work.shard(GLUED, tile)["component"]]
     surfaces, known = np.unique(surface_of, return_inverse=True)
     known = known.reshape(-1)

@@ -1,0 +1,106 @@
+"""Random and degenerate scenes of rounded shapes, and the smallest of those that once failed; see `fuzz_rounded.py`."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fuzz_rounded import Draw, Truth, all_faults, built, counts, euler_numbers, location_faults, surface_faults
+from rounded_scenes import FAMILIES, TURNS, RoundScene, Shape, all_mapped, core, mirrored, scene, swapped
+
+TRIANGLE = [(0, 0), (2, 0), (0, 1)]
+
+
+def shape(points: Any, radius: Any) -> Shape:
+    return Shape(core(points), Fraction(radius))
+
+
+def among(robot: Shape, *obstacles: Shape, bounds: tuple[int, ...] | None = None) -> RoundScene:
+    return RoundScene((robot,), obstacles, None, bounds and tuple(map(Fraction, bounds)))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", FAMILIES)
+def test_random_scenes_have_no_faults(family: str) -> None:
+    for seed in range(6):
+        assert all_faults(scene(family, seed), f"{family} {seed}") == [], seed
+
+
+def test_a_radius_that_is_not_the_scenes_is_found() -> None:
+    """The search itself works: cells of one scene against distances of another."""
+    plain = among(shape(TRIANGLE, "1/4"), shape([(0, 0)], 1))
+    other = among(shape(TRIANGLE, "3/4"), shape([(0, 0)], 1))
+    assert list(location_faults(built(plain), Truth(other), Draw("1")))
+
+
+# Euler numbers are the closed surfaces'.
+CORNER_ON_CIRCLE = {
+    "same centre": among(shape(TRIANGLE, 0), shape([(0, 0)], 1), shape([(0, 0)], 0)),
+    "rim": among(shape(TRIANGLE, 0), shape([(0, 0)], 1), shape([(1, 0)], 0)),
+    "triangle": among(shape(TRIANGLE, 0), shape([(0, 0)], 1), shape([(0, 0), ("1/2", 0), (0, "1/2")], 0)),
+}
+
+
+@pytest.mark.parametrize("name", CORNER_ON_CIRCLE)
+def test_corner_that_stays_on_a_circle_covers_what_is_beside_it(name: str) -> None:
+    """A corner without radius is on a larger circle at every angle: this enters and leaves there."""
+    space = built(CORNER_ON_CIRCLE[name])
+    assert euler_numbers(space.cells) == [0]
+    assert not list(surface_faults(space))
+
+
+@pytest.mark.parametrize(("bounds", "euler"), [((-1, -5, 5, 5), [-2]), ((-1, -5, 1, 5), [-4])])
+def test_line_that_lies_in_a_bound_at_one_angle(bounds: tuple[int, ...], euler: list[int]) -> None:
+    """Its end is on the bound then, where the curve of both does not end."""
+    space = built(among(shape([("1/2", -1), ("1/2", 1)], "1/8"), shape([(0, 0)], "3/8"), bounds=bounds))
+    assert euler_numbers(space.cells) == euler
+    assert not list(surface_faults(space))
+
+
+def test_angles_are_as_narrow_as_doubles_however_they_were_found() -> None:
+    """Two edges and a radius give an angle that only exact numbers find; it was left in an interval of 0.14."""
+    square, triangle = [(0, "1/2"), (1, "1/2"), (1, "3/2"), (0, "3/2")], [(-2, 2), (-2, 3), (-3, 2)]
+    block = [(-1, -1), (0, -1), (0, 0), (-1, 0)]
+    plain = among(shape(square, "3/2"), shape(triangle, 2), shape(block, 1), bounds=(-3, -3, 2, 2))
+    for scene_of_it in (plain, mirrored(plain)):
+        rows = built(scene_of_it).boundary.trapezoids
+        for low, high in ((rows.from_lo, rows.from_hi), (rows.to_lo, rows.to_hi)):
+            assert np.all(high - low < 1e-13)
+    one, other = (counts(built(each)).volumes for each in (plain, mirrored(plain)))
+    assert np.allclose(one, other, rtol=1e-12, atol=0)
+
+
+def discs(*places: tuple[Any, Any, Any]) -> list[Shape]:
+    return [shape([(x, y)], radius) for x, y, radius in places]
+
+
+FLOOR, CEILING = shape([(-3, -2), (3, -2), (3, -1), (-3, -1)], 0), shape([(-3, 1), (3, 1), (3, 2), (-3, 2)], 0)
+ENDS = [shape([(x, -2), (x, 2)], "1/2") for x in (-3, 3)]
+# robot among obstacles that leave just no room for it between them: cells, one of them around all
+PINCHED = {
+    "discs of radius 1, 2 and 3": (among(shape([(0, 0)], 0), *discs((0, 0, 1), (3, 0, 2), (0, 4, 3))), 2),
+    "the same, a reference point elsewhere": (among(shape([(1, 2)], 0), *discs((0, 0, 1), (3, 0, 2), (0, 4, 3))), 2),
+    "discs on a lattice": (among(shape([(0, 0)], "1/4"), *discs(*((x, y, "1/4") for x in (0, 1) for y in (0, 1)))), 2),
+    "a disc in a corridor": (among(shape([(0, 0)], 0), FLOOR, CEILING, *ENDS, *discs((0, 0, 1))), 3),
+    "a disc with room": (among(shape([(0, 0)], 0), FLOOR, CEILING, *ENDS, *discs((0, 0, "99/100"))), 2),
+    "stadiums at a joint": (among(shape([(0, 1)], 0), shape([(0, 1), (2, 1)], 1), shape([(1, -2), (2, -1)], 1)), 1),
+    "a corner of the robot": (among(shape(TRIANGLE, "1/4"), *discs((0, 0, "3/4"), ("6/5", "8/5", "3/4"))), 1),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PINCHED)
+def test_a_touch_at_every_angle_parts_cells_in_any_direction(name: str) -> None:
+    """Whether it is in the direction of an axis, where patches end anyway, or not."""
+    plain, cells = PINCHED[name]
+    first = counts(built(plain))
+    assert first.cells == cells
+    for turn in TURNS:
+        other = counts(built(all_mapped(plain, turn=turn)))
+        assert (other.surfaces, other.cells) == (first.surfaces, cells), turn
+        assert np.allclose(other.volumes, first.volumes, rtol=1e-12, atol=0)
+    if (exchanged := swapped(plain)) is not None:
+        assert counts(built(exchanged)).surfaces == first.surfaces
