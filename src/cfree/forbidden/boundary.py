@@ -88,7 +88,7 @@ def boundary(
     but where exact integers decided something. `Boundary.kept_patches` counts the patches that were taken.
 
     Rounded shapes are exact, not replaced by polygons. `Boundary.isolated` is empty among them: exact fits without
-    width are not computed. Meshes and files of such boundaries are refused.
+    width are not computed.
 
     Examples
     --------
@@ -290,8 +290,8 @@ class Boundary(BoundaryRecord, Shown):
         Distances are measured by dx^2 + dy^2 + w^2 dtheta^2. The bound is proved in docs/theory/meshes.md for exact
         arithmetic; points are computed in doubles. It does not hold for trapezoids between angles less than 1e-9
         radians apart. Their triangles are within 1e-9 (2 r + w) of them, r the robot's radius, and they may reach
-        beyond their triangles. Time is about linear in the triangles. Isolated parts have none. Among rounded shapes the
-        bound is the same, for circles as well; the number of triangles is not near the least possible.
+        beyond their triangles. Time is about linear in the triangles. Isolated parts have none. The bound holds among
+        rounded shapes as well, whose meshes have more triangles than they need.
 
         Examples
         --------
