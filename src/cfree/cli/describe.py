@@ -12,6 +12,7 @@ from cfree.collision.approximations import Approximations
 from cfree.collision.pose_checker import PoseChecker, is_free
 from cfree.exact.pose import Pose
 from cfree.forbidden.kinds import KINDS, PatchKind
+from cfree.formats.conversion import as_exact
 from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BODY, SceneFeatures, grown_features, scene_features
@@ -37,9 +38,8 @@ def describe(scene: Scene) -> dict[str, Any]:
     dict
         ``robot`` and ``obstacles`` hold counts; ``removed`` holds the points of the input that are no vertices.
         ``patches`` counts the contact patches before trimming, by kind, and the sides of the bounds. ``start`` and
-        ``goal`` hold poses and True for free ones. ``round`` is the number of round shapes. Patches of rounded shapes
-        are those of their exact boundary, ``arc-arc`` among them; ``exact`` is True then, and shapes are counted as
-        their cores. Other round shapes are counted as polygons around them.
+        ``goal`` hold poses and True for free ones. ``round`` is the number of round shapes. ``exact`` of them are
+        exact in boundaries, and counted as their cores; others are counted as polygons around them.
 
     Examples
     --------
@@ -81,15 +81,14 @@ def describe(scene: Scene) -> dict[str, Any]:
 
 
 def _describe_curved(scene: Scene) -> dict[str, Any]:
-    """Describe the cores of rounded shapes, or enclosing polygons; free poses are decided by the exact shapes."""
+    """Describe the cores of rounded shapes, and polygons around others, as the boundary takes them."""
     around = Approximations(scene).scene(outward=True)
     facts = describe(around) | {key: getattr(scene, key) for key in ("note", "source")}
-    facts["round"] = round_count(shapes_of(scene))
-    cores = rounded_shapes(scene)
-    facts["exact"] = cores is not None
-    if cores is not None:
+    taken, _ = as_exact(scene, None)
+    facts["round"], facts["exact"] = round_count(shapes_of(scene)), round_count(shapes_of(taken))
+    if (cores := rounded_shapes(taken)) is not None:
         facts["robot"], facts["obstacles"] = _core_counts(cores.robot), _core_counts(cores.obstacles)
-        facts["patches"] = expected_patches(scene, grown_features(scene))
+        facts["patches"] = expected_patches(taken, grown_features(taken))
     for key, pose in (("start", scene.start), ("goal", scene.goal)):
         if pose is not None:
             facts[key]["free"] = is_free(scene, pose)

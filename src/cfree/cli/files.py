@@ -141,17 +141,20 @@ def planner_of(
         from cfree.formats.boundaries.boundary_file import load_boundary
         from cfree.free.space import free_space
 
-        with bar("cells"):
-            space = free_space(load_boundary(source))
-        scene = space.boundary.scene
+        boundary = load_boundary(source)
+        scene = boundary.scene
+        space = None
+        if not scene.curved:  # planners among round shapes find their own cells
+            with bar("cells"):
+                space = free_space(boundary)
         planner = Planner(scene, space, preferences=preferences, phase=bar, vehicle=vehicle_for(scene, vehicle))
         report(scene.reading, source)
     else:
         scene = read_scene(source)
         driver = vehicle_for(scene, vehicle)
         planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar, vehicle=driver)
-        if scene.curved:
-            return CurvedPlanner(planner, drawing.tolerance())
+    if isinstance(planner, Planner) and planner.scene.curved:
+        return CurvedPlanner(planner, drawing.tolerance())
     return planner
 
 

@@ -46,8 +46,10 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
     kinds = ", ".join(f"{patches[kind]:,} {kind}" for kind in ("v-e", "e-v", "arc-arc") if kind in patches)
     yield f"patches    {contacts:,} contact patches before trimming: {kinds}{bounds}"
     if facts.get("round"):
-        how = "exact; counted as their cores" if facts["exact"] else "counted as the polygons around them"
-        yield f"round      {counted(facts['round'], 'shape')}, {how}"
+        others = facts["round"] - facts["exact"]
+        parts = [f"{facts['exact']:,} exact, counted as cores"] if facts["exact"] else []
+        parts += [f"{others:,} counted as polygons around them"] if others else []
+        yield f"round      {counted(facts['round'], 'shape')}: {'; '.join(parts)}"
     if facts["bounds"]:
         x0, y0, x1, y1 = facts["bounds"]
         yield f"bounds     x from {x0:g} to {x1:g}, y from {y0:g} to {y1:g}"
