@@ -160,8 +160,10 @@ MUTANTS: list[Callable[[Boundary, random.Random], Boundary]] = [
 @pytest.mark.slow
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda f: f.__name__)
 def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random], Boundary]) -> None:
-    for seed, scene in enumerate([MIXED, ONE_RADIUS, ROOM, IN_BOUNDS]):
+    for seed, scene in enumerate([MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3)]):
         result, rng = boundary(scene), random.Random(seed)
+        if mutant is on_the_other_branch and seed in (0, 2):
+            continue  # no lower curve has one
         for _ in range(3):
             found = cfree.verify.boundary(mutant(result, rng), scene, slices=3)
             assert not found.verified, (mutant.__name__, seed)

@@ -195,7 +195,7 @@ def _contacts(robot: Sequence[Corner], obstacles: Sequence[Corner], turned: comp
 
 def _arcs(a: complex, neighbours: tuple[complex, complex], b: Corner, rho: float, eps: float) -> Iterator[Contact]:
     """Arcs on which the directions from an obstacle's vertex are in the cones of both vertices."""
-    ends = {0.0}
+    ends = {math.pi / 2 * k for k in range(4)}  # the file's quadrants
     spans = [(p - b.place, -1) for p in (b.before, b.after) if p != b.place]
     spans += [(p - a, 1) for p in neighbours if p != a]
     for span, _ in spans:
