@@ -104,6 +104,7 @@ def test_a_mesh_of_arcs_is_closed_and_close() -> None:
     assert {*mesh.kind.tolist()} == {PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX, PatchKind.ARC_ARC}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TIES)
 def test_meshes_of_scenes_with_ties_are_closed(name: str) -> None:
     cells = core.glue(core.compute_boundary(features_of(name).scene, 1, False, lambda share: True), 1)

@@ -90,7 +90,7 @@ def _as_pieces(stored: Boundary, cores: Cores) -> RoundSeparation:
         ANYWHERE,
         ANYWHERE,
         scene.bounds,
-        scene.workspace,  # type: ignore[arg-type]
+        scene.workspace,
     )
 
 

@@ -38,9 +38,8 @@ class Contact:
 
     def points(self, positions: Floats) -> Complexes:
         if self.along:
-            return self.place + positions * self.along
-        result: Complexes = self.place + self.radius * np.exp(1j * positions)
-        return result
+            return np.asarray(self.place + positions * self.along, complex)
+        return np.asarray(self.place + self.radius * np.exp(1j * positions), complex)
 
     def is_on(self, other: Contact, near: float) -> bool:
         """True if both are on one line, in one direction, or on one circle."""
@@ -72,13 +71,13 @@ class Pillar:
     def distance(self, points: Complexes) -> Floats:
         """Distances from the hull, negative inside."""
         if len(self.hull) == 1:
-            return np.abs(points - self.hull[0])
+            return np.asarray(np.abs(points - self.hull[0]))
         start, along = self.hull[:, None], (np.roll(self.hull, -1) - self.hull)[:, None]
         seen = (points[None] - start) * along.conj() / np.abs(along)
         beyond = np.clip(seen.real - np.abs(along), 0, None) + np.clip(-seen.real, 0, None)
         off = np.hypot(seen.imag, beyond).min(axis=0)
         inside = (seen.imag > 0).all(axis=0) if len(self.hull) > 2 else np.zeros(len(points), bool)
-        return np.where(inside, -seen.imag.min(axis=0), off)
+        return np.asarray(np.where(inside, -seen.imag.min(axis=0), off))
 
     def has(self, contact: Contact, near: float) -> bool:
         """True if both vertices of a contact are of these pieces."""
