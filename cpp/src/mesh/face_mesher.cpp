@@ -15,6 +15,7 @@ namespace cfree {
 
 namespace {
 
+constexpr double least_flat = 1e-13;  // where curves touch a side, faces are as thin as steps from there
 constexpr double doubt = 1.3;  // factor of doubt in estimated numbers of triangles
 
 }  // namespace
@@ -41,7 +42,9 @@ void FaceMesher<Face>::fill(const Face& on, const Rim& rim, const Layout& layout
 template <class Face>
 void FaceMesher<Face>::fill(const Rim& rim, const Layout& layout) {
     net = {}, points.clear();
+    if constexpr (!has_layouts) net.flat = least_flat;
     const bool bare = layout.is_empty();
+    origin = has_layouts ? 0 : face->from;
     stretch = bare ? usual_stretch : layout.stretch, lean = bare ? -face->shear : layout.lean;
     place(rim);
     const auto rim_end = static_cast<Index>(points.size());
@@ -95,7 +98,8 @@ MeshPoint FaceMesher<Face>::inner_point(double s, double phi) const {
 template <class Face>
 Index FaceMesher<Face>::add_point(const MeshPoint& p) {
     points.push_back(p);
-    net.places.push_back({face->is_saddle ? (face->u(p.s) - lean * p.phi) / stretch : p.s, stretch * p.phi});
+    const double phi = p.phi - origin;
+    net.places.push_back({face->is_saddle ? (face->u(p.s) - lean * phi) / stretch : p.s, stretch * phi});
     return static_cast<Index>(points.size()) - 1;
 }
 
@@ -106,7 +110,7 @@ Index FaceMesher<Face>::add_middle(const std::array<Index, n>& of) {
     for (const Index k : of) x += net.places[k].x / n, y += net.places[k].y / n;
     y /= stretch;
     const double s = face->is_saddle ? face->s(stretch * x + lean * y) : x;
-    return add_point(inner_point(s, y));
+    return add_point(inner_point(s, origin + y));
 }
 
 // Flip edges and put points on them until every triangle is close.

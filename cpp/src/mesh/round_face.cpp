@@ -13,6 +13,7 @@ namespace cfree {
 
 namespace {
 using std::numbers::pi;
+constexpr double rounding = 1e-13;  // lengths that differ by less of them are equal
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Range {
@@ -79,6 +80,13 @@ Jet jet_of(const Harmonic& f, double from, double to) {
     return {range_of(f, from, to), range_of({0, f.c, -f.b}, from, to), range_of({0, -f.b, -f.c}, from, to)};
 }
 
+Jet arc_cosine(const Jet& q) {
+    const auto arc = [](double x) { return std::acos(std::clamp(x, -1.0, 1.0)); };
+    const Range left{std::min(1 - q.f.hi * q.f.hi, 1 - q.f.lo * q.f.lo), 1}, over = inverse(root(left));
+    const Range bend = -1 * (q.dd * over + q.f * (squared(q.d) * (over * squared(over))));
+    return {{arc(q.f.hi), arc(q.f.lo)}, -1 * (q.d * over), left.lo > 0 ? bend : Range{-unbounded, unbounded}};
+}
+
 // Bound of a function's distance from its chord: by its second derivative, or by all its values.
 double bow_of(const Jet& x, double step) {
     const double bent = x.dd.most() * step * step / 8;
@@ -94,7 +102,7 @@ double Harmonic::at(double phi) const {
 
 RoundCurve::RoundCurve(const Places& places, const Feature& on, const Feature& other, double from, double to) {
     if (is_circle(on) || is_circle(other)) {
-        if (is_circle(on)) meet_on_circle(places, on, other);
+        if (is_circle(on)) meet_on_circle(places, on, other, from, to);
         else meet_on_line(places, on, other);
         return;
     }
@@ -120,7 +128,7 @@ void RoundCurve::meet_on_line(const Places& places, const Feature& on, const Fea
     }
 }
 
-void RoundCurve::meet_on_circle(const Places& places, const Feature& on, const Feature& other) {
+void RoundCurve::meet_on_circle(const Places& places, const Feature& on, const Feature& other, double from, double to) {
     radius = sum_of_radii(places.scene, on) * places.scene.unit();
     begin = 0.5 * pi * on.branch;
     if (other.kind == Kind::seam) {
@@ -149,6 +157,13 @@ void RoundCurve::meet_on_circle(const Places& places, const Feature& on, const F
     const Complex db = places.b(other.obstacle) - b, da = places.a(other.robot) - a;
     const double r = sum_of_radii(places.scene, other) * places.scene.unit();
     form = Form::on_circle, still = db, moving = -da;
+    if (radius == r && std::abs(std::abs(db) - std::abs(da)) <= rounding * std::abs(da)) {
+        // n = -2 i sin((phi - meeting) / 2) exp(i (phi + meeting) / 2) da, and |n| / (2 radius) is the cosine
+        is_equal = true, meeting = std::arg(db * std::conj(da));
+        const double middle_angle = 0.5 * (from + to);
+        meeting = middle_angle + std::remainder(meeting - middle_angle, 2 * pi);
+        return;
+    }
     square = -2 * dot_with_turned(db, da) + (std::norm(db) + std::norm(da));
     delta = 0.5 * (square + (radius - r) * (radius + r));
     turn = -1 * dot_with_turned(db, da) + std::norm(da);
@@ -169,8 +184,14 @@ double RoundCurve::position(double phi) const {
         }
         case Form::on_circle: break;
     }
-    const Complex n = still + std::polar(1.0, phi) * moving;
-    const double q = std::clamp(delta.at(phi) / (radius * std::abs(n)), -1.0, 1.0);
+    Complex n = still + std::polar(1.0, phi) * moving;
+    double q = delta.at(phi) / (radius * std::abs(n));
+    if (is_equal) {
+        const double half = std::sin(0.5 * (phi - meeting));
+        n = (half < 0 ? 1.0 : -1.0) * i_unit * std::polar(1.0, 0.5 * (phi + meeting)) * -moving;
+        q = std::abs(half * moving) / radius;
+    }
+    q = std::clamp(q, -1.0, 1.0);
     return in_quadrant(std::arg(n * Complex{q, branch * std::sqrt((1 - q) * (1 + q))}) - begin);
 }
 
@@ -194,6 +215,12 @@ double RoundCurve::bow(double from, double to) const {
         return m.dd.most() * step * step / 8 + bow_of(half, step);
     }
     // psi = arg n + branch arccos q, q = delta / (radius |n|)
+    if (is_equal) {
+        Jet q = jet_of((std::abs(moving) / radius) * Harmonic{0, -std::sin(0.5 * meeting), std::cos(0.5 * meeting)}, 0.5 * from, 0.5 * to);
+        if (q.f.hi <= 0) q = constant(0) - q;
+        q.d = 0.5 * q.d, q.dd = 0.25 * q.dd;
+        return bow_of(arc_cosine(q), step);  // arg n is linear
+    }
     const Jet n = jet_of(square, from, to), t = jet_of(turn, from, to);
     if (!(n.f.lo > 0)) return unbounded;
     const Jet rate = t * inverse(n);  // of arg n
@@ -202,10 +229,7 @@ double RoundCurve::bow(double from, double to) const {
     Jet q = jet_of((1 / radius) * delta, from, to) * inverse(root(n));
     const double at_middle = delta.at(0.5 * (from + to)) / (radius * std::sqrt(square.at(0.5 * (from + to))));
     q.f = both(q.f, Range{at_middle, at_middle} + 0.5 * step * Range{-q.d.most(), q.d.most()});
-    const auto arc = [](double x) { return std::acos(std::clamp(x, -1.0, 1.0)); };
-    const Range left{std::min(1 - q.f.hi * q.f.hi, 1 - q.f.lo * q.f.lo), 1}, over = inverse(root(left));
-    const Range bend = q.dd * over + q.f * (squared(q.d) * (over * squared(over)));
-    return result + bow_of({{arc(q.f.hi), arc(q.f.lo)}, {0, 0}, left.lo > 0 ? bend : Range{-unbounded, unbounded}}, step);
+    return result + bow_of(arc_cosine(q), step);
 }
 
 RoundFace::RoundFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first, double last,

@@ -9,7 +9,6 @@
 namespace cfree {
 
 namespace {
-constexpr double flat = 1e-9;  // areas this small, against the square of the longest side, decide nothing
 int next(int k) { return k == 2 ? 0 : k + 1; }
 int previous(int k) { return k == 0 ? 2 : k - 1; }
 }  // namespace

@@ -47,6 +47,7 @@ private:
     const Face* face = nullptr;
     Index number = 0;
     double stretch = 1, lean = 0;  // coordinates of `net`: ((u - lean * phi) / stretch, stretch * phi)
+    double origin = 0;             // from which phi counts there
     Triangulation::Star star;
 };
 

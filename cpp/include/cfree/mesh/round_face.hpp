@@ -32,7 +32,7 @@ private:
     enum class Form { still, turning, line, on_line, on_circle };
     double bow_of_line(double from, double to) const;
     void meet_on_line(const Places& places, const Feature& on, const Feature& other);
-    void meet_on_circle(const Places& places, const Feature& on, const Feature& other);
+    void meet_on_circle(const Places& places, const Feature& on, const Feature& other, double from, double to);
 
     Form form = Form::still;
     double start = 0;             // position, at phi = 0 if it is turning
@@ -42,6 +42,8 @@ private:
     double radius = 0;            // on a line: of the other circle; on a circle: its own
     Complex still = 0, moving = 0;  // n = still + exp(i phi) moving
     double begin = 0;             // direction from which psi counts
+    bool is_equal = false;        // circles of one radius that coincide at the angle `meeting`
+    double meeting = 0;
     // two lines
     ContactCurve curve;
     Complex origin = 0, direction = 0;

@@ -19,6 +19,7 @@ public:
         double x, y;
     };
     std::vector<Place> places;
+    double flat = 1e-9;  // areas this small, against the square of the longest side, decide nothing
     std::vector<Triangle> triangles;
     std::vector<Index> changed;  // triangles made or flipped by Delaunay steps
 
