@@ -5,7 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 import cfree._core as core
-from cfree import Polygon
+from cfree import Curved, Polygon, Scene
+from cfree.curves import Arc
 
 Corners = list[complex]
 Grown = tuple[Corners, float]
@@ -121,3 +122,27 @@ def features_of(name: str) -> core.SceneFeatures:
     (robot, r), obstacles, *_ = SCENES[name]
     radii = [exact(r), *(exact(radius) for _, radius in obstacles)]
     return core.SceneFeatures([handle(robot)], [handle(c) for c, _ in obstacles], None, None, None, radii)
+
+
+def scene_of(name: str) -> Scene | None:
+    """The scene with shapes of files; None if it has a point or a segment without radius."""
+    robot, obstacles, *_ = SCENES[name]
+    shapes = [_shape(*grown) for grown in (robot, *obstacles)]
+    return None if None in shapes else Scene(shapes[0], shapes[1:])
+
+
+def _shape(corners: Corners, radius: float) -> Curved | Polygon | None:
+    points, r = [(exact(complex(p).real), exact(complex(p).imag)) for p in corners], exact(radius)
+    if len(points) > 2:
+        return Curved(points, grown=r) if r else Polygon(points)
+    if r == 0:
+        return None
+    if len(points) == 1:
+        return Curved.circle(points[0], r)
+    (a, b), (c, d) = sorted(points)
+    if b == d:  # along the x-axis, else along the y-axis
+        return Curved(
+            [(a, b - r), (c, b - r), Arc((c, b + r), center=(c, b)), (a, b + r), Arc((a, b - r), center=(a, b))]
+        )
+    assert a == c
+    return Curved([(a + r, b), (a + r, d), Arc((a - r, d), center=(a, d)), (a - r, b), Arc((a + r, b), center=(a, b))])

@@ -18,6 +18,8 @@ from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import Trapezoids
 from cfree.verify.result import MEASURED, PROVED, SKIPPED
 from rounded_scenes import MIXED, ONE_RADIUS, SCENES, SQUARE, TRIANGLE, disc, grown, random_scene
+from rounded_ties import SCENES as TIES
+from rounded_ties import scene_of
 
 ROOM = Scene(disc(0, 0, "1/3"), [disc(1, 1, "1/2")], workspace=[(-3, -3), (4, -3), (4, 4), (0, 1), (-3, 4)])
 IN_BOUNDS = Scene(grown(TRIANGLE, "1/5"), [grown(SQUARE, "1/10", 2, 1)], bounds=(-4, -4, 6, 6))
@@ -36,6 +38,16 @@ def test_boundaries_of_rounded_shapes_are_verified(name: str) -> None:
 def test_boundaries_of_random_rounded_scenes_are_verified(seed: int) -> None:
     scene = random_scene(seed)
     result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
+    assert result.verified, result
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TIES)
+def test_boundaries_with_ties_are_verified(name: str) -> None:
+    scene = scene_of(name)
+    if scene is None or not scene.curved:
+        return  # a point or a segment without radius is no shape of a scene
+    result = cfree.verify.boundary(boundary(scene), scene, slices=4)
     assert result.verified, result
 
 

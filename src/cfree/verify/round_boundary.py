@@ -194,15 +194,15 @@ def _checks(
     total = len(proof)
     every = counted(total, "trapezoid") if count == total else f"{count:,} of {counted(total, 'trapezoid')}"
     robot, obstacles = world.layers[0]
-    near = f"places within {float(NEAREST):.1g} of the size count as one"
-    closed = f"every side of {counted(total, 'trapezoid')} has a partner; {near}"
+    near = f"up to {float(NEAREST):.1g} of the size"
+    closed = f"every side of {counted(total, 'trapezoid')} has a partner, {near}"
     free = f"{every}: nothing covers the middle at one angle each"
     return (
         Check(PIECES, PROVED, f"{len(robot)} of the robot, {len(obstacles)} of the obstacles tile the cores"),
         Check(
             TRAPEZOIDS,
             PROVED if count == total else SAMPLED,
-            f"{every}: angles in order, curves within the patch; {near}",
+            f"{every}: angles in order, curves within patches, {near}",
         ),
         Check(FREE, SAMPLED, free),
         Check(CLOSED, PROVED, closed) if whole else Check(CLOSED, SKIPPED, "needs every trapezoid"),
