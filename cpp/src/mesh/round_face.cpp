@@ -81,7 +81,7 @@ Jet jet_of(const Harmonic& f, double from, double to) {
 }
 
 Jet arc_cosine(const Jet& q) {
-    const auto arc = [](double x) { return std::acos(std::clamp(x, -1.0, 1.0)); };
+    const auto arc = [](double x) { return arc_tangent(std::sqrt(std::max(0.0, (1 - x) * (1 + x))), x); };
     const Range left{std::min(1 - q.f.hi * q.f.hi, 1 - q.f.lo * q.f.lo), 1}, over = inverse(root(left));
     const Range bend = -1 * (q.dd * over + q.f * (squared(q.d) * (over * squared(over))));
     return {{arc(q.f.hi), arc(q.f.lo)}, -1 * (q.d * over), left.lo > 0 ? bend : Range{-unbounded, unbounded}};
@@ -187,7 +187,7 @@ double RoundCurve::position(double phi) const {
     Complex n = still + std::polar(1.0, phi) * moving;
     double q = delta.at(phi) / (radius * std::abs(n));
     if (is_equal) {
-        const double half = std::sin(0.5 * (phi - meeting));
+        const double half = sine(0.5 * (phi - meeting));
         n = (half < 0 ? 1.0 : -1.0) * i_unit * std::polar(1.0, 0.5 * (phi + meeting)) * -moving;
         q = std::abs(half * moving) / radius;
     }
@@ -216,7 +216,7 @@ double RoundCurve::bow(double from, double to) const {
     }
     // psi = arg n + branch arccos q, q = delta / (radius |n|)
     if (is_equal) {
-        Jet q = jet_of((std::abs(moving) / radius) * Harmonic{0, -std::sin(0.5 * meeting), std::cos(0.5 * meeting)}, 0.5 * from, 0.5 * to);
+        Jet q = jet_of((std::abs(moving) / radius) * Harmonic{0, -sine(0.5 * meeting), cosine(0.5 * meeting)}, 0.5 * from, 0.5 * to);
         if (q.f.hi <= 0) q = constant(0) - q;
         q.d = 0.5 * q.d, q.dd = 0.25 * q.dd;
         return bow_of(arc_cosine(q), step);  // arg n is linear
