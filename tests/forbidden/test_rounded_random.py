@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fuzz_rounded import Draw, Truth, all_faults, built, counts, euler_numbers, location_faults, surface_faults
-from rounded_scenes import FAMILIES, TURNS, RoundScene, Shape, all_mapped, core, mirrored, scene, swapped
+from rounded_families import FAMILIES, TURNS, RoundScene, Shape, all_mapped, core, mirrored, scene, swapped
 
 TRIANGLE = [(0, 0), (2, 0), (0, 1)]
 

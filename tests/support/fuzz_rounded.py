@@ -26,7 +26,7 @@ import numpy as np
 import shapely
 
 import cfree._core as _core
-from rounded_scenes import (
+from rounded_families import (
     FAMILIES,
     TURNS,
     Core,

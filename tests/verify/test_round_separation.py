@@ -29,7 +29,7 @@ from cfree.verify.round_algebra import precision
 from cfree.verify.round_inside import largest_radius
 from cfree.verify.round_pieces import Reader
 from cfree.verify.round_proof import Features, RoundSeparation
-from cfree.verify.round_separation import _scale, _size, round_separation_findings
+from cfree.verify.round_separation import round_separation_findings, scale_of, size_of
 from cfree.verify.round_sides import is_inside
 
 F = Fraction
@@ -226,7 +226,7 @@ def test_sides_agree_with_distances_of_cores(name: str) -> None:
     scene = SCENES[name]
     radius = robot_radius(scene) - HAIR
     proofs = surfaces(scene, radius)
-    scale, bits = _scale(HAIR, _size(proofs[0]), sum(map(len, proofs)))
+    scale, bits = scale_of(HAIR, size_of(proofs[0]), sum(map(len, proofs)))
     rng, tried = random.Random(name), 0
     with precision(bits):
         pieces = [reader.piece(k) for p in proofs for reader in [Reader(p, scale)] for k in range(len(p))]

@@ -15,31 +15,40 @@ namespace cfree {
 
 namespace {
 
+constexpr double least_flat = 1e-13;  // where curves touch a side, faces are as thin as steps from there
 constexpr double doubt = 1.3;  // factor of doubt in estimated numbers of triangles
 
 }  // namespace
 
-void FaceMesher::fill(const MeshFace& on, const Rim& rim, const Layout& layout, Index which) {
+template <class Face>
+void FaceMesher<Face>::fill(const Face& on, const Rim& rim, const Layout& layout, Index which) {
     face = &on, number = which;
-    if (least_triangles(on, error) <= few_triangles) return fill(rim, {});
-    const Layout lattice = lattice_over(on, error, may_leave);
-    if (layout.is_empty()) return fill(rim, lattice);
-    fill(rim, layout);
-    if (lattice.triangles > doubt * layout.triangles) return;
-    const auto first_net = std::exchange(net, {});
-    const auto first_points = std::exchange(points, {});
-    fill(rim, lattice);
-    if (net.triangles.size() >= first_net.triangles.size()) net = first_net, points = first_points;
+    if constexpr (!has_layouts) {
+        fill(rim, layout);
+    } else {
+        if (least_triangles(on, error) <= few_triangles) return fill(rim, {});
+        const Layout lattice = lattice_over(on, error, may_leave);
+        if (layout.is_empty()) return fill(rim, lattice);
+        fill(rim, layout);
+        if (lattice.triangles > doubt * layout.triangles) return;
+        const auto first_net = std::exchange(net, {});
+        const auto first_points = std::exchange(points, {});
+        fill(rim, lattice);
+        if (net.triangles.size() >= first_net.triangles.size()) net = first_net, points = first_points;
+    }
 }
 
 // Fill from the rim inwards: a disc zipped between the two curves, points of the layout, more where the bound needs them.
-void FaceMesher::fill(const Rim& rim, const Layout& layout) {
+template <class Face>
+void FaceMesher<Face>::fill(const Rim& rim, const Layout& layout) {
     net = {}, points.clear();
+    if constexpr (!has_layouts) net.flat = least_flat;
     const bool bare = layout.is_empty();
+    origin = has_layouts ? 0 : face->from;
     stretch = bare ? usual_stretch : layout.stretch, lean = bare ? -face->shear : layout.lean;
     place(rim);
     const auto rim_end = static_cast<Index>(points.size());
-    if (!bare) net.make_delaunay();
+    if (!bare || !has_layouts) net.make_delaunay();
     for (const auto [u, phi, off] : layout.inside) insert(u, phi, off);
     const auto layout_end = static_cast<Index>(points.size());
     improve(100 * points.size() + 10000);
@@ -47,7 +56,8 @@ void FaceMesher::fill(const Rim& rim, const Layout& layout) {
 }
 
 // Zip the face between its curves, then put the points of its first and last side on the rim.
-void FaceMesher::place(const Rim& rim) {
+template <class Face>
+void FaceMesher<Face>::place(const Rim& rim) {
     std::array<std::vector<Index>, 4> sides;
     for (std::size_t side = 0; side < 4; ++side)
         for (const MeshPoint& p : rim[side]) sides[side].push_back(add_point(p));
@@ -61,38 +71,51 @@ void FaceMesher::place(const Rim& rim) {
     std::reverse(left.begin(), left.end());
     points[left.front()].inward[0] = points[left.back()].inward[0] = 0;
     points[right.front()].inward[1] = points[right.back()].inward[1] = 0;
-    net.zip(left, right);
+    if constexpr (has_layouts) net.zip(left, right);
+    else net.fill_between(left, right);  // its bound holds within the face alone
     const auto split = [&](const std::vector<Index>& side, Index end) {
         for (std::size_t k = 1; k < side.size(); ++k) net.split_rim(side[k - 1], end, side[k]);
     };
     split(sides[0], corner(1)), split(sides[2], corner(3));
 }
 
-void FaceMesher::insert(double u, double phi, double off) {
+template <class Face>
+void FaceMesher<Face>::insert(double u, double phi, double off) {
     heed_stop();
-    MeshPoint p = face->point_inside(face->s(u), phi);
+    MeshPoint p = inner_point(face->s(u), phi);
     p.off = off;
     if (off != 0 && face->excess({&p, &p, &p}) > 1) p.off = 0;  // too near a side, where the offset counts in full
     const Index id = add_point(p);
     if (!net.insert(id)) points.pop_back(), net.places.pop_back();
 }
 
-Index FaceMesher::add_point(const MeshPoint& p) {
+template <class Face>
+MeshPoint FaceMesher<Face>::inner_point(double s, double phi) const {
+    if constexpr (has_layouts) return face->point_inside(s, phi);
+    else return face->point(s, phi);  // on an edge or in a triangle of the net, which is in the plane of s and phi
+}
+
+template <class Face>
+Index FaceMesher<Face>::add_point(const MeshPoint& p) {
     points.push_back(p);
-    net.places.push_back({face->is_saddle ? (face->u(p.s) - lean * p.phi) / stretch : p.s, stretch * p.phi});
+    const double phi = p.phi - origin;
+    net.places.push_back({face->is_saddle ? (face->u(p.s) - lean * phi) / stretch : p.s, stretch * phi});
     return static_cast<Index>(points.size()) - 1;
 }
 
+template <class Face>
 template <std::size_t n>
-Index FaceMesher::add_middle(const std::array<Index, n>& of) {
+Index FaceMesher<Face>::add_middle(const std::array<Index, n>& of) {
     double x = 0, y = 0;
     for (const Index k : of) x += net.places[k].x / n, y += net.places[k].y / n;
     y /= stretch;
-    return add_point(face->point_inside(face->is_saddle ? face->s(stretch * x + lean * y) : x, y));
+    const double s = face->is_saddle ? face->s(stretch * x + lean * y) : x;
+    return add_point(inner_point(s, origin + y));
 }
 
 // Flip edges and put points on them until every triangle is close.
-void FaceMesher::improve(std::size_t most) {
+template <class Face>
+void FaceMesher<Face>::improve(std::size_t most) {
     auto& open = net.changed;
     open.resize(net.triangles.size());
     std::iota(open.rbegin(), open.rend(), 0);
@@ -111,7 +134,8 @@ void FaceMesher::improve(std::size_t most) {
 }
 
 // Flip to the other diagonal if that makes the worse of the two triangles better.
-bool FaceMesher::flip_to_better(Index t) {
+template <class Face>
+bool FaceMesher<Face>::flip_to_better(Index t) {
     int best = -1;
     double least = 1;
     for (int k = 0; k < 3; ++k) {
@@ -129,7 +153,8 @@ bool FaceMesher::flip_to_better(Index t) {
 }
 
 // Remove inner points that are not needed; those amid lattice points are needed.
-void FaceMesher::simplify(Index rim, Index inner) {
+template <class Face>
+void FaceMesher<Face>::simplify(Index rim, Index inner) {
     std::vector<Index> at(points.size(), -1);
     for (Index t = 0; t < static_cast<Index>(net.triangles.size()); ++t)
         for (const Index c : net.triangles[t].corner) at[c] = t;
@@ -165,5 +190,8 @@ void FaceMesher::simplify(Index rim, Index inner) {
     }
     net.sweep_dropped();
 }
+
+template class FaceMesher<MeshFace>;
+template class FaceMesher<RoundFace>;
 
 }  // namespace cfree

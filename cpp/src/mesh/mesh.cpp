@@ -22,6 +22,7 @@ constexpr double nearest_part = 0.05;    // share of a layout's step: an end of 
 
 bool is_curve(std::uint8_t side) { return side == 1 || side == 3; }
 
+template <class Face>
 class Mesher {
 public:
     Mesher(const CellComplex& cells, double most_error, double scale, bool off_surface = false)
@@ -55,7 +56,9 @@ private:
         bool forwards = true;
     };
 
-    MeshFace sheet_of(Index f) const {
+    static constexpr bool is_round = std::is_same_v<Face, RoundFace>;
+
+    Face sheet_of(Index f) const {
         const Feature on = patches.contact(trapezoids.patch[f]);
         double from = 0, to = 0;
         for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
@@ -78,6 +81,9 @@ private:
     std::optional<Wanted> wanted_by_neighbours(Index f) const;
     Samples samples_of_curve(Index edge) const;
     Samples samples_of_side(Index edge) const;
+    Samples samples_of_round_curve(Index edge) const;
+    Samples samples_of_round_side(Index edge) const;
+    Complex sampled(Index h, double sample) const;
     std::vector<Samples> samples_of_edges() const;
     bool part_equal_edges();
     Index vertex_of(Index h);
@@ -93,19 +99,20 @@ private:
     const double error, angle_scale;
     const Index faces, half_edges;
     std::vector<Complex> places;  // places of the complex's vertices
-    std::vector<MeshFace> mesh_faces;
+    std::vector<Face> mesh_faces;
     std::vector<Index> order, start;  // half-edges by edge
     std::vector<Index> early, late;   // mesh vertices of the complex's vertices; late ones at 3 pi / 2
     std::vector<Run> runs;            // one per half-edge
     Mesh out;
     Index rim_vertices = 0;
     std::vector<Layout> layouts;
-    FaceMesher filler;
+    FaceMesher<Face> filler;
 };
 
 // Samples of a curve: angles at which the rows of one of the faces end, with others between them if the curve bends too much,
 // or if a face's bound forbids the chord, and so every triangle with it.
-Mesher::Samples Mesher::samples_of_curve(Index edge) const {
+template <class Face>
+typename Mesher<Face>::Samples Mesher<Face>::samples_of_curve(Index edge) const {
     const Index first = order[start[edge]];
     const double a = std::min(angle(first), angle(after(first))), b = std::max(angle(first), angle(after(first)));
     bool is_digon = false;
@@ -130,7 +137,7 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     const Complex at_a = place(rises ? first : after(first)), at_b = place(rises ? after(first) : first);
     const auto is_close = [&](double from, double to) {
         return std::all_of(order.begin() + start[edge], order.begin() + start[edge + 1], [&](Index h) {
-            const MeshFace& sheet = mesh_faces[in.face[h]];
+            const Face& sheet = mesh_faces[in.face[h]];
             if (sheet.is_thin()) return true;
             const bool upper = in.side[h] == 1;
             const auto corner = [&](double phi) {
@@ -166,14 +173,56 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     return samples;
 }
 
+// The same among rounded shapes: angles between which all faces' bounds allow the chord.
+template <class Face>
+typename Mesher<Face>::Samples Mesher<Face>::samples_of_round_curve(Index edge) const {
+    const Index first = order[start[edge]];
+    const bool rises = angle(first) < angle(after(first));
+    const Index low = rises ? first : after(first), high = rises ? after(first) : first;
+    const double a = angle(low), b = angle(high);
+    bool is_digon = false;
+    const auto is_close = [&](double from, double to) {
+        return std::all_of(order.begin() + start[edge], order.begin() + start[edge + 1], [&](Index h) {
+            const Face& sheet = mesh_faces[in.face[h]];
+            if (sheet.is_thin()) return true;
+            const bool upper = in.side[h] == 1;
+            const auto corner = [&](double phi) {
+                const double s = phi == a   ? sheet.position(place(low), phi)
+                                 : phi == b ? sheet.position(place(high), phi)
+                                            : sheet.curves[upper].position(phi);
+                return sheet.point(s, phi);
+            };
+            return sheet.is_close(corner(from), corner(to), upper);
+        });
+    };
+    for (Index k = start[edge]; k < start[edge + 1]; ++k) {
+        const Index f = in.face[order[k]];
+        is_digon = is_digon || in.first[f + 1] - in.first[f] == 2;
+    }
+    Samples samples;
+    constexpr double least_step = 1e-11;  // then doubles tell too little of the curve
+    double step = std::min(most_turn, b - a);
+    for (double at = a; at < b;) {
+        heed_stop();
+        step = std::min(2 * step, most_turn);
+        if (step > b - at - least_step) step = b - at;
+        while (step > least_step && !is_close(at, step < b - at ? at + step : b)) step *= shorter;
+        if (step >= b - at - least_step) break;
+        samples.push_back(at += std::max(step, least_step));
+    }
+    if (samples.empty() && is_digon) samples.push_back(0.5 * (a + b));
+    return samples;
+}
+
 // Samples of a side: as many parts as a row there has, or as the points next to the side need, in all faces of its patch.
-Mesher::Samples Mesher::samples_of_side(Index edge) const {
+template <class Face>
+typename Mesher<Face>::Samples Mesher<Face>::samples_of_side(Index edge) const {
     const Index first = order[start[edge]];
     const Complex p = place(first), q = place(after(first));
     Samples best;
     for (Index k = start[edge]; k < start[edge + 1]; ++k) {
         const Index f = in.face[order[k]];
-        const MeshFace& sheet = mesh_faces[f];
+        const Face& sheet = mesh_faces[f];
         if (layouts[f].is_empty()) continue;
         std::vector<Wall> walls;
         for (Index m = start[edge]; m < start[edge + 1]; ++m)
@@ -194,20 +243,52 @@ Mesher::Samples Mesher::samples_of_side(Index edge) const {
     return best;
 }
 
-Index Mesher::add_vertex(double x, double y, double theta) {
+// Samples of a side among rounded shapes: a straight line needs none, an arc equal steps.
+template <class Face>
+typename Mesher<Face>::Samples Mesher<Face>::samples_of_round_side(Index edge) const {
+    const Index first = order[start[edge]];
+    const Face& sheet = mesh_faces[in.face[first]];
+    const double phi = angle(first), wide = std::abs(sheet.position(place(after(first)), phi) - sheet.position(place(first), phi));
+    const auto steps = static_cast<int>(std::ceil(wide / sheet.side_step()));
+    Samples samples;
+    for (int j = 1; j < steps; ++j) samples.push_back(static_cast<double>(j) / steps);
+    return samples;
+}
+
+template <class Face>
+Index Mesher<Face>::add_vertex(double x, double y, double theta) {
     out.xyz.insert(out.xyz.end(), {x, y, theta});
     return static_cast<Index>(out.xyz.size() / 3) - 1;
 }
 
-Index Mesher::vertex_of(Index h) {
+template <class Face>
+Index Mesher<Face>::vertex_of(Index h) {
     const Index v = in.vertex[h];
     Index& id = (on_seam(v) && is_late(h) ? late : early)[v];
     if (id < 0) id = add_vertex(places[v].real(), places[v].imag(), angle(h));
     return id;
 }
 
+// Point of a sample on a half-edge, which is the first of its edge.
+template <class Face>
+Complex Mesher<Face>::sampled(Index h, double sample) const {
+    const Complex p = place(h), q = place(after(h));
+    const Face& sheet = mesh_faces[in.face[h]];
+    const bool curve = is_curve(in.side[h]), upper = in.side[h] == 1;
+    if (curve && sheet.is_thin()) return 0.5 * (p + q);
+    if constexpr (is_round) {
+        if (curve) return sheet.at(sheet.curves[upper].position(sample), sample);
+        if (!sheet.is_circle) return p + sample * (q - p);
+        const double phi = angle(h), s = sheet.position(p, phi);
+        return sheet.at(s + sample * (sheet.position(q, phi) - s), phi);
+    } else {
+        return curve ? sheet.curves[upper].at(sample) : p + sample * (q - p);
+    }
+}
+
 // Add vertices for the samples of a half-edge and its twin; the other half-edges of the edge do not share them.
-void Mesher::add_run(Index h, Index first_half_edge, const Samples& samples) {
+template <class Face>
+void Mesher<Face>::add_run(Index h, Index first_half_edge, const Samples& samples) {
     const Index twin = in.twin[h], count = static_cast<Index>(samples.size());
     const bool curve = is_curve(in.side[h]);
     const Complex p = place(first_half_edge), q = place(after(first_half_edge));
@@ -217,11 +298,8 @@ void Mesher::add_run(Index h, Index first_half_edge, const Samples& samples) {
     };
     const auto add = [&](Index x) {
         const Index begin = static_cast<Index>(out.xyz.size() / 3);
-        const MeshFace& sheet = mesh_faces[in.face[first_half_edge]];
         for (const double sample : samples) {
-            const Complex z = !curve             ? p + sample * (q - p)
-                              : sheet.is_thin() ? 0.5 * (p + q)
-                                                : sheet.curves[in.side[first_half_edge] == 1].at(sample);
+            const Complex z = sampled(first_half_edge, sample);
             add_vertex(z.real(), z.imag(), curve ? sample : angle(x));
         }
         runs[x] = {begin, count, forwards(x)};
@@ -237,8 +315,9 @@ void Mesher::add_run(Index h, Index first_half_edge, const Samples& samples) {
 }
 
 // Points of the four sides, in the order of the loop, without the half-edges' last ends.
-Rim Mesher::rim_of(Index f) {
-    const MeshFace& sheet = mesh_faces[f];
+template <class Face>
+Rim Mesher<Face>::rim_of(Index f) {
+    const Face& sheet = mesh_faces[f];
     Rim rim;
     for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
         const auto add = [&](Index vertex, Complex x, double phi) {
@@ -259,15 +338,20 @@ Rim Mesher::rim_of(Index f) {
 }
 
 // Add the triangles of a face, and its inner points as vertices.
-void Mesher::triangulate(Index f) {
-    const MeshFace& sheet = mesh_faces[f];
-    out.least += least_triangles(sheet, error);
-    filler.fill(sheet, rim_of(f), layouts[f], f);
+template <class Face>
+void Mesher<Face>::triangulate(Index f) {
+    const Face& sheet = mesh_faces[f];
+    if constexpr (is_round) out.least += sheet.least();
+    else out.least += least_triangles(sheet, error);
+    filler.fill(sheet, rim_of(f), is_round ? Layout{} : layouts[f], f);
     for (const Triangle& t : filler.net.triangles) {
         for (const Index c : t.corner) {
             MeshPoint& p = filler.points[c];
             if (p.vertex < 0) {
-                const Complex x = sheet.at(p.s, p.phi, p.off);
+                const Complex x = [&] {
+                    if constexpr (is_round) return sheet.at(p.s, p.phi);
+                    else return sheet.at(p.s, p.phi, p.off);
+                }();
                 p.vertex = add_vertex(x.real(), x.imag(), p.phi);
             }
             out.corners.push_back(p.vertex);
@@ -277,13 +361,16 @@ void Mesher::triangulate(Index f) {
 }
 
 // Samples of all edges; of edges without samples between the same two vertices, all but one get a sample.
-std::vector<Mesher::Samples> Mesher::samples_of_edges() const {
+template <class Face>
+std::vector<typename Mesher<Face>::Samples> Mesher<Face>::samples_of_edges() const {
     std::vector<Samples> samples(static_cast<std::size_t>(in.edges));
     std::vector<std::array<Index, 3>> plain;
     for (Index e = 0; e < in.edges; ++e) {
         const Index first = order[start[e]];
         heed_stop();
-        samples[e] = is_curve(in.side[first]) ? samples_of_curve(e) : samples_of_side(e);
+        const bool curve = is_curve(in.side[first]);
+        if constexpr (is_round) samples[e] = curve ? samples_of_round_curve(e) : samples_of_round_side(e);
+        else samples[e] = curve ? samples_of_curve(e) : samples_of_side(e);
         for (Index k = start[e]; samples[e].empty() && k < start[e + 1]; ++k) {
             const auto [p, q] = std::minmax(in.vertex[order[k]], in.vertex[after(order[k])]);
             if (order[k] < in.twin[order[k]]) plain.push_back({p, q, e});
@@ -300,7 +387,8 @@ std::vector<Mesher::Samples> Mesher::samples_of_edges() const {
 }
 
 // Cut inner edges in the middle if two faces have them between the same two points of their rims.
-bool Mesher::part_equal_edges() {
+template <class Face>
+bool Mesher<Face>::part_equal_edges() {
     struct Edge {
         Index p, q, triangle, face;
         auto key() const { return std::array{p, q, face}; }
@@ -338,9 +426,10 @@ bool Mesher::part_equal_edges() {
 }
 
 // Lay out large faces first; others take the same points on common curves, if that is cheap.
-void Mesher::lay_out() {
+template <class Face>
+void Mesher<Face>::lay_out() {
     std::vector<double> least;
-    for (const MeshFace& sheet : mesh_faces) least.push_back(least_triangles(sheet, error));
+    for (const Face& sheet : mesh_faces) least.push_back(least_triangles(sheet, error));
     std::vector<Index> by_size(static_cast<std::size_t>(faces));
     std::iota(by_size.begin(), by_size.end(), 0);
     std::stable_sort(by_size.begin(), by_size.end(), [&](Index f, Index g) { return least[f] > least[g]; });
@@ -350,7 +439,8 @@ void Mesher::lay_out() {
 }
 
 // Points that neighbours want, at equal steps, by the neighbour that shares most.
-std::optional<Wanted> Mesher::wanted_by_neighbours(Index f) const {
+template <class Face>
+std::optional<Wanted> Mesher<Face>::wanted_by_neighbours(Index f) const {
     std::optional<Wanted> result;
     double most = 0;
     for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
@@ -365,10 +455,11 @@ std::optional<Wanted> Mesher::wanted_by_neighbours(Index f) const {
     return result;
 }
 
-Mesh Mesher::run() {
+template <class Face>
+Mesh Mesher<Face>::run() {
     early.assign(static_cast<std::size_t>(in.vertices), -1), late = early;
     runs.resize(static_cast<std::size_t>(half_edges));
-    lay_out();
+    if constexpr (!is_round) lay_out();
     const auto samples = samples_of_edges();
     for (Index e = 0; e < in.edges; ++e)
         for (Index k = start[e]; !samples[e].empty() && k < start[e + 1]; ++k)
@@ -384,16 +475,20 @@ Mesh Mesher::run() {
     return std::move(out);
 }
 
-MeshEstimate Mesher::estimate() const {
+template <class Face>
+MeshEstimate Mesher<Face>::estimate() const {
     MeshEstimate result{static_cast<double>(half_edges), 0};
-    for (Index f = 0; f < faces; ++f) {
-        const MeshFace& sheet = mesh_faces[f];
-        const double high = sheet.to - sheet.from;
+    for (const Face& sheet : mesh_faces) {
         if (sheet.is_thin()) continue;
-        result.triangles += 1.3 * least_triangles(sheet, error);
-        for (const ContactCurve& c : sheet.curves) {
-            const double bend = c.bend(sheet.from + 0.25 * high, sheet.to - 0.25 * high);
-            result.triangles += high * std::sqrt(bend / (8 * on_curves * error));
+        if constexpr (is_round) {
+            result.triangles += sheet.estimate();
+        } else {
+            const double high = sheet.to - sheet.from;
+            result.triangles += 1.3 * least_triangles(sheet, error);
+            for (const ContactCurve& c : sheet.curves) {
+                const double bend = c.bend(sheet.from + 0.25 * high, sheet.to - 0.25 * high);
+                result.triangles += high * std::sqrt(bend / (8 * on_curves * error));
+            }
         }
     }
     result.triangles += result.coarsest;
@@ -403,10 +498,12 @@ MeshEstimate Mesher::estimate() const {
 }  // namespace
 
 MeshEstimate estimate_mesh(const CellComplex& cells, double error, double angle_scale) {
-    return Mesher(cells, error, angle_scale).estimate();
+    if (cells.boundary->scene->is_round) return Mesher<RoundFace>(cells, error, angle_scale).estimate();
+    return Mesher<MeshFace>(cells, error, angle_scale).estimate();
 }
 Mesh mesh(const CellComplex& cells, double error, double angle_scale, bool off_surface) {
-    return Mesher(cells, error, angle_scale, off_surface).run();
+    if (cells.boundary->scene->is_round) return Mesher<RoundFace>(cells, error, angle_scale).run();
+    return Mesher<MeshFace>(cells, error, angle_scale, off_surface).run();
 }
 
 }  // namespace cfree

@@ -24,25 +24,17 @@ double most_cosine(double from, double to) {
 }
 }  // namespace
 
-struct MeshFace::Spread {
-    explicit Spread(const Corners& c) {
-        const auto [a, b] = std::minmax({c[0]->phi, c[1]->phi, c[2]->phi});
-        low = a, high = b, angle = b - a;
-        reach = std::max({std::abs(c[0]->s), std::abs(c[1]->s), std::abs(c[2]->s)});
-        off = std::max({std::abs(c[0]->off), std::abs(c[1]->off), std::abs(c[2]->off)});
-    }
-    double low, high, angle, reach, off;
-    double slip() const { return off * angle / 2; }  // along the line, as normals turn
-    // at most the angle's cosine
-    double turn() const { return 1 - square(angle) / 2 * (1 - square(angle) / 12 * (1 - square(angle) / 30)); }
-};
+Spread::Spread(const Corners& c) {
+    const auto [a, b] = std::minmax({c[0]->phi, c[1]->phi, c[2]->phi});
+    low = a, high = b, angle = b - a;
+    reach = std::max({std::abs(c[0]->s), std::abs(c[1]->s), std::abs(c[2]->s)});
+    off = std::max({std::abs(c[0]->off), std::abs(c[1]->off), std::abs(c[2]->off)});
+}
 
-MeshFace::MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first,
-                   double last,
-             double error, double angle_scale)
+double Spread::turn() const { return 1 - square(angle) / 2 * (1 - square(angle) / 12 * (1 - square(angle) / 30)); }
+
+MeshSheet::MeshSheet(const Places& places, const Feature& on, double first, double last, double error, double angle_scale)
     : is_saddle(on.kind == Kind::edge_vertex), from(first), to(last), eps(error), w(angle_scale) {
-    if (!is_thin())
-        curves = {ContactCurve(places, on, lower, first, last), ContactCurve(places, on, upper, first, last)};
     const auto parts = places.parts(on);
     direction = parts.edge;
     const Complex normal = -i_unit * direction;
@@ -53,16 +45,24 @@ MeshFace::MeshFace(const Places& places, const Feature& on, const Feature& lower
     fixed = parts.b, h = dot(normal, parts.a);
     const double start = dot(parts.a, direction), middle = start + 0.5 * parts.length;
     shear = 0.5 * h / norm(w, middle);
-    for (int k = 0; k <= 8 && !is_thin(); ++k) most_width = std::max(most_width, width_u(from + k * (to - from) / 8));
 }
 
-double MeshFace::position(Complex x, double phi) const {
+MeshFace::MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first,
+                   double last,
+             double error, double angle_scale)
+    : MeshSheet(places, on, first, last, error, angle_scale) {
+    if (is_thin()) return;
+    curves = {ContactCurve(places, on, lower, first, last), ContactCurve(places, on, upper, first, last)};
+    for (int k = 0; k <= 8 && is_saddle; ++k) most_width = std::max(most_width, width_u(from + k * (to - from) / 8));
+}
+
+double MeshSheet::position(Complex x, double phi) const {
     return is_saddle ? -dot(x - fixed, std::polar(1.0, phi) * direction) : dot(x, direction);
 }
 
-double MeshFace::gradient(double s) const { return norm(1, s / w); }
+double MeshSheet::gradient(double s) const { return norm(1, s / w); }
 
-Complex MeshFace::at(double s, double phi, double off) const {
+Complex MeshSheet::at(double s, double phi, double off) const {
     const Complex z = std::polar(1.0, phi), normal = -i_unit * direction;
     if (is_saddle) return fixed - z * ((h + off) * normal + s * direction);
     return s * direction + (offset - dot(normal, z * fixed)) * normal;
@@ -86,13 +86,13 @@ MeshPoint MeshFace::point_inside(double s, double phi) const {
 // A point with weights l of the corners is off the line in its slice by the sum of l_k off_k, minus the sum of
 // l_j l_k form(j, k), j < k, up to third order. This is linear in each slice, so the extremes over a triangle are on its
 // edges.
-double MeshFace::form(const MeshPoint& p, const MeshPoint& q) const {
+double MeshSheet::form(const MeshPoint& p, const MeshPoint& q) const {
     const double phi = q.phi - p.phi;
     return phi * (q.s - p.s + 0.5 * h * phi);
 }
 
 // An edge with weights 1 - l and l is off by a linear function, less l (1 - l) (form + at most even + at most odd |1 - 2 l|).
-struct MeshFace::Wave {
+struct MeshSheet::Wave {
     double form, even, odd;
     // Greatest offset on one side, with the values a and b of a linear function at the ends.
     double most(double a, double b, int side) const {
@@ -102,7 +102,7 @@ struct MeshFace::Wave {
     }
 };
 
-MeshFace::Wave MeshFace::wave(const MeshPoint& p, const MeshPoint& q) const {
+MeshSheet::Wave MeshSheet::wave(const MeshPoint& p, const MeshPoint& q) const {
     const double angle = std::abs(q.phi - p.phi), third = cube(angle) / 6;
     const double reach = std::max(std::abs(p.s), std::abs(q.s)), off = std::max(std::abs(p.off), std::abs(q.off));
     return {form(p, q),
@@ -112,7 +112,7 @@ MeshFace::Wave MeshFace::wave(const MeshPoint& p, const MeshPoint& q) const {
 }
 
 // Largest offset on an edge.
-double MeshFace::peak(const MeshPoint& p, const MeshPoint& q) const {
+double MeshSheet::peak(const MeshPoint& p, const MeshPoint& q) const {
     const Wave of = wave(p, q);
     return std::max(of.most(p.off, q.off, 1), of.most(-p.off, -q.off, -1));
 }
@@ -125,7 +125,7 @@ double MeshFace::third_order(const Spread& d) const {
     return d.reach * cube(d.angle) / 48 + std::abs(h) * square(square(d.angle)) / 288 + d.off * square(d.angle) / 8;
 }
 
-double MeshFace::slice_distance(const Corners& c, const Spread& d) const {
+double MeshSheet::slice_distance(const Corners& c, const Spread& d) const {
     if (is_saddle) return std::max({peak(*c[0], *c[1]), peak(*c[1], *c[2]), peak(*c[2], *c[0])});
     const double turned = std::arg(fixed) - std::arg(-i_unit * direction);
     return std::abs(fixed) * most_cosine(d.low + turned, d.high + turned) * square(d.angle) / 8;
@@ -145,6 +145,10 @@ double MeshFace::beyond(const Corners& c, const Spread& d) const {
         most = std::max(most, std::min(plain, two) + d.slip());
     }
     return most;
+}
+
+double MeshSheet::drift(const Spread& d) const {
+    return is_saddle ? d.reach * square(d.angle) / 8 + std::abs(h) * cube(d.angle) / 48 : 0;
 }
 
 double MeshFace::excess(const Corners& c) const {
@@ -183,7 +187,7 @@ double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) co
 // The distance is at most that within the slice over a lower bound G of the gradient near by.
 double MeshFace::excess_inside(const Corners& c) const {
     const Spread d(c);
-    const double lost = d.slip() + d.reach * square(d.angle) / 8 + std::abs(h) * cube(d.angle) / 48 +
+    const double lost = d.slip() + drift(d) +
                         eps * norm(1, (std::abs(h) + eps * norm(1, d.reach / w)) / w);
     const double s = (c[0]->s + c[1]->s + c[2]->s) / 3, r = std::max(0.0, std::abs(s) - lost) / w;
     const double G = norm(1, r), slope = std::copysign(r / (w * G), s);  // the tangent of a convex function

@@ -9,7 +9,6 @@
 namespace cfree {
 
 namespace {
-constexpr double flat = 1e-9;  // areas this small, against the square of the longest side, decide nothing
 int next(int k) { return k == 2 ? 0 : k + 1; }
 int previous(int k) { return k == 0 ? 2 : k - 1; }
 }  // namespace
@@ -41,6 +40,71 @@ void Triangulation::zip(const std::vector<Index>& left, const std::vector<Index>
                 if (below.corner[k] != a && below.corner[k] != b) below.across[k] = t;
         }
         rung = t;
+    }
+}
+
+// From the lowest point to the highest. `chain` is a stack of points of one side that bends inwards; a point of the other chain
+// is connected to all of them, one of the same chain to those that it has in view.
+void Triangulation::fill_between(const std::vector<Index>& left, const std::vector<Index>& right) {
+    struct Point {
+        Index id;
+        bool is_left;
+    };
+    std::vector<Point> order{{left.front(), true}}, chain;
+    std::size_t i = 1, j = left.front() == right.front() ? 1 : 0;
+    const std::size_t stop = left.back() == right.back() ? left.size() - 1 : left.size();
+    while (i < stop || j < right.size()) {
+        const bool by_left = j == right.size() || (i < stop && places[left[i]].y <= places[right[j]].y);
+        // the last point of the right chain is the highest
+        if (by_left || (j + 1 == right.size() && i < stop)) order.push_back({left[i++], true});
+        else order.push_back({right[j++], false});
+    }
+    const auto add = [&](Index low, Index high, Index p, bool from_left) {  // p is right of the chain if that is the left one
+        if (from_left) triangles.push_back({{low, p, high}, {-1, -1, -1}});
+        else triangles.push_back({{low, high, p}, {-1, -1, -1}});
+    };
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const Point p = order[k];
+        if (chain.size() < 2) {
+            chain.push_back(p);
+            continue;
+        }
+        const Point newest = chain.back();
+        if (k + 1 == order.size() || p.is_left != newest.is_left) {
+            for (std::size_t m = 0; m + 1 < chain.size(); ++m) add(chain[m].id, chain[m + 1].id, p.id, newest.is_left);
+            chain = {newest, p};
+            continue;
+        }
+        Point top = newest;
+        chain.pop_back();
+        while (!chain.empty()) {
+            const Index low = chain.back().id;
+            if (!(p.is_left ? area(low, p.id, top.id) > 0 : area(low, top.id, p.id) > 0)) break;
+            add(low, top.id, p.id, p.is_left);
+            top = chain.back();
+            chain.pop_back();
+        }
+        chain.push_back(top), chain.push_back(p);
+    }
+    find_neighbours();
+}
+
+void Triangulation::find_neighbours() {
+    struct Edge {
+        Index p, q, triangle;
+        int corner;
+    };
+    std::vector<Edge> edges;
+    for (Index t = 0; t < static_cast<Index>(triangles.size()); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const auto [p, q] = std::minmax(triangles[t].corner[next(k)], triangles[t].corner[previous(k)]);
+            edges.push_back({p, q, t, k});
+        }
+    std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.p != y.p ? x.p < y.p : x.q < y.q; });
+    for (std::size_t k = 1; k < edges.size(); ++k) {
+        const Edge &x = edges[k - 1], &y = edges[k];
+        if (x.p == y.p && x.q == y.q)
+            triangles[x.triangle].across[x.corner] = y.triangle, triangles[y.triangle].across[y.corner] = x.triangle;
     }
 }
 

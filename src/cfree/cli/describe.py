@@ -6,15 +6,18 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cfree.collision.approximations import Approximations
 from cfree.collision.pose_checker import PoseChecker, is_free
 from cfree.exact.pose import Pose
 from cfree.forbidden.kinds import KINDS, PatchKind
+from cfree.formats.conversion import as_exact
 from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
-from cfree.scene.features import BODY, SceneFeatures, scene_features
+from cfree.scene.features import BODY, SceneFeatures, grown_features, scene_features
 from cfree.scene.naming import placed
+from cfree.scene.rounded import Rounded, rounded_shapes
 from cfree.scene.scene import round_count, shapes_of
 
 if TYPE_CHECKING:
@@ -35,8 +38,8 @@ def describe(scene: Scene) -> dict[str, Any]:
     dict
         ``robot`` and ``obstacles`` hold counts; ``removed`` holds the points of the input that are no vertices.
         ``patches`` counts the contact patches before trimming, by kind, and the sides of the bounds. ``start`` and
-        ``goal`` hold poses and True for free ones. Round shapes are counted as polygons around them; ``round`` is
-        their number.
+        ``goal`` hold poses and True for free ones. ``round`` is the number of round shapes. ``exact`` of them are
+        exact in boundaries, and counted as their cores; others are counted as polygons around them.
 
     Examples
     --------
@@ -78,10 +81,14 @@ def describe(scene: Scene) -> dict[str, Any]:
 
 
 def _describe_curved(scene: Scene) -> dict[str, Any]:
-    """Describe the enclosing polygons that a plan begins with; free poses are decided to a tolerance."""
+    """Describe the cores of rounded shapes, and polygons around others, as the boundary takes them."""
     around = Approximations(scene).scene(outward=True)
     facts = describe(around) | {key: getattr(scene, key) for key in ("note", "source")}
-    facts["round"] = round_count(shapes_of(scene))
+    taken, _ = as_exact(scene, None)
+    facts["round"], facts["exact"] = round_count(shapes_of(scene)), round_count(shapes_of(taken))
+    if (cores := rounded_shapes(taken)) is not None:
+        facts["robot"], facts["obstacles"] = _core_counts(cores.robot), _core_counts(cores.obstacles)
+        facts["patches"] = expected_patches(taken, grown_features(taken))
     for key, pose in (("start", scene.start), ("goal", scene.goal)):
         if pose is not None:
             facts[key]["free"] = is_free(scene, pose)
@@ -94,10 +101,11 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
     Returns
     -------
     dict
-        ``free area`` if bounds or a workspace make it finite, else ``forbidden area``.
+        ``free area`` if bounds or a workspace make it finite, else ``forbidden area``. Among round shapes also their
+        number, and how far the chords in areas and files are from their arcs at most.
     """
     boundary = cut.boundary
-    length = np.hypot(*(cut.segments[:, 1] - cut.segments[:, 0]).T)
+    length = cut.lengths
     kinds = boundary.patch_kind[cut.patches]
     facts = {
         "theta": cut.theta,
@@ -106,9 +114,11 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
         **{
             f"length {name}": float(length[kinds == kind].sum())
             for kind, name in KINDS.items()
-            if kind != PatchKind.ARC_ARC
+            if kind != PatchKind.ARC_ARC or boundary.scene.curved
         },
     }
+    if boundary.scene.curved:
+        facts |= {"round shapes, exact": round_count(shapes_of(boundary.scene)), "chords of arcs within": cut.error}
     area, rim = float(cut.forbidden.area), boundary.features.rim
     if rim is None:
         return facts | {"forbidden area": area}
@@ -117,16 +127,38 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
 
 
 def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
-    """Count patches before trimming: of contacts, convex vertices times edges, both ways; and of the bounds."""
-    robot, obstacles = features.robot.core, features.obstacles.core
-    body = robot.convex[robot.layer == BODY]
-    met = obstacles.convex[(obstacles.layer == BODY) & (obstacles.emit > 0)]
-    counts = {
-        "v-e": int(body.sum()) * len(met),
-        "e-v": len(body) * int(met.sum()),
-        "bound": 4 if scene.bounds else 0,
-    }
+    """Count patches before trimming: of contacts, convex vertices times edges, both ways; and of the bounds.
+
+    Among rounded shapes also those of arcs, four for each two convex vertices.
+    """
+    robot, obstacles = features.robot, features.obstacles
+    a, b = robot.core.layer == BODY, (obstacles.core.layer == BODY) & (obstacles.core.emit > 0)
+    convex_a, convex_b = a & (robot.core.convex > 0), b & (obstacles.core.convex > 0)
+    edges_a, edges_b = (s.core.makes_surfaces > 0 for s in (robot, obstacles))
+    counts = {"v-e": _pairs(convex_a, b & edges_b), "e-v": _pairs(a & edges_a, convex_b)}
+    if scene.curved:
+        sharp_a, sharp_b = (s.radius[: len(s.previous)] == 0 for s in (robot, obstacles))
+        sharp = _pairs(convex_a & sharp_a, convex_b & sharp_b)
+        counts["arc-arc"] = 4 * (_pairs(convex_a, convex_b) - sharp)
+    counts["bound"] = 4 if scene.bounds else 0
     return counts | {"total": sum(counts.values())}
+
+
+def _pairs(some: NDArray[np.bool_], others: NDArray[np.bool_]) -> int:
+    return int(some.sum()) * int(others.sum())
+
+
+def _core_counts(cores: Sequence[Rounded]) -> dict[str, int]:
+    polygons = [part.core for part in cores if isinstance(part.core, Polygon)]
+    thin = [part.core for part in cores if not isinstance(part.core, Polygon)]
+    counts = _counts(polygons)
+    vertices = sum(map(len, thin))
+    return counts | {
+        "polygons": len(cores),
+        "vertices": counts["vertices"] + vertices,
+        "convex": counts["convex"] + vertices,
+        "pieces": counts["pieces"] + len(thin),
+    }
 
 
 def _counts(shapes: Sequence[Polygon]) -> dict[str, int]:

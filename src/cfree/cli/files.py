@@ -28,13 +28,14 @@ if TYPE_CHECKING:
     from cfree.vehicles.vehicle import Vehicle
 
 
-def read_scene(source: Path, *, straight: bool = False) -> Scene:
-    """Read the scene in a file with the options on the command line, and report its record of reading.
+Curves = Literal["all", "rounded", "none"]
+"""Round shapes that stay: all, those whose boundary is exact, or none. Polygons within --tolerance replace others."""
 
-    With `straight`, round shapes become polygons around them, within --tolerance.
-    """
+
+def read_scene(source: Path, curves: Curves = "all") -> Scene:
+    """Read the scene in a file with the options on the command line, and report its record of reading."""
     scene = scene_of(*read_shapes(source), source)
-    return straight_scene(scene, source) if straight else scene
+    return scene if curves == "all" else without_curves(scene, source, keep_rounded=curves == "rounded")
 
 
 def read_shapes(source: Path) -> tuple[Shapes, Any]:
@@ -56,7 +57,7 @@ def scene_of(shapes: Shapes, robot: Any, source: Path, most: int | None = MOST_L
     return scene
 
 
-def read_source(source: Path, *, straight: bool = True) -> Scene | Boundary:
+def read_source(source: Path, curves: Curves = "rounded") -> Scene | Boundary:
     """Read the boundary in a file, or the scene, and report the record of reading."""
     if is_archive(source):
         from cfree.formats.boundaries.boundary_file import load_boundary
@@ -65,18 +66,20 @@ def read_source(source: Path, *, straight: bool = True) -> Scene | Boundary:
         boundary = load_boundary(source)
         report(boundary.scene.reading, source)
         return boundary
-    return read_scene(source, straight=straight)
+    return read_scene(source, curves)
 
 
-def straight_scene(scene: Scene, source: Path) -> Scene:
-    """Return a scene of polygons around round shapes, within --tolerance; report them."""
-    from cfree.formats.conversion import straightened
+def without_curves(scene: Scene, source: Path, *, keep_rounded: bool = False) -> Scene:
+    """Replace round shapes by polygons around them, within --tolerance, and report them; rounded ones may stay."""
+    from cfree.formats.conversion import as_exact, straightened
     from cfree.scene.reading import together
     from cfree.scene.scene import with_reading
 
     if not scene.curved:
         return scene
-    straight, notes = straightened(scene, drawing.tolerance(), remedy="--tolerance")
+    straight, notes = (as_exact if keep_rounded else straightened)(scene, drawing.tolerance(), remedy="--tolerance")
+    if not notes:
+        return scene
     report(notes, Path(f"polygons of {source}"))
     return with_reading(straight, together(straight.reading, notes))
 
@@ -138,17 +141,20 @@ def planner_of(
         from cfree.formats.boundaries.boundary_file import load_boundary
         from cfree.free.space import free_space
 
-        with bar("cells"):
-            space = free_space(load_boundary(source))
-        scene = space.boundary.scene
+        boundary = load_boundary(source)
+        scene = boundary.scene
+        space = None
+        if not scene.curved:  # planners among round shapes find their own cells
+            with bar("cells"):
+                space = free_space(boundary)
         planner = Planner(scene, space, preferences=preferences, phase=bar, vehicle=vehicle_for(scene, vehicle))
         report(scene.reading, source)
     else:
         scene = read_scene(source)
         driver = vehicle_for(scene, vehicle)
         planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar, vehicle=driver)
-        if scene.curved:
-            return CurvedPlanner(planner, drawing.tolerance())
+    if isinstance(planner, Planner) and planner.scene.curved:
+        return CurvedPlanner(planner, drawing.tolerance())
     return planner
 
 

@@ -34,7 +34,7 @@ def film_scenes(
 
     seconds = length_of(storyboard, output) if seconds is None else seconds
     check_options(len(sources), seconds, fps, size)
-    inputs = [read_source(source) for source in sources]
+    inputs = [read_source(source, "none") for source in sources]
     if storyboard != "turntable":
         for source, data in zip(sources, inputs, strict=True):
             _check_ends(source, data.scene if isinstance(data, Boundary) else data)
@@ -75,7 +75,7 @@ def film_answer(
     from cfree.scene.smooth import smooth
 
     check_frames(fps, size)
-    data = read_source(source, straight=False)
+    data = read_source(source, "all")
     scene = data.scene if isinstance(data, Boundary) else data
     answer = answer_for(scene, file)
     if scene.curved:  # a proof contains the polygons it was computed with

@@ -13,6 +13,7 @@ from cfree.cli.terminal import columns, print_json, printable, terminal_width
 from cfree.exact.pose import Pose
 from cfree.scene.goals import Goal, Moved, text_of
 from cfree.scene.naming import all_placed
+from cfree.scene.scene import round_count, shapes_of
 from cfree.words import counted
 
 if TYPE_CHECKING:
@@ -40,12 +41,15 @@ def print_scene(facts: Mapping[str, Any]) -> None:
 
 def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
     patches = facts["patches"]
-    contacts = patches["v-e"] + patches["e-v"]
+    contacts = patches["v-e"] + patches["e-v"] + patches.get("arc-arc", 0)
     bounds = f"; and {patches['bound']:,} sides of the bounds" if patches["bound"] else ""
-    kinds = f"{patches['v-e']:,} v-e, {patches['e-v']:,} e-v"
+    kinds = ", ".join(f"{patches[kind]:,} {kind}" for kind in ("v-e", "e-v", "arc-arc") if kind in patches)
     yield f"patches    {contacts:,} contact patches before trimming: {kinds}{bounds}"
     if facts.get("round"):
-        yield f"round      {counted(facts['round'], 'shape')}; counted as the polygons around them"
+        others = facts["round"] - facts["exact"]
+        parts = [f"{facts['exact']:,} exact, counted as cores"] if facts["exact"] else []
+        parts += [f"{others:,} counted as polygons around them"] if others else []
+        yield f"round      {counted(facts['round'], 'shape')}: {'; '.join(parts)}"
     if facts["bounds"]:
         x0, y0, x1, y1 = facts["bounds"]
         yield f"bounds     x from {x0:g} to {x1:g}, y from {y0:g} to {y1:g}"
@@ -82,7 +86,7 @@ def boundary_rows(boundary: Boundary, *, verbose: bool) -> dict[str, int | float
         "live contact patches": counts.live_contacts,
         **bounds,
         "trapezoids": stats.trapezoids,
-        "isolated parts (exact fits)": len(boundary.isolated),
+        **_exactness(boundary),
     }
     return (
         rows
@@ -99,9 +103,19 @@ def boundary_rows(boundary: Boundary, *, verbose: bool) -> dict[str, int | float
     )
 
 
+def _exactness(boundary: Boundary) -> dict[str, int | str]:
+    if not boundary.scene.curved:
+        return {"isolated parts (exact fits)": len(boundary.isolated)}
+    return {
+        "round shapes, exact": round_count(shapes_of(boundary.scene)),
+        "isolated parts (exact fits)": "not computed among round shapes",
+    }
+
+
 def boundary_facts(boundary: Boundary) -> dict[str, Any]:
-    """Describe a boundary by numbers, for machines."""
-    return asdict(boundary.stats) | {"isolated": len(boundary.isolated)}
+    """Describe a boundary by numbers, for machines; exact fits are not computed among round shapes."""
+    rounds = round_count(shapes_of(boundary.scene))
+    return asdict(boundary.stats) | {"isolated": None if rounds else len(boundary.isolated), "round": rounds}
 
 
 @dataclass(frozen=True)

@@ -88,7 +88,7 @@ def boundary(
     but where exact integers decided something. `Boundary.kept_patches` counts the patches that were taken.
 
     Rounded shapes are exact, not replaced by polygons. `Boundary.isolated` is empty among them: exact fits without
-    width are not computed. Meshes and files of such boundaries are refused.
+    width are not computed.
 
     Examples
     --------
@@ -272,7 +272,7 @@ class Boundary(BoundaryRecord, Shown):
             Length per radian, w below; by default the robot's radius about its reference point.
         off_surface : bool
             Allow vertices within e-v faces to be a third of the error off the boundary: up to 3 % fewer triangles on
-            large faces.
+            large faces. Among round shapes it has no effect.
 
         Returns
         -------
@@ -290,7 +290,8 @@ class Boundary(BoundaryRecord, Shown):
         Distances are measured by dx^2 + dy^2 + w^2 dtheta^2. The bound is proved in docs/theory/meshes.md for exact
         arithmetic; points are computed in doubles. It does not hold for trapezoids between angles less than 1e-9
         radians apart. Their triangles are within 1e-9 (2 r + w) of them, r the robot's radius, and they may reach
-        beyond their triangles. Time is about linear in the triangles. Isolated parts have none.
+        beyond their triangles. Time is about linear in the triangles. Isolated parts have none. The bound holds among
+        rounded shapes as well, whose meshes have more triangles than they need.
 
         Examples
         --------
@@ -302,7 +303,6 @@ class Boundary(BoundaryRecord, Shown):
         0
         """
         self.require_complete()
-        self.require_polygons("mesh")
         return triangulated(self, self.complex, error, angle_scale, off_surface)
 
 

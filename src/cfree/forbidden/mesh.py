@@ -47,7 +47,7 @@ class Mesh(Value, Shown):
     patch : (m,) int32
         Patch of each triangle.
     kind : (m,) uint8
-        Kind of that patch: 1 v-e, 2 e-v, 3 bound.
+        Kind of that patch: 1 v-e, 2 e-v, 3 bound, 4 an arc on an arc.
     seam : (k, 2) int32
         Vertices at theta = -pi/2 and at 3 pi/2 that are the same pose.
     error : float

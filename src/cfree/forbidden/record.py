@@ -295,7 +295,8 @@ class BoundaryRecord(Value):
     def require_polygons(self, name: str) -> None:
         """Raise `UnsupportedError` if the scene has round shapes; `name` says what does not take them."""
         if self.scene.curved:
-            raise UnsupportedError(f"{name}: of boundaries among polygons only; give boundary(scene.outer(error))")
+            remedy = "give boundary(scene.outer(error)), on the command line what cfree convert --outer writes"
+            raise UnsupportedError(f"{name}: of boundaries among polygons only; {remedy}")
 
     @checked
     def limits(self, trapezoid: ArrayLike, theta: ArrayLike) -> tuple[Floats, Floats]:

@@ -67,13 +67,25 @@ class Slice(Value, Shown):
         boundary, patch = self.boundary, self.patches
         lines: list[NDArray[np.float64]] = list(self.segments)
         arcs = np.flatnonzero(boundary.patch_kind[patch] == PatchKind.ARC_ARC)
-        theta = np.full(len(arcs), self.theta)
-        lower, upper = (2 * np.arctan(t) for t in boundary.limits(self.trapezoids[arcs], theta))
-        for k, first, last in zip(arcs.tolist(), lower, upper, strict=True):
+        for k, first, last in zip(arcs.tolist(), *self._angles(arcs), strict=True):
             psi = np.linspace(first, last, 2 + int((last - first) / CHORD))
             lines[k] = boundary.evaluate(np.full(len(psi), patch[k]), np.tan(psi / 2), np.full(len(psi), self.theta))
             lines[k][[0, -1]] = self.segments[k]
         return lines
+
+    @property
+    def lengths(self) -> NDArray[np.float64]:
+        """Lengths of the contact segments, (k,); along the arc where they are arcs."""
+        result: NDArray[np.float64] = np.hypot(*(self.segments[:, 1] - self.segments[:, 0]).T)
+        arcs = np.flatnonzero(self.boundary.patch_kind[self.patches] == PatchKind.ARC_ARC)
+        lower, upper = self._angles(arcs)
+        result[arcs] = self.boundary.patch_radius[self.patches[arcs]] * (upper - lower)
+        return result
+
+    def _angles(self, arcs: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Angles between which arcs extend, from the beginnings of their quadrants."""
+        lower, upper = self.boundary.limits(self.trapezoids[arcs], np.full(len(arcs), self.theta))
+        return 2 * np.arctan(lower), 2 * np.arctan(upper)
 
     @property
     def error(self) -> float:

@@ -14,7 +14,8 @@ from cfree.formats.drawings.source import CURVE_SHARE, SCENE_ALONE
 from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, save_scene
 from cfree.formats.shapes import Shapes
 from cfree.scene.reading import Note, together
-from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_reading
+from cfree.scene.rounded import rounded, rounded_shapes
+from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_polygons, with_reading
 
 
 @checked
@@ -114,6 +115,30 @@ def straightened(
     what = f"polygon {'inside' if inside else 'around'} a round shape"
     note = Note("near", what, "near", round_count(shapes_of(scene)), size=error, remedy=remedy)
     return scene.inner(error) if inside else scene.outer(error), (note,)
+
+
+def as_exact(scene: Scene, error: float | None, *, remedy: str = "") -> tuple[Scene, tuple[Note, ...]]:
+    """Replace only round shapes that the boundary cannot take as they are, by polygons around them; note it.
+
+    Rounded shapes, such as discs, stadiums and grown polygons, stay. `error` is by default a thousandth of the size.
+
+    Examples
+    --------
+    >>> from cfree.curves.curved import Curved
+    >>> from cfree.scene.scene import Scene
+    >>> mixed = Scene(Curved.circle((0, 0), 1), [Curved.circle((5, 0), 1), Curved.ellipse((9, 0), (1, 2))])
+    >>> scene, (note,) = as_exact(mixed, 0.01)
+    >>> scene.robot == mixed.robot, [type(shape).__name__ for shape in scene.obstacles], str(note)
+    (True, ['Curved', 'Polygon'], 'near      polygon around a round shape within 0.01')
+    """
+    if not scene.curved or rounded_shapes(scene) is not None:
+        return scene, ()
+    error = error or largest_of(scene) / CURVE_SHARE
+    parts = [None if rounded(shape) else error for shape in scene.robot]
+    others = [None if rounded(shape) else error for shape in scene.obstacles]
+    result = with_polygons(scene, [*parts, *others, error], outward=True)
+    replaced = round_count(shapes_of(scene)) - round_count(shapes_of(result))
+    return result, (Note("near", "polygon around a round shape", "near", replaced, size=error, remedy=remedy),)
 
 
 def is_without_curves(target: Path) -> bool:

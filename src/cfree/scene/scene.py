@@ -467,33 +467,37 @@ def largest_of(scene: Scene) -> float:
     return max(map(size_of, shapes_of(scene)))
 
 
-def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool, always: bool = False) -> Scene:
+def with_polygons(scene: Scene, errors: Sequence[float | None], *, outward: bool, always: bool = False) -> Scene:
     """Replace round shapes by polygons, with an error for each in the order of `shapes_of`; outward forbids more.
 
+    A shape without an error stays as it is.
     With `always`, a shape that has no polygons on that side gets those on the other one: such a scene proves nothing.
     """
     if not scene.curved:
         return scene
     error_of = iter(errors)
 
-    def replaced(shape: AnyShape) -> tuple[Polygon, ...]:
+    def replaced(shape: AnyShape) -> tuple[AnyShape, ...]:
         error = next(error_of)
+        if error is None:
+            return (shape,)
         polygons = polygons_for(shape, error, outward)
         return polygons or (polygons_for(shape, error, not outward) if always else ())
 
     robot = [polygon for shape in scene.robot for polygon in replaced(shape)]
-    named = list[tuple[str, Polygon]]()
+    named = list[tuple[str, AnyShape]]()
     for k, (name, shape) in enumerate(zip(scene.obstacle_names, scene.obstacles, strict=True)):
         for polygon in replaced(shape):
             # a polygon whose number has changed keeps the number of its shape as a name
             is_moved = name != default_name(k) and len(named) != k
             named.append((f"{default_name(k)} ({name})" if is_moved else name, polygon))
     room = scene.workspace
-    rooms = () if room is None else polygons_for(room, next(error_of), not outward)
+    room_error = next(error_of, None)
+    rooms = (room,) if room is None or room_error is None else polygons_for(room, room_error, not outward)
     if not robot or (room and not rooms):
         raise UndecidedError(
             f"no polygon inside the {'workspace' if robot else 'robot'} can be proved: it is too thin, or has cusps",
-            error=max(errors),
+            error=max(filter(None, errors)),
         )
     settings = {key: getattr(scene, key) for key in ("bounds", "start", "vehicle", "units", "name", "reading")}
     return Scene(

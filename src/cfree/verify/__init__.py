@@ -24,6 +24,8 @@ angles by irreducible polynomials, positions by elements of the angle's number f
 and lines when sides are gathered. Two things are trusted: polygons hold the scene's numbers, and `features` numbers
 features as the file does.
 
+Boundaries of rounded shapes have other code, in `round_boundary`; docs/verify.md.
+
 Each file imports only from the ones before it: `surfaces` (contacts, curves, lines), `polygons`, `world` (the scene),
 `section` (the scene at one angle), `trapezoids` (the file), `isolated`, `matching`, `missing`, `angles`, `result`,
 `driver`. Answers, checked by `cfree.verify.answer`, have `inside` (polygons in polygons), `motions`, `parity` (rays),

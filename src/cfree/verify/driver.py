@@ -31,6 +31,7 @@ from cfree.verify.isolated import IsolatedPart
 from cfree.verify.matching import Matching, matched
 from cfree.verify.missing import compared
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
+from cfree.verify.round_boundary import round_boundary
 from cfree.verify.surfaces import Fault, Surface, Turn
 from cfree.verify.trapezoids import Reader, Side
 from cfree.words import counted
@@ -115,7 +116,9 @@ def _verified(
     stored = read_boundary(boundary) if isinstance(boundary, (str, os.PathLike)) else boundary
     if (finding := _unfit(stored, scene)) is not None:
         return Verification((), (finding,), (), time.perf_counter() - begin)
-    stored.require_polygons("verify.boundary")
+    if stored.scene.curved:
+        result = round_boundary(stored, slices, sample, seed, deep, report)
+        return replace(result, reading=together(result.reading, scene.reading if scene else ()))
     contacts = stored.contact_kind, stored.contact_robot, stored.contact_obstacle
     reader = Reader(stored.scene, contacts, stored.trapezoids, stored.isolated)
     count, parts = len(stored.trapezoids), len(stored.isolated)

@@ -46,19 +46,19 @@ def round_separation_findings(
         yield Finding(INSIDE, where, text)
     if least is None:
         return
-    size = _size(proof)
-    scale, bits = _scale(least, size, len(proof))
+    size = size_of(proof)
+    scale, bits = scale_of(least, size, len(proof))
     with precision(bits):
         yield from _findings(proof, least, size, scale, report)
 
 
-def _size(proof: RoundSeparation) -> Fraction:
+def size_of(proof: RoundSeparation) -> Fraction:
     """Number that no coordinate and no radius exceeds."""
     points = [*proof.robot_features.points, *proof.obstacle_features.points]
     return max([Fraction(1), proof.radius, *proof.radii, *(abs(c) for p in points for c in p)])
 
 
-def _scale(least: Fraction, size: Fraction, count: int) -> tuple[Scale, int]:
+def scale_of(least: Fraction, size: Fraction, count: int) -> tuple[Scale, int]:
     """Precision for a margin: distances of the surface's gaps, all together, are far below it."""
     share = size / least
     digits = max(0, share.numerator.bit_length() - share.denominator.bit_length() + 1) + count.bit_length() + 24

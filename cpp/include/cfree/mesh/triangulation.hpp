@@ -19,11 +19,14 @@ public:
         double x, y;
     };
     std::vector<Place> places;
+    double flat = 1e-9;  // areas this small, against the square of the longest side, decide nothing
     std::vector<Triangle> triangles;
     std::vector<Index> changed;  // triangles made or flipped by Delaunay steps
 
     // Fills the region between two chains by their heights y; chains may share their first or last point.
     void zip(const std::vector<Index>& left, const std::vector<Index>& right);
+    // Fills the same region without leaving it, if both chains rise and do not cross.
+    void fill_between(const std::vector<Index>& left, const std::vector<Index>& right);
     // Puts point p on a rim edge from a; its other part, from p, can be split again.
     void split_rim(Index a, Index b, Index p);
     // Puts point p on the edge opposite corner k of triangle t.
@@ -51,6 +54,7 @@ public:
 
 private:
     double area(Index p, Index q, Index r) const;
+    void find_neighbours();
     double square_distance(Index p, Index q) const;
     int across_from(Index t, Index neighbour) const;
     void replace_neighbour(Index t, Index old, Index now);

@@ -61,7 +61,8 @@ def boundary(
 ) -> None:  # fmt: skip
     """Compute the boundary of the forbidden space.
 
-    Trims every contact patch. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads. If a
+    Trims every contact patch. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads. Discs,
+    stadiums and grown polygons stay as they are; polygons within --tolerance replace other curves. If a
     limit stops the work, the part done so far is written, marked as incomplete, and the exit code is 3. With --folder
     the boundary is computed tile by tile, of any size, by any number of processes; the same command resumes an
     interrupted run.

@@ -36,7 +36,7 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
     """Cut the forbidden space at one orientation of the robot.
 
     SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads, or a boundary written by cfree
-    boundary -o.
+    boundary -o. Discs, stadiums and grown polygons stay as they are; polygons within --tolerance replace other curves.
     """
     with one_line_faults():
         angle = read_angle(theta, "--theta")

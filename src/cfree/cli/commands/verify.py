@@ -84,13 +84,18 @@ def verify(
         from cfree.verify.answers import answer as verified_answer
         from cfree.verify.driver import boundary as verified_boundary
 
-        loaded = read_scene(scene, straight=is_archive(file))
-        with bar("verify") as progress:
-            if is_archive(file):
+        if is_archive(file):
+            from cfree.formats.boundaries.boundary_file import read_boundary
+
+            stored = read_boundary(file)
+            loaded = read_scene(scene, "rounded" if stored.scene.curved else "none")
+            with bar("verify") as progress:
                 result = verified_boundary(
-                    file, loaded, sample=sample, slices=slices, seed=seed, deep=deep, progress=progress
+                    stored, loaded, sample=sample, slices=slices, seed=seed, deep=deep, progress=progress
                 )
-            else:
+        else:
+            loaded = read_scene(scene)
+            with bar("verify") as progress:
                 result = verified_answer(loaded, file, progress=progress)
         _print_verified(result, file, as_json)
 

@@ -8,7 +8,7 @@ import click
 
 from cfree.cli import drawing, options, reading
 from cfree.cli.faults import one_line_faults
-from cfree.cli.files import answer_for, bar, check_outputs, read_scene, straight_scene
+from cfree.cli.files import answer_for, bar, check_outputs, read_scene, without_curves
 from cfree.cli.options import FILE, examples, file_option
 from cfree.cli.terminal import printable
 
@@ -40,7 +40,7 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
                 check_outputs(source, {"page": html})
         loaded = read_scene(scene)
         if answer is None and loaded.curved and arcs_of(loaded) is None:
-            loaded = straight_scene(loaded, scene)
+            loaded = without_curves(loaded, scene)
         with bar("reading"):
             shown = answer_for(loaded, answer) if answer else None
         if isinstance(shown, AllSeparated):

@@ -14,18 +14,23 @@ from numpy.typing import NDArray
 
 import cfree._core as _core
 from cfree.arguments import checked
+from cfree.contact.kind import Kind
 from cfree.errors import FormatError, UnsupportedError
-from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.boundary import Boundary, boundary_of
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 from cfree.forbidden.record import Stats
 from cfree.formats.boundaries.header import FAULTS, signed
 from cfree.formats.text.atomic import checked_suffix, replacing
 from cfree.free.space import FreeSpace
-from cfree.scene.features import SceneFeatures, scene_features, unpacked
+from cfree.scene.features import SceneFeatures, grown_features, unpacked
+from cfree.scene.rounded import rounded_shapes, why_not_rounded
 
 CELL_COLUMNS = ("component", "parent", "free_inside", "turns", "lift")
 PATCH_COLUMNS = ("contact_kind", "contact_robot", "contact_obstacle", "trimmed")
-FORMAT, VERSION = "cfree-boundary", 3
+FORMAT = "cfree-boundary"
+AMONG_POLYGONS, AMONG_ROUNDED = 3, 4
+"""Versions of files: those with round shapes have circles and branches, which the older version had no names for."""
+CIRCLES = [Kind.VERTEX_VERTEX | quadrant << 4 for quadrant in range(4)]
 MOST_DEFLATED = 1032
 """Maximum number of bytes that one deflated byte can hold."""
 
@@ -36,7 +41,6 @@ def save_boundary(
     """Write a boundary, with its cells if given; equal boundaries give equal files. Parquet holds the trapezoids."""
     from cfree.formats.scene_file import scene_text
 
-    boundary.require_polygons("a boundary file")
     if check_boundary_path(path) == ".parquet":
         if cells:
             raise UnsupportedError(f"{os.fspath(path)}: cells are written as .npz only; name the file so")
@@ -49,7 +53,8 @@ def save_boundary(
     arrays |= {f"isolated_{name}": getattr(boundary.isolated, name) for name in ISOLATED_COLUMNS}
     arrays |= cells or {}
     stats = {key: value for key, value in asdict(boundary.stats).items() if key != "seconds"}
-    header = signed({"format": FORMAT, "version": VERSION, "stats": stats}, arrays)
+    version = AMONG_ROUNDED if boundary.scene.curved else AMONG_POLYGONS
+    header = signed({"format": FORMAT, "version": version, "stats": stats}, arrays)
     with replacing(path) as unfinished, unfinished.open("wb") as file:
         np.savez_compressed(file, header=np.frombuffer(json.dumps(header).encode(), np.uint8), **arrays)
 
@@ -142,8 +147,9 @@ def _read(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
             header = json.loads(_member(archive, "header").tobytes())
             if header["format"] != FORMAT:
                 raise fault(f'format {header["format"]!r}; expected "{FORMAT}"')
-            if header["version"] != VERSION:
-                raise fault(f"version {header['version']}; this cfree reads version {VERSION}: compute it again")
+            if header["version"] not in (AMONG_POLYGONS, AMONG_ROUNDED):
+                versions = f"versions {AMONG_POLYGONS} and {AMONG_ROUNDED}"
+                raise fault(f"version {header['version']}; this cfree reads {versions}: compute it again")
             arrays = {key: _member(archive, key) for key in archive.files if key != "header"}
         if signed(header, arrays) != header:
             raise fault("damaged: it is not what was written; make it again with `cfree boundary`")
@@ -161,7 +167,12 @@ def _read(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
     from cfree.formats.scene_file import scene_from_text
 
     scene = scene_from_text(f"{name}:scene", text)
-    features = scene_features(scene)
+    if scene.curved != (header["version"] == AMONG_ROUNDED):
+        shapes = "round shapes" if scene.curved else "polygons"
+        raise fault(f"version {header['version']}, but the scene has {shapes}; make it again with `cfree boundary`")
+    if scene.curved and rounded_shapes(scene) is None:
+        raise fault(f"{why_not_rounded(scene)}: no boundary has such a scene")
+    features = grown_features(scene)
     wrong = misfit(features, kind, robot, obstacle, trapezoids, isolated)
     if trimmed.dtype != bool or trimmed.shape != np.shape(kind):
         wrong = "trimmed"
@@ -227,16 +238,19 @@ def misfit(
             return fits(array, "u1", count, 0, 1 if name == "chart" else 4)
         if name.endswith("_t"):
             return fits(array, "f8", count, -np.inf, np.inf)
-        if not fits(array, "u8", count, 0, (5 << 61) - 1):
+        if not fits(array, "u8", count, 0, ((6 if is_round else 5) << 61) - 1):
             return False
         _, i, j = unpacked(array[array > 0])
         return bool(np.all(i <= edges) and np.all(j <= others))
 
-    contacts = {"contact_kind": (kind, "u1", 1, 2), "contact_robot": (robot, "i4", 0, len(a.previous) - 1)}
+    is_round = bool(a.radius.any() or b.radius.any())
+    contacts = {"contact_kind": (kind, "u1", 1, max(CIRCLES)), "contact_robot": (robot, "i4", 0, len(a.previous) - 1)}
     contacts["contact_obstacle"] = (obstacle, "i4", 0, len(b.previous) - 1)
     for name, (array, dtype, low, high) in contacts.items():
         if not fits(array, dtype, patches, low, high):
             return name
+    if not np.isin(kind, [Kind.VERTEX_EDGE, Kind.EDGE_VERTEX, *(CIRCLES if is_round else [])]).all():
+        return "contact_kind"
     for name in COLUMNS:
         if not column_fits(name, getattr(trapezoids, name), np.size(trapezoids.patch)):
             return name
@@ -250,4 +264,23 @@ def misfit(
 
 def _inconsistent(boundary: Boundary) -> str:
     """Return the name of a column that contradicts the scene or the other columns, exactly, or an empty text."""
-    return _core.misfit(boundary._handle, os.cpu_count() or 1)
+    if not boundary.scene.curved:
+        return _core.misfit(boundary._handle, os.cpu_count() or 1)
+    plain = _differing(boundary, regularized=False)
+    return plain and _differing(boundary, regularized=True) and plain
+
+
+def _differing(boundary: Boundary, *, regularized: bool) -> str:
+    """Return the name of a column that differs from the boundary of the scene, which is computed again.
+
+    Of an incomplete boundary only patches are compared: no question can be put to it.
+    """
+    threads, complete = os.cpu_count() or 1, boundary.complete
+    core = _core.compute_boundary(boundary.features.core, threads, regularized, lambda share: complete)
+    own = boundary_of(boundary.scene, boundary.features, core)
+    columns = {name: (getattr(boundary, name), getattr(own, name)) for name in PATCH_COLUMNS[:3]}
+    if complete:
+        columns |= {name: (getattr(boundary.trapezoids, name), getattr(own.trapezoids, name)) for name in COLUMNS}
+        isolated = {name: (getattr(boundary.isolated, name), getattr(own.isolated, name)) for name in ISOLATED_COLUMNS}
+        columns |= {f"isolated_{name}": pair for name, pair in isolated.items()}
+    return next((name for name, (ours, theirs) in columns.items() if not np.array_equal(ours, theirs)), "")

@@ -4,8 +4,10 @@ Coordinates are those of the scene, not degrees on the globe.
 
 | feature | geometry | properties |
 |---|---|---|
-| region | Polygon or MultiPolygon | role "forbidden", theta in radians |
+| region | Polygon or MultiPolygon | role "forbidden", theta in radians; among round shapes error |
 | contact | LineString, forbidden on its left | role "contact", patch, kind, robot, obstacle, obstacle_feature |
+
+Arcs are chords; `error` is the greatest distance between the two.
 
 `robot` and `obstacle_feature` are the vertices that touch, or the first vertices of edges that touch; `obstacle` is a
 name.
@@ -37,7 +39,8 @@ def slice_geojson(cut: Slice) -> dict[str, Any]:
     import shapely
 
     region = shapely.geometry.mapping(shapely.orient_polygons(cut.forbidden))
-    features = [_feature(region, role="forbidden", theta=cut.theta)]
+    of_arcs = {"error": cut.error} if cut.boundary.scene.curved else {}
+    features = [_feature(region, role="forbidden", theta=cut.theta, **of_arcs)]
     patches = Patches(cut.boundary)
     for ends, k in zip(cut.lines, cut.patches.tolist(), strict=True):
         patch = patches[k]

@@ -1,0 +1,89 @@
+// Faces of the boundary among grown shapes, lines and circles, for meshes; theory, "Meshes among rounded shapes".
+//
+// A point of a face has a position s along its line or, on a circle, s = psi, the angle from the beginning of its quadrant. Points
+// of a triangle are compared with the face's point at the means of s and phi of the corners.
+#pragma once
+#include <array>
+#include <optional>
+
+#include "cfree/mesh/mesh_face.hpp"
+
+namespace cfree {
+
+// Shares of the error that the rim may take: its chords in the plane of (s, phi), and the sheet over one of its chords.
+inline constexpr double on_rim = 0.25, over_chord = 0.35;
+
+// a + b cos + c sin
+struct Harmonic {
+    double a = 0, b = 0, c = 0;
+    double at(double phi) const;
+};
+
+// Curve of a face: its position at an angle, and bounds between two.
+class RoundCurve {
+public:
+    RoundCurve() = default;
+    RoundCurve(const Places& places, const Feature& on, const Feature& other, double from, double to);
+    double position(double phi) const;
+    // Bound of the difference in position of the curve and its chord between two angles.
+    double bow(double from, double to) const;
+
+private:
+    enum class Form { still, turning, line, on_line, on_circle };
+    double bow_of_line(double from, double to) const;
+    void meet_on_line(const Places& places, const Feature& on, const Feature& other);
+    void meet_on_circle(const Places& places, const Feature& on, const Feature& other, double from, double to);
+
+    Form form = Form::still;
+    double start = 0;             // position, at phi = 0 if it is turning
+    int branch = 0;
+    // on a line: its middle and the height of the circle's centre; on a circle: delta, |n|^2, and n x n' if n is of a circle
+    Harmonic middle, height, delta, square, turn;
+    double radius = 0;            // on a line: of the other circle; on a circle: its own
+    Complex still = 0, moving = 0;  // n = still + exp(i phi) moving
+    double begin = 0;             // direction from which psi counts
+    bool is_equal = false;        // circles of one radius that coincide at the angle `meeting`
+    double meeting = 0;
+    // two lines
+    ContactCurve curve;
+    Complex origin = 0, direction = 0;
+    bool is_saddle = false;
+};
+
+class RoundFace {
+public:
+    RoundFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double from, double to,
+              double error, double angle_scale);
+
+    MeshPoint point(double s, double phi) const { return {s, phi, {0, 0}}; }
+    double position(Complex x, double phi) const;
+    Complex at(double s, double phi) const;
+    // Proved bound: at most 1 if every point of the triangle is within `error` of the face, as far as its rim is.
+    double excess(const Corners& corners) const;
+    // True if a chord between two points of a curve, and the sheet over it, take no more than their shares of the error.
+    bool is_close(const MeshPoint& p, const MeshPoint& q, bool upper) const;
+    double side_step() const;  // greatest step along a side
+    double bow(double from, double to, bool upper) const;  // in the scene's unit
+    double estimate() const;   // number of triangles
+    double least() const;      // number of e-v triangles at the best known density
+
+    // Coordinates in which triangles are about equilateral.
+    double u(double s) const { return s / unit; }
+    double s(double u) const { return unit * u; }
+
+    bool is_thin() const { return to - from < 1e-9; }
+
+    bool is_circle, is_saddle;  // `is_saddle`: u and phi are the net's coordinates
+    double from, to, shear = 0;
+    std::array<RoundCurve, 2> curves;
+
+private:
+    double within(const Corners& corners) const;  // bound of the distance from the sheet's point at the means
+
+    double eps, w, unit = 1;
+    std::optional<MeshSheet> line;
+    Complex a = 0, b = 0;
+    double radius = 0, begin = 0;
+};
+
+}  // namespace cfree

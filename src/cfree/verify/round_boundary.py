@@ -1,0 +1,217 @@
+"""Check a whole boundary of rounded shapes: its trapezoids, their matching, and slices.
+
+Names, angles, curves and sides are those of `round_pieces.py` and `round_closure.py`, decided in balls: places that are
+nearer to each other than `NEAREST` of the scene's size count as one. docs/verify.md.
+"""
+
+from __future__ import annotations
+
+import random
+import time
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+
+import numpy as np
+from flint import arb
+
+from cfree.errors import UnsupportedError
+from cfree.exact.pose import Pose
+from cfree.forbidden.boundary import Boundary
+from cfree.scene.rounded import Cores, rounded_shapes
+from cfree.scene.scene import Scene
+from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
+from cfree.verify.round_algebra import Turn, precision
+from cfree.verify.round_closure import loose
+from cfree.verify.round_inside import largest_radius
+from cfree.verify.round_pieces import Piece, Reader, Scale
+from cfree.verify.round_proof import Features, RoundSeparation
+from cfree.verify.round_separation import UNDECIDED, scale_of, size_of
+from cfree.verify.round_slices import SURE, compared, pillar_of
+from cfree.verify.round_surfaces import Fault, UndecidedError
+from cfree.verify.round_world import Part, RoundWorld, is_apart
+from cfree.words import counted, listed
+
+PIECES, TRAPEZOIDS, FREE = "convex pieces", "names, angles, domains", "not forbidden"
+CLOSED, ISOLATED, MISSING, DEEP = "closed surfaces", "isolated parts", "nothing missing", "Euler numbers again"
+NEAREST = Fraction(1, 1 << 64)
+BLOCK = 100  # trapezoids between two reports
+ANYWHERE = Pose(0, 0)
+
+
+def round_boundary(
+    stored: Boundary, slices: int, sample: int | None, seed: int, deep: bool, report: Callable[[float], object]
+) -> Verification:
+    """Check a boundary with options that are in order; see `cfree.verify.boundary`."""
+    begin = time.perf_counter()
+    cores = rounded_shapes(stored.scene)
+    assert cores is not None, "the boundary has its features"
+    if cores.has_arcs or cores.robot_radius is None:
+        what = "arcs as sides of shapes" if cores.has_arcs else "a robot whose parts have several radii"
+        raise UnsupportedError(f"verify.boundary: {what}; of polygons, segments and points grown by discs only")
+    count = len(stored.trapezoids)
+    chosen = range(count) if sample is None else sorted(random.Random(seed).sample(range(count), min(sample, count)))
+    proof, world = _as_pieces(stored, cores), RoundWorld(stored.scene, cores)
+    findings = list(_findings_of_cores(cores, stored.scene, world))
+    scale, bits = scale_of(size_of(proof) * NEAREST, size_of(proof), max(1, count))
+    number, pieces = 0, list[Piece]()
+    with precision(bits):
+        for finding in _findings_of_trapezoids(Reader(proof, scale), world, chosen, pieces, report):
+            findings.append(finding)
+        whole = len(pieces) == count
+        if whole:
+            findings += _findings_of_sides(pieces, scale)
+            places = random.Random(f"slices {seed}")
+            for k in range(slices):
+                report((1 + k / max(1, slices)) / 2)
+                chart, angle = places.randrange(2), places.randint(-(1 << scale.bits), 1 << scale.bits)
+                parts, wrong = compared(world, pieces, scale, chart, angle)
+                where = f"tau = {float(scale.tau(angle).mid()):.9g}, chart {chart}"
+                findings += [Finding(MISSING, where, text) for text in wrong]
+                number += parts
+    report(1.0)
+    checks = _checks(world, proof, len(chosen), slices if whole else 0, number, whole=whole)
+    if deep:
+        checks += (Check(DEEP, SKIPPED, "not among round shapes"),)
+    kinds = {finding.kind for finding in findings}
+    checks = tuple(Check(x.name, REFUTED, x.extent) if x.name in kinds else x for x in checks)
+    return Verification(checks, tuple(findings), (), time.perf_counter() - begin, reading=stored.scene.reading)
+
+
+def _as_pieces(stored: Boundary, cores: Cores) -> RoundSeparation:
+    """Return the trapezoids in the form of the pieces of a separation, whose poses have no meaning here."""
+    features, patch, scene = stored.features, stored.trapezoids.patch, stored.scene
+    return RoundSeparation(
+        [part.core for part in cores.robot],
+        cores.robot_radius or Fraction(0),
+        [other.core for other in cores.obstacles],
+        [other.radius for other in cores.obstacles],
+        Features.numbered(features.robot),
+        Features.numbered(features.obstacles),
+        stored.contact_kind[patch],
+        stored.contact_robot[patch],
+        stored.contact_obstacle[patch],
+        stored.trapezoids,
+        ANYWHERE,
+        ANYWHERE,
+        scene.bounds,
+        scene.workspace,
+    )
+
+
+def _findings_of_cores(cores: Cores, scene: Scene, world: RoundWorld) -> Iterator[Finding]:
+    names = [f"robot[{k}]" for k in range(len(scene.robot))] + [f"obstacle {k}" for k in range(len(scene.obstacles))]
+    for name, core, shape in zip(
+        names, [*cores.robot, *cores.obstacles], [*scene.robot, *scene.obstacles], strict=True
+    ):
+        if largest_radius(core.core, shape) != core.radius:
+            yield Finding(PIECES, name, "it is not its core, grown by its radius")
+    for name in world.untiled:
+        yield Finding(PIECES, name, "its convex pieces do not tile it")
+
+
+def _findings_of_trapezoids(
+    reader: Reader,
+    world: RoundWorld,
+    chosen: Sequence[int],
+    pieces: list[Piece],
+    report: Callable[[float], object],
+) -> Iterator[Finding]:
+    """Findings about trapezoids; those that are sound go into `pieces`."""
+    table = reader.proof.table
+    covering = _Covering(world)
+    for done, k in enumerate(chosen):
+        if done % BLOCK == 0:
+            report(done / (2 * len(chosen)))
+        where = f"trapezoid {k} (patch {table.patch[k]}, theta {table.theta_from[k]:.6g} to {table.theta_to[k]:.6g})"
+        try:
+            piece = reader.piece(k)
+        except Fault as fault:
+            yield Finding(TRAPEZOIDS, where, str(fault))
+        except UndecidedError as reason:
+            yield Finding(TRAPEZOIDS, where, f"{UNDECIDED}{reason}")
+        except IndexError:
+            yield Finding(TRAPEZOIDS, where, "it names a feature that does not exist")
+        else:
+            pieces.append(piece)
+            if covering.covers(piece, reader.scale):
+                yield Finding(FREE, where, "forbidden in the middle")
+
+
+def _findings_of_sides(pieces: Sequence[Piece], scale: Scale) -> Iterator[Finding]:
+    try:
+        for where, numbers in loose(pieces, scale):
+            owners = listed([str(n) for n in numbers[:6]], "and")
+            yield Finding(CLOSED, where, f"a side of {counted(len(numbers), 'trapezoid')} ({owners}) has no partner")
+    except UndecidedError as reason:
+        yield Finding(CLOSED, "the surfaces", f"{UNDECIDED}{reason}")
+
+
+class _Covering:
+    """Decides if two pieces overlap in the middle of a trapezoid."""
+
+    def __init__(self, world: RoundWorld) -> None:
+        self._size = world.size
+        self._pairs: list[tuple[Part, Part]] = [(a, b) for some, others in world.layers for a in some for b in others]
+        ends = [[_around(part) for part in side] for side in zip(*self._pairs, strict=True)]
+        self._centers = np.array([[center for center, _ in side] for side in ends])
+        self._reach = np.array([[radius for _, radius in side] for side in ends]).sum(axis=0)
+
+    def covers(self, piece: Piece, scale: Scale) -> bool:
+        turn = scale.turn(piece.chart, (piece.start + piece.stop) // 2)
+        place = _middle(piece, turn)
+        at, turned = (complex(*(float(c.mid()) for c in pair)) for pair in (place, (turn.cos, turn.sin)))
+        here, there = self._centers
+        near = np.abs(there - turned * here - at) < self._reach + SURE * self._size
+        for k in np.flatnonzero(near):
+            robot, obstacle = self._pairs[k]
+            pillar = pillar_of(robot, obstacle, turned)
+            if pillar.distance(np.array([at]))[0] > pillar.radius + SURE * self._size:
+                continue
+            if not is_apart(robot, obstacle, turn, place, scale.near):
+                return True
+        return False
+
+
+def _around(part: Part) -> tuple[complex, float]:
+    """Center and radius of a disc around a piece."""
+    center = complex(part.rough.mean())
+    return center, float(np.abs(part.rough - center).max()) + float(part.radius)
+
+
+def _middle(piece: Piece, turn: Turn) -> tuple[arb, arb]:
+    """A point in the middle of a trapezoid at an angle."""
+    (a, b), (c, d) = piece.lower.point(turn), piece.upper.point(turn)
+    x, y = (a + c) / 2, (b + d) / 2
+    s = piece.surface
+    if s.edge is not None:
+        return x, y
+    p = arb(s.b[0]) - turn.cos * arb(s.a[0]) + turn.sin * arb(s.a[1])
+    q = arb(s.b[1]) - turn.sin * arb(s.a[0]) - turn.cos * arb(s.a[1])
+    far = arb(s.radius) / ((x - p) ** 2 + (y - q) ** 2).sqrt()
+    return p + far * (x - p), q + far * (y - q)
+
+
+def _checks(
+    world: RoundWorld, proof: RoundSeparation, count: int, slices: int, number: int, *, whole: bool
+) -> tuple[Check, ...]:
+    """Checks made, if nothing is wrong."""
+    total = len(proof)
+    every = counted(total, "trapezoid") if count == total else f"{count:,} of {counted(total, 'trapezoid')}"
+    robot, obstacles = world.layers[0]
+    near = f"up to {float(NEAREST):.1g} of the size"
+    closed = f"every side of {counted(total, 'trapezoid')} has a partner, {near}"
+    free = f"{every}: nothing covers the middle at one angle each"
+    return (
+        Check(PIECES, PROVED, f"{len(robot)} of the robot, {len(obstacles)} of the obstacles tile the cores"),
+        Check(
+            TRAPEZOIDS,
+            PROVED if count == total else SAMPLED,
+            f"{every}: angles in order, curves within patches, {near}",
+        ),
+        Check(FREE, SAMPLED, free),
+        Check(CLOSED, PROVED, closed) if whole else Check(CLOSED, SKIPPED, "needs every trapezoid"),
+        Check(ISOLATED, SKIPPED, "none are computed among round shapes"),
+        Check(MISSING, MEASURED, f"{counted(slices, 'slice')}, {counted(number, 'part')} of contacts, in doubles")
+        if whole and slices
+        else Check(MISSING, SKIPPED, "needs every trapezoid" if slices else "no slices wanted"),
+    )

@@ -1,0 +1,267 @@
+"""Compare a boundary of rounded shapes with slices that are computed anew from the cores, in doubles.
+
+At an orientation every contact is a segment of a line or an arc of a circle. It is cut where it meets the rims of
+pillars; each part is free or covered all along. Parts that doubles leave open, as in slits, are not compared.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.verify.round_algebra import Turn
+from cfree.verify.round_pieces import Piece, Scale
+from cfree.verify.round_surfaces import AXES
+from cfree.verify.round_world import Complexes, Corner, Part, RoundWorld
+
+SAME, SURE = 1e-7, 1e-8  # lengths, in the scene's size: of curves that are one, and of distances that are certain
+LEAST = 1e-5  # parts of less length are not compared
+FREE, COVERED, OPEN = 1, -1, 0
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A segment of a line, from `place` in a direction; or an arc about `place`, with angles as positions."""
+
+    place: complex
+    along: complex  # a unit vector; 0 for a circle
+    radius: float
+    first: float
+    last: float
+    own: tuple[complex, complex] = (0, 0)  # vertices of the robot and of an obstacle
+
+    def points(self, positions: Floats) -> Complexes:
+        if self.along:
+            return np.asarray(self.place + positions * self.along, complex)
+        return np.asarray(self.place + self.radius * np.exp(1j * positions), complex)
+
+    def is_on(self, other: Contact, near: float) -> bool:
+        """True if both are on one line, in one direction, or on one circle."""
+        if not self.along or not other.along:
+            same_kind = not self.along and not other.along
+            return same_kind and abs(self.place - other.place) < near and abs(self.radius - other.radius) < near
+        off = (self.along.conjugate() * (other.place - self.place)).imag
+        return abs(self.along - other.along) < SAME and abs(off) < near
+
+    def has(self, other: Contact, point: complex, near: float) -> bool:
+        """True if a point of the other one, on the same line or circle, is in this one, and not near its ends."""
+        if self.along:
+            position = (self.along.conjugate() * (point - self.place)).real
+            return self.first + near < position < self.last - near
+        margin = near / self.radius
+        position = self.first + (cmath.phase(point - self.place) - self.first) % math.tau
+        return self.first + margin < position < self.last - margin
+
+
+@dataclass(frozen=True)
+class Pillar:
+    """The positions that two convex pieces forbid: a convex polygon, a segment or a point, grown."""
+
+    hull: Complexes
+    radius: float
+    robot: Complexes  # vertices of the two pieces, where they are
+    obstacle: Complexes
+
+    def distance(self, points: Complexes) -> Floats:
+        """Distances from the hull, negative inside."""
+        if len(self.hull) == 1:
+            return np.asarray(np.abs(points - self.hull[0]))
+        start, along = self.hull[:, None], (np.roll(self.hull, -1) - self.hull)[:, None]
+        seen = (points[None] - start) * along.conj() / np.abs(along)
+        beyond = np.clip(seen.real - np.abs(along), 0, None) + np.clip(-seen.real, 0, None)
+        off = np.hypot(seen.imag, beyond).min(axis=0)
+        inside = (seen.imag > 0).all(axis=0) if len(self.hull) > 2 else np.zeros(len(points), bool)
+        return np.asarray(np.where(inside, -seen.imag.min(axis=0), off))
+
+    def has(self, contact: Contact, near: float) -> bool:
+        """True if both vertices of a contact are of these pieces."""
+        robot, obstacle = contact.own
+        return bool(np.abs(self.robot - robot).min() < near and np.abs(self.obstacle - obstacle).min() < near)
+
+
+def pillar_of(robot: Part, obstacle: Part, turned: complex) -> Pillar:
+    """Make the pillar of two pieces at an orientation, a unit number."""
+    here, there = turned * robot.rough, obstacle.rough
+    return Pillar(_hull((there[:, None] - here[None]).ravel()), float(robot.radius + obstacle.radius), here, there)
+
+
+def compared(world: RoundWorld, pieces: Sequence[Piece], scale: Scale, chart: int, angle: int) -> tuple[int, list[str]]:
+    """Compare at an angle: the number of parts that were compared, and what differs."""
+    turn = scale.turn(chart, angle)
+    turned = complex(float(turn.cos.mid()), float(turn.sin.mid()))
+    size = world.size
+    stored = [_contact_of(piece, turn) for piece in pieces if piece.chart == chart and piece.start < angle < piece.stop]
+    wrong = [f"trapezoids on one another near {_text(at)}" for at in _doubled(stored, size)]
+    met = np.zeros(len(stored), bool)
+    number = 0
+    for (robot, obstacles), (parts, others) in zip(world.corners, world.layers, strict=True):
+        pillars = [pillar_of(a, b, turned) for a in parts for b in others]
+        for contact in _contacts(robot, obstacles, turned, size):
+            on = [k for k, other in enumerate(stored) if other.is_on(contact, SAME * size)]
+            met[on] = True
+            for point, state in _parts(contact, pillars, size):
+                is_stored = any(stored[k].has(contact, point, 0.0) for k in on)
+                number += 1
+                if state == FREE and not is_stored:
+                    wrong.append(f"a free contact near {_text(point)} is not in the file")
+                if state == COVERED and any(stored[k].has(contact, point, LEAST * size) for k in on):
+                    wrong.append(f"a contact near {_text(point)} is in the file and not free")
+    wrong += [f"a contact near {_text(stored[k].place)} is none of the scene" for k in np.flatnonzero(~met)]
+    return number, wrong
+
+
+def _text(point: complex) -> str:
+    return f"({point.real:.6g}, {point.imag:.6g})"
+
+
+def _contact_of(piece: Piece, turn: Turn) -> Contact:
+    """The part of a trapezoid at an angle, from the verifier's own formulas."""
+    a, b = (complex(*(float(c.mid()) for c in curve.point(turn))) for curve in (piece.lower, piece.upper))
+    s = piece.surface
+    if s.edge is not None:
+        f, g = (complex(float(v[0]), float(v[1])) for v in s.edge)
+        along = f - complex(float(turn.cos.mid()), float(turn.sin.mid())) * g
+        along /= abs(along)
+        return Contact(a, along, 0.0, 0.0, (along.conjugate() * (b - a)).real)
+    turned = complex(float(turn.cos.mid()), float(turn.sin.mid()))
+    center = complex(*map(float, s.b)) - turned * complex(*map(float, s.a))
+    axis = complex(*map(float, AXES[piece.quadrant]))
+    first, last = (cmath.phase((p - center) / axis) + math.pi / 2 * piece.quadrant for p in (a, b))
+    return Contact(center, 0, float(s.radius), first, last)
+
+
+def _doubled(stored: Sequence[Contact], size: float) -> Iterator[complex]:
+    """Places where two parts of one line or circle overlap."""
+    for k, one in enumerate(stored):
+        for two in stored[:k]:
+            middle = two.points(np.array([(two.first + two.last) / 2]))[0]
+            if one.is_on(two, SAME * size):
+                mine = one.points(np.array([(one.first + one.last) / 2]))[0]
+                if one.has(two, middle, LEAST * size) or two.has(one, mine, LEAST * size):
+                    yield middle
+
+
+def _hull(points: Complexes) -> Complexes:
+    """Corners of the convex hull, counter-clockwise, without points that are nearly on its edges."""
+    order = sorted({(complex(p).real, complex(p).imag) for p in points})
+    size = 1e-13 * max(1e-300, float(np.abs(points - points[0]).max())) ** 2
+
+    def half(places: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+        chain: list[tuple[float, float]] = []
+        for p in places:
+            while len(chain) > 1:
+                (ax, ay), (bx, by) = chain[-2:]
+                if (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > size:
+                    break
+                chain.pop()
+            chain.append(p)
+        return chain
+
+    if len(order) == 1:
+        return np.array([complex(*order[0])])
+    lower, upper = half(order), half(order[::-1])
+    return np.array([complex(*p) for p in lower[:-1] + upper[:-1]])
+
+
+def _contacts(robot: Sequence[Corner], obstacles: Sequence[Corner], turned: complex, size: float) -> Iterator[Contact]:
+    """Contacts that are locally possible at an orientation."""
+    eps = 1e-9 * size
+    for a in robot:
+        before, place, after = (turned * p for p in (a.before, a.place, a.after))
+        for b in obstacles:
+            rho = a.radius + b.radius
+            edge = b.after - b.place
+            if a.is_convex and edge:
+                n = -1j * edge / abs(edge)
+                if all(_dot(p - place, n) > -eps for p in (before, after)):
+                    start = b.place - place + rho * n
+                    yield Contact(start, edge / abs(edge), 0, 0, abs(edge), (place, b.place))
+            edge = place - after
+            if b.is_convex and edge:
+                n = -1j * edge / abs(edge)
+                if all(_dot(p - b.place, n) < eps for p in (b.before, b.after)):
+                    start = b.place - place + rho * n
+                    yield Contact(start, edge / abs(edge), 0, 0, abs(edge), (place, b.place))
+            if a.is_convex and b.is_convex and rho > 0:
+                yield from _arcs(place, (before, after), b, rho, eps)
+
+
+def _arcs(a: complex, neighbours: tuple[complex, complex], b: Corner, rho: float, eps: float) -> Iterator[Contact]:
+    """Arcs on which the directions from an obstacle's vertex are in the cones of both vertices."""
+    ends = {math.pi / 2 * k for k in range(4)}  # the file's quadrants
+    spans = [(p - b.place, -1) for p in (b.before, b.after) if p != b.place]
+    spans += [(p - a, 1) for p in neighbours if p != a]
+    for span, _ in spans:
+        ends |= {cmath.phase(1j * span) % math.tau, cmath.phase(-1j * span) % math.tau}
+    order = sorted(ends)
+    for first, last in zip(order, [*order[1:], order[0] + math.tau], strict=True):
+        u = cmath.rect(1, (first + last) / 2)
+        if last - first > 1e-12 and all(sign * _dot(span, u) > -eps for span, sign in spans):
+            yield Contact(b.place - a, 0, rho, first, last, (a, b.place))
+
+
+def _dot(u: complex, v: complex) -> float:
+    return (u.conjugate() * v).real
+
+
+def _parts(contact: Contact, pillars: Sequence[Pillar], size: float) -> Iterator[tuple[complex, int]]:
+    """Middles of the parts of a contact, each FREE, COVERED or OPEN; short parts are left out."""
+    ends = np.array([contact.first, contact.last])
+    box = contact.points(np.linspace(contact.first, contact.last, 9))
+    middle, reach = complex(box.mean()), float(np.abs(box - box.mean()).max()) + contact.radius
+    near = [p for p in pillars if p.distance(np.array([middle]))[0] < p.radius + reach + SURE * size]
+    cuts = np.concatenate([ends, *(_cuts(contact, pillar) for pillar in near)])
+    cuts = np.unique(cuts[(cuts >= contact.first) & (cuts <= contact.last)])
+    length = np.diff(cuts) * (1 if contact.along else contact.radius)
+    (long,) = np.nonzero(length > LEAST * size)
+    if not len(long):
+        return
+    points = contact.points((cuts[long] + cuts[long + 1]) / 2)
+    least = np.full(len(points), np.inf)
+    for pillar in near:
+        room = pillar.distance(points) - pillar.radius
+        if pillar.has(contact, SAME * size):
+            room = np.where(np.abs(room) < SURE * size, np.inf, room)  # the contact itself
+        least = np.minimum(least, room)
+    for point, room in zip(points.tolist(), least.tolist(), strict=True):
+        yield point, FREE if room > SURE * size else COVERED if room < -SURE * size else OPEN
+
+
+def _cuts(contact: Contact, pillar: Pillar) -> Floats:
+    """Positions at which a contact's line or circle meets the lines and circles of a pillar's rim."""
+    hull, rho = pillar.hull, pillar.radius
+    result = []
+    along = np.roll(hull, -1) - hull
+    if len(hull) > 1:
+        unit = along / np.abs(along)
+        start = hull - 1j * rho * unit
+        if contact.along:
+            across = (unit.conj() * contact.along).imag
+            with np.errstate(all="ignore"):
+                result.append(-(unit.conj() * (contact.place - start)).imag / across)
+        else:
+            height = (unit.conj() * (contact.place - start)).imag  # of the centre, on the left
+            with np.errstate(all="ignore"):
+                angle = np.arccos(-height / contact.radius)
+            for sign in (1, -1):
+                result.append(np.angle(1j * unit) + sign * angle)
+    if rho > 0:
+        d = hull - contact.place
+        with np.errstate(all="ignore"):
+            if contact.along:
+                seen = contact.along.conjugate() * d
+                root = np.sqrt(rho * rho - seen.imag**2)
+                result += [seen.real - root, seen.real + root]
+            else:
+                away = np.abs(d)
+                angle = np.arccos((away**2 + contact.radius**2 - rho * rho) / (2 * away * contact.radius))
+                result += [np.angle(d) - angle, np.angle(d) + angle]
+    cuts = np.concatenate(result) if result else np.zeros(0)
+    cuts = cuts[np.isfinite(cuts)]
+    return cuts if contact.along else contact.first + np.mod(cuts - contact.first, math.tau)

@@ -1,0 +1,186 @@
+"""`verify.boundary` among rounded shapes: true boundaries pass, and changed ones do not."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cfree
+import cfree.verify
+from cfree import Scene, boundary
+from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.columns import Trapezoids
+from cfree.verify.result import MEASURED, PROVED, SKIPPED
+from rounded_scenes import MIXED, ONE_RADIUS, SCENES, SQUARE, TRIANGLE, disc, grown, random_scene
+from rounded_ties import SCENES as TIES
+from rounded_ties import scene_of
+
+ROOM = Scene(disc(0, 0, "1/3"), [disc(1, 1, "1/2")], workspace=[(-3, -3), (4, -3), (4, 4), (0, 1), (-3, 4)])
+IN_BOUNDS = Scene(grown(TRIANGLE, "1/5"), [grown(SQUARE, "1/10", 2, 1)], bounds=(-4, -4, 6, 6))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SCENES)
+def test_boundaries_of_rounded_shapes_are_verified(name: str) -> None:
+    result = cfree.verify.boundary(boundary(SCENES[name]), SCENES[name])
+    assert result.verified, result
+    assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(12))
+def test_boundaries_of_random_rounded_scenes_are_verified(seed: int) -> None:
+    scene = random_scene(seed)
+    result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
+    assert result.verified, result
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TIES)
+def test_boundaries_with_ties_are_verified(name: str) -> None:
+    scene = scene_of(name)
+    if scene is None or not scene.curved:
+        return  # a point or a segment without radius is no shape of a scene
+    result = cfree.verify.boundary(boundary(scene), scene, slices=4)
+    assert result.verified, result
+
+
+@pytest.mark.parametrize("scene", [ROOM, IN_BOUNDS], ids=["workspace", "bounds"])
+def test_boundaries_in_workspaces_and_bounds_are_verified(scene: Scene) -> None:
+    result = cfree.verify.boundary(boundary(scene), scene, slices=3)
+    assert result.verified, result
+
+
+def test_a_file_of_a_rounded_boundary_is_verified_for_its_scene_alone(tmp_path: Path) -> None:
+    cfree.save(boundary(MIXED), tmp_path / "mixed.npz")
+    assert cfree.verify.boundary(tmp_path / "mixed.npz", MIXED, slices=1).verified
+    other = cfree.verify.boundary(tmp_path / "mixed.npz", ONE_RADIUS)
+    assert [finding.kind for finding in other.findings] == ["scene"]
+
+
+def test_a_sample_says_what_it_leaves_out() -> None:
+    result = cfree.verify.boundary(boundary(MIXED), sample=5, deep=True)
+    ways = {check.name: check.how for check in result.checks}
+    assert result.verified
+    assert ways["closed surfaces"] == ways["nothing missing"] == ways["Euler numbers again"] == SKIPPED
+    assert {check.how for check in cfree.verify.boundary(boundary(MIXED), slices=1).checks} >= {PROVED, MEASURED}
+
+
+def changed(result: Boundary, table: dict[str, Any], kind: Any = None) -> Boundary:
+    """The same boundary with other columns."""
+    columns = {field.name: np.array(getattr(result.trapezoids, field.name)) for field in fields(Trapezoids)} | table
+    kinds = np.array(result.contact_kind if kind is None else kind)
+    return Boundary(
+        result.scene, result.features, kinds, np.array(result.contact_robot), np.array(result.contact_obstacle),
+        Trapezoids(**columns), result.isolated, replace(result.stats), np.array(result.trimmed),
+    )  # fmt: skip
+
+
+def rows(result: Boundary, chosen: Any) -> Boundary:
+    return changed(result, {f.name: np.array(getattr(result.trapezoids, f.name)[chosen]) for f in fields(Trapezoids)})
+
+
+def column(result: Boundary, name: str, k: int, value: Any) -> Boundary:
+    array = np.array(getattr(result.trapezoids, name))
+    array[k] = value
+    return changed(result, {name: array})
+
+
+def dropped(result: Boundary, rng: random.Random) -> Boundary:
+    return rows(result, np.delete(np.arange(len(result.trapezoids)), rng.randrange(len(result.trapezoids))))
+
+
+def doubled(result: Boundary, rng: random.Random) -> Boundary:
+    k = rng.randrange(len(result.trapezoids))
+    return rows(result, np.insert(np.arange(len(result.trapezoids)), k, k))
+
+
+def without_a_surface(result: Boundary, rng: random.Random) -> Boundary:
+    component = result.complex.component
+    return rows(result, np.flatnonzero(component != rng.choice(component.tolist())))
+
+
+def with_a_surface_twice(result: Boundary, rng: random.Random) -> Boundary:
+    times = 1 + (result.complex.component == rng.choice(result.complex.component.tolist()))
+    return rows(result, np.repeat(np.arange(len(result.trapezoids)), times))
+
+
+def in_the_other_chart(result: Boundary, rng: random.Random) -> Boundary:
+    k = rng.randrange(len(result.trapezoids))
+    return column(result, "chart", k, 1 - result.trapezoids.chart[k])
+
+
+def with_another_curve(result: Boundary, rng: random.Random) -> Boundary:
+    name, k = rng.choice(["lower", "upper"]), rng.randrange(len(result.trapezoids))
+    codes = getattr(result.trapezoids, name)
+    others = codes[codes != codes[k]]
+    return column(result, name, k, others[rng.randrange(len(others))])
+
+
+def with_curves_exchanged(result: Boundary, rng: random.Random) -> Boundary:
+    k, t = rng.randrange(len(result.trapezoids)), result.trapezoids
+    return column(column(result, "lower", k, t.upper[k]), "upper", k, t.lower[k])
+
+
+def on_the_other_branch(result: Boundary, rng: random.Random) -> Boundary:
+    """Only curves with a branch: kinds 1 to 3, and bits 1 or 3."""
+    codes = result.trapezoids.lower
+    (with_branch,) = np.nonzero(((codes >> 61) < 4) & ((codes >> 59 & 1) == 1))
+    k = int(rng.choice(with_branch.tolist()))
+    return column(result, "lower", k, codes[k] ^ np.uint64(2 << 59))
+
+
+def with_a_shorter_angle(result: Boundary, rng: random.Random) -> Boundary:
+    """It ends where another trapezoid of the chart does."""
+    t, k = result.trapezoids, rng.randrange(len(result.trapezoids))
+    (others,) = np.nonzero((t.chart == t.chart[k]) & (t.to_lo != t.to_lo[k]))
+    other = int(rng.choice(others.tolist()))
+    names = [f"to_{name}" for name in ("first", "second", "lo", "hi", "place")]
+    table = {name: np.array(getattr(t, name)) for name in names}
+    for name in names:
+        table[name][k] = table[name][other]
+    return changed(result, table)
+
+
+def with_a_moved_interval(result: Boundary, rng: random.Random) -> Boundary:
+    t = result.trapezoids
+    (named,) = np.nonzero(t.from_first > 0)
+    k = int(rng.choice(named.tolist()))
+    return column(column(result, "from_lo", k, t.from_lo[k] + 1e-7), "from_hi", k, t.from_hi[k] + 1e-7)
+
+
+def on_another_quadrant(result: Boundary, rng: random.Random) -> Boundary:
+    kind = np.array(result.contact_kind)
+    live = np.unique(result.trapezoids.patch)
+    patch = int(rng.choice(live[kind[live] & 15 == 3].tolist()))
+    kind[patch] = (kind[patch] + 16) % 64
+    return changed(result, {}, kind)
+
+
+MUTANTS: list[Callable[[Boundary, random.Random], Boundary]] = [
+    dropped, doubled, without_a_surface, with_a_surface_twice, in_the_other_chart, with_another_curve,
+    with_curves_exchanged, on_the_other_branch, with_a_shorter_angle, with_a_moved_interval, on_another_quadrant,
+]  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda f: f.__name__)
+def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random], Boundary]) -> None:
+    for seed, scene in enumerate([MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3)]):
+        result, rng = boundary(scene), random.Random(seed)
+        if mutant is on_the_other_branch and seed in (0, 2):
+            continue  # no lower curve has one
+        for _ in range(3):
+            found = cfree.verify.boundary(mutant(result, rng), scene, slices=3)
+            assert not found.verified, (mutant.__name__, seed)
+
+
+def test_a_trapezoid_that_is_left_out_is_refuted() -> None:
+    result = cfree.verify.boundary(dropped(boundary(MIXED), random.Random(1)), MIXED, slices=2)
+    assert {finding.kind for finding in result.findings} >= {"closed surfaces"}
