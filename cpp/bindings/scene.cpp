@@ -67,7 +67,7 @@ void bind_scene(nb::module_& m) {
         .def_prop_ro("makes_surfaces",
                      [](const cfree::Shape& s) {  // of the edges of rings: false for stubs, and for a point
                          std::vector<char> makes;
-                         for (Index e = 0; e < s.ring_vertices; ++e) makes.push_back(s.makes_surfaces(e));
+                         for (cfree::Index e = 0; e < s.ring_vertices; ++e) makes.push_back(s.makes_surfaces(e));
                          return flags(makes);
                      })
         .def_prop_ro("convex", [](const cfree::Shape& s) { return flags(s.convex); })
