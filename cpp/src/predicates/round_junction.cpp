@@ -38,7 +38,7 @@ LongRoot& RoundJunction::here() {
 
 template <class F>
 int RoundJunction::sign(const F& form) {
-    const Bounds near = Between{lo, hi, kappa}(form.template operator()<Ball>(RoundSurfaces<Ball>(scene)));
+    const Bounds near = Between{lo, hi, kappa}(form.template operator()<Approx>(RoundSurfaces<Approx>(scene)));
     if (near.lo > 0) return 1;
     if (near.hi < 0) return -1;
     return sign_at(AsSurdPoly{kappa}(form.template operator()<RootSum>(RoundSurfaces<RootSum>(scene))), here());
@@ -64,7 +64,7 @@ int RoundJunction::parallel(const Feature& x, const Feature& y) {
 // Left of x's line, |U| times the distance of y's: the outward normals are equal, or opposite.
 template <class K>
 static Trig<K> offset_of_parallel(const RoundSurfaces<K>& of, const Feature& x, const Feature& y, int along) {
-    return of.offset(x, y) - K(along) * of.rho(y) * of.length(x);
+    return of.offset(x, y) - whole<K>(along) * of.rho(y) * of.length(x);
 }
 
 int RoundJunction::side(const Feature& x, const Feature& y) {
@@ -74,7 +74,7 @@ int RoundJunction::side(const Feature& x, const Feature& y) {
 }
 
 Interval RoundJunction::offset(const Feature& x, const Feature& y) const {
-    const RoundSurfaces<Ball> of(scene);
+    const RoundSurfaces<Approx> of(scene);
     const Bounds dot_of = Between{lo, hi, kappa}(dot(of.along(x), of.along(y)));
     if (!(dot_of.lo > 0 || dot_of.hi < 0)) return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     const Bounds found = Between{lo, hi, kappa}(offset_of_parallel(of, x, y, dot_of.lo > 0 ? 1 : -1));
@@ -112,11 +112,14 @@ template <class K, class Ring>
 auto RoundJunction::place(const Feature& surface, const Spot& p, int axis, const Ring& in) const {
     const RoundSurfaces<K> of(scene);
     const auto constant = [&](const K& k) { return in(RoundSurfaces<K>::constant(k)); };
-    using V = decltype(constant(K(1)));
+    using V = decltype(constant(whole<K>(1)));
     const auto own = [&]() -> CurvePlace<V> {
         if (!p.given) return place_of_curve<K>(scene, p.on, p.curve, axis, in);
-        const V zero = in.number(K(0));
-        if constexpr (std::is_same_v<K, Ball>) return {constant(ball(p.given->n, 0)), zero, zero, constant(ball(p.given->d, 0)), false};
+        const V zero = in.number(whole<K>(0));
+        if constexpr (std::is_same_v<K, Approx>) {
+            const double t = ratio(p.given->n, p.given->d);
+            return {constant(Approx{t, std::abs(t)}), zero, zero, constant(whole<K>(1)), false};
+        } else if constexpr (std::is_same_v<K, Ball>) return {constant(ball(p.given->n, 0)), zero, zero, constant(ball(p.given->d, 0)), false};
         else return {constant(K(p.given->n)), zero, zero, constant(K(p.given->d)), false};
     };
     CurvePlace<V> result = own();
@@ -155,7 +158,7 @@ CurvePlace<SurdPoly> RoundJunction::place_exactly(const Feature& surface, const 
 Interval RoundJunction::range(const Feature& surface, const Spot& p) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (p.jumps || p.is_limit) return {-infinity, infinity};
-    const auto found = range_of(place<Ball>(surface, p, 0, Between{lo, hi, kappa}));
+    const auto found = range_of(place<Approx>(surface, p, 0, Between{lo, hi, kappa}));
     return found ? Interval{found->lo, found->hi} : Interval{-infinity, infinity};
 }
 
@@ -179,8 +182,8 @@ int RoundJunction::order(const Feature& surface, const Spot& p, const Spot& q) {
     if (p.code == q.code && !p.given && !q.given && !p.jumps && code(scene, p.on) == code(scene, q.on)) return 0;
     if (!p.jumps && !p.is_limit && !q.jumps && !q.is_limit)
         for (int axis = 0; axis < (is_circle(surface) && !p.given && !q.given ? 2 : 1); ++axis) {
-            const auto first = range_of(place<Ball>(surface, p, axis, Between{lo, hi, kappa}));
-            const auto second = range_of(place<Ball>(surface, q, axis, Between{lo, hi, kappa}));
+            const auto first = range_of(place<Approx>(surface, p, axis, Between{lo, hi, kappa}));
+            const auto second = range_of(place<Approx>(surface, q, axis, Between{lo, hi, kappa}));
             if (first && second && first->hi < second->lo) return -1;
             if (first && second && second->hi < first->lo) return 1;
         }

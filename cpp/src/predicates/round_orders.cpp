@@ -48,20 +48,26 @@ std::optional<int> sign_of_difference(const Ball& a, const Ball& b, const Ball& 
 }  // namespace
 
 int RoundOrders::compare_radius(const Feature& circle) const {
-    const RoundSurfaces<RootSum> of(scene);
-    return (of.rho(surface.contact) - of.rho(circle)).sign();
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index own[] = {A.vertex_radius[surface.contact.robot], O.vertex_radius[surface.contact.obstacle]};
+    const Index other[] = {A.vertex_radius[circle.robot], O.vertex_radius[circle.obstacle]};
+    if (own[0] == other[0] || own[1] == other[1]) {  // classes rise
+        const Index difference = own[0] - other[0] + own[1] - other[1];
+        return (difference > 0) - (difference < 0);
+    }
+    return (rho<Int>(scene, own[0], own[1]) - rho<Int>(scene, other[0], other[1])).sign();
 }
 
 std::array<double, 2> RoundOrders::range(const Feature& f, double lo, double hi) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto found = range_of(place<Ball>(f, 0, Between{lo, hi, kappa}));
+    const auto found = range_of(place<Approx>(f, 0, Between{lo, hi, kappa}));
     return found ? std::array{found->lo, found->hi} : std::array{-infinity, infinity};
 }
 
 int RoundOrders::order_on(const Feature& p, const Feature& q, double lo, double hi) const {
     const Between in{lo, hi, kappa};
     for (int axis = 0; axis < (is_line(surface.contact) ? 1 : 2); ++axis) {
-        const auto first = range_of(place<Ball>(p, axis, in)), second = range_of(place<Ball>(q, axis, in));
+        const auto first = range_of(place<Approx>(p, axis, in)), second = range_of(place<Approx>(q, axis, in));
         if (first && second && first->hi < second->lo) return -1;
         if (first && second && second->hi < first->lo) return 1;
     }
@@ -87,6 +93,8 @@ RoundOrders::Difference RoundOrders::difference(const Feature& p, const Feature&
 }
 
 int RoundOrders::order_at(const Feature& p, const Feature& q, const Dyadic& tau) const {
+    if (const int sign = order_on(p, q, tau.rounded_down(), tau.rounded_up()); sign != 0) return sign;
+    if (const auto sign = order_in_balls(p, q, ball(tau.n, static_cast<int>(tau.k)))) return *sign;
     const Difference d = difference(p, q);
     return sign_at(d.value, tau) * sign_at(d.first, tau) * sign_at(d.second, tau);
 }
@@ -101,16 +109,19 @@ int RoundOrders::turn(const Feature& f, const Feature& g, const Dyadic& tau) con
         const auto direction = [&](const Feature& to) { return to.kind == Kind::seam ? quarter_turn(of.axis(to.branch)) : of.along(to); };
         return cross(direction(f), direction(g));
     };
+    const Bounds quick = Between{tau.rounded_down(), tau.rounded_up(), kappa}(form(RoundSurfaces<Approx>(scene)));
+    if (quick.lo > 0 || quick.hi < 0) return quick.lo > 0 ? 1 : -1;
     const Ball near = InBalls(ball(tau.n, static_cast<int>(tau.k)), kappa)(form(RoundSurfaces<Ball>(scene)));
     if (const auto sign = certain_sign(near)) return *sign;
     return sign_at(AsSurdPoly{kappa}(form(RoundSurfaces<RootSum>(scene))), tau);
 }
 
 int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Dyadic& tau) const {
-    const auto in_balls = place<Ball>(curve, axis, InBalls(Ball(tau.rounded_down()), kappa));
-    const bool is_double = compare(Dyadic::from(tau.rounded_down()), tau) == 0;
+    if (const auto range = range_of(place<Approx>(curve, axis, Between{tau.rounded_down(), tau.rounded_up(), kappa})))
+        if (range->lo > 0 || range->hi < 0) return range->lo > 0 ? 1 : -1;
+    const auto in_balls = place<Ball>(curve, axis, InBalls(ball(tau.n, static_cast<int>(tau.k)), kappa));
     const auto sign = sign_of_difference(in_balls.a, in_balls.b, in_balls.d, {}, {}), below = certain_sign(in_balls.c);
-    if (is_double && sign && below) return *sign * *below;
+    if (sign && below) return *sign * *below;
     const auto x = place<RootSum>(curve, axis, AsSurdPoly{kappa});
     return sign_at(Radicals{x.a, x.b, x.d, {}, {}, {}}, tau) * sign_at(x.c, tau);
 }
@@ -128,7 +139,7 @@ Trig<K> RoundOrders::joint_direction(const Feature& line, const Feature& circle)
     return is_line(x) ? cross(of.along(x), of.along(line)) : -dot(of.between(circle, x), of.along(line));
 }
 std::optional<int> RoundOrders::joint_branch(const Feature& line, const Feature& circle, double lo, double hi) const {
-    const Bounds range = Between{lo, hi, kappa}(joint_direction<Ball>(line, circle));
+    const Bounds range = Between{lo, hi, kappa}(joint_direction<Approx>(line, circle));
     return range.lo > 0 ? std::optional(1) : range.hi < 0 ? std::optional(-1) : std::nullopt;
 }
 int RoundOrders::joint_branch(const Feature& line, const Feature& circle, LongRoot& root) const {
@@ -149,14 +160,20 @@ std::optional<Trig<K>> RoundOrders::quadratic(const Feature& first, const Featur
 template <class K, class Ring>
 auto RoundOrders::event(const Feature& first, const Feature& second, const Ring& in) const {
     if (const auto trig = quadratic<K>(first, second)) return in(*trig);
-    return meeting(RoundSurfaces<K>(scene), surface.contact, first, second, in);
+    return sum_of(meeting(RoundSurfaces<K>(scene), surface.contact, first, second), in);
 }
 
-std::optional<Filtered> RoundOrders::filtered(const Feature& first, const Feature& second) const {
-    constexpr double error = 0x1p-45;  // of at most 200 roundings
-    const auto f = quadratic<Approx>(first, second);
-    if (!f) return {};
-    return Filtered{f->a.v, kappa * f->b.v, kappa * f->c.v, error * (f->a.m + f->b.m + f->c.m) + tiny};
+RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {
+    RoundForm result;
+    if (const auto f = quadratic<Approx>(first, second)) {
+        result.p = filtered_round(*f, kappa);
+        return result;
+    }
+    const Products<Approx> all = meeting(RoundSurfaces<Approx>(scene), surface.contact, first, second);
+    result.degree = all.degree;
+    for (int i = 0; i < all.factor_count; ++i) result.factors.push_back(filtered_round(all.factors[static_cast<std::size_t>(i)], kappa));
+    for (int t = 0; t < all.term_count; ++t) result.terms.push_back(all.terms[static_cast<std::size_t>(t)]);
+    return result;
 }
 
 Coefficients<Ball> RoundOrders::in_balls(const Feature& first, const Feature& second) const {

@@ -12,13 +12,13 @@ class RoundOrders {
 public:
     RoundOrders(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
 
-    // Sign of p - q if it is certainly the same everywhere between two angles, else 0.
+    // Sign of p - q if it is certainly the same everywhere between two angles, else 0; in doubles.
     int order_on(const Feature& p, const Feature& q, double lo, double hi) const;
     // Sign of the radius of the surface, a circle, minus that of another one.
     int compare_radius(const Feature& circle) const;
     // Bounds of a curve's place between two angles, or of all.
     std::array<double, 2> range(const Feature& curve, double lo, double hi) const;
-    // Sign of p - q at a sample, in balls if that is certain.
+    // Sign of p - q at an angle, in balls if that is certain; and at a sample.
     std::optional<int> order_in_balls(const Feature& p, const Feature& q, const Ball& tau) const;
     int order_at(const Feature& p, const Feature& q, const Dyadic& tau) const;
     // True if the two curves meet at a root of the polynomial of their surfaces.
@@ -36,8 +36,7 @@ public:
     int coordinate_sign(const Feature& curve, int axis, const Dyadic& tau) const;
 
     // Polynomial of an event's features, times a power of 1 + tau^2.
-    // The same in doubles, if it is a quadratic.
-    std::optional<Filtered> filtered(const Feature& first, const Feature& second) const;
+    RoundForm form(const Feature& first, const Feature& second) const;  // in doubles
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
     SurdPoly exactly(const Feature& first, const Feature& second) const;
 

@@ -23,8 +23,8 @@ Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, con
 }
 
 int Predicates::event_sign(const Feature& first, const Feature& second, const Sample& at) {
-    if (const auto f = at.fine ? std::nullopt : RoundOrders(scene, surface).filtered(first, second))
-        if (const int sign = sign_on(*f, at.tau, at.tau); sign != 0) return ++counters.filter, sign;
+    if (!at.fine)
+        if (const int sign = RoundOrders(scene, surface).form(first, second).sign(at.tau); sign != 0) return ++counters.filter, sign;
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(coefficients<Ball>(first, second), at.ball());
         else return cfree::sign_at(RoundOrders(scene, surface).exactly(first, second), at.exact());
@@ -35,13 +35,17 @@ Predicates::Roots Predicates::event_roots(const Feature& first, const Feature& s
 }
 
 int Predicates::event_sign_on(const Feature& first, const Feature& second, double lo, double hi) const {
-    if (const auto f = RoundOrders(scene, surface).filtered(first, second))
-        if (const int sign = sign_on(*f, lo, hi); sign != 0) return sign;
+    int sign[7];
+    const auto common = [&](int degree) {  // if there is one
+        const bool is_one = std::all_of(sign, sign + degree + 1, [&](int s) { return s == sign[0]; });
+        return is_one ? sign[0] : 0;
+    };
+    const RoundForm form = RoundOrders(scene, surface).form(first, second);
+    form.signs(lo, hi, sign);
+    if (std::find(sign, sign + form.degree + 1, 0) == sign + form.degree + 1) return common(form.degree);
     const Balls p(coefficients<Ball>(first, second));
-    int sign[7], sum = 0;
     p.signs(lo, hi, sign);
-    for (int i = 0; i <= p.degree; ++i) sum += sign[i];
-    return std::abs(sum) <= p.degree ? 0 : sum > 0 ? 1 : -1;
+    return common(p.degree);
 }
 
 LongRoot Predicates::long_root_of(const Event& x) const {
@@ -99,6 +103,8 @@ Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, 
     }
     const Roots all = roots({}, p, q, from, to);
     const auto sign_at_sample = [&](const Sample& at) {
+        if (!at.fine)
+            if (const int sign = orders.order_on(p, q, at.tau, at.tau); sign != 0) return ++counters.filter, sign;
         if (const auto sign = orders.order_in_balls(p, q, at.ball())) return ++counters.interval, *sign;
         return ++counters.exact, orders.order_at(p, q, at.exact());
     };
