@@ -92,10 +92,12 @@ RoundOrders::Difference RoundOrders::difference(const Feature& p, const Feature&
     return {{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}}, x.c, y.c};
 }
 
-int RoundOrders::order_at(const Feature& p, const Feature& q, const Dyadic& tau) const {
-    if (const int sign = order_on(p, q, tau.rounded_down(), tau.rounded_up()); sign != 0) return sign;
-    if (const auto sign = order_in_balls(p, q, ball(tau.n, static_cast<int>(tau.k)))) return *sign;
+int RoundOrders::order_at(const Feature& p, const Feature& q, const Sample& at) const {
+    const Between near = around(at);
+    if (const int sign = order_on(p, q, near.lo, near.hi); sign != 0) return sign;
+    if (const auto sign = order_in_balls(p, q, at.ball())) return *sign;
     const Difference d = difference(p, q);
+    const Dyadic tau = at.exact();
     return sign_at(d.value, tau) * sign_at(d.first, tau) * sign_at(d.second, tau);
 }
 
@@ -104,25 +106,42 @@ int RoundOrders::order_at(const Feature& p, const Feature& q, LongRoot& root) co
     return sign_at(d.value, root) * sign_at(d.first, root) * sign_at(d.second, root);
 }
 
-int RoundOrders::turn(const Feature& f, const Feature& g, const Dyadic& tau) const {
-    const auto form = [&]<class K>(const RoundSurfaces<K>& of) {  // of both, a quarter turn on
-        const auto direction = [&](const Feature& to) { return to.kind == Kind::seam ? quarter_turn(of.axis(to.branch)) : of.along(to); };
-        return cross(direction(f), direction(g));
+int RoundOrders::turn(const Feature& f, const Feature& g, const Sample& at) const {
+    if (f.kind == g.kind && (f.kind == Kind::vertex_edge ? f.obstacle == g.obstacle : f.kind == Kind::edge_vertex && f.robot == g.robot))
+        return 0;
+    // Directions times w = 1 + tau^2 <= 2: with magnitudes m of both coordinates together they are within 8 u m of the truth.
+    struct Direction {
+        double x, y, m;
     };
-    const Bounds quick = Between{tau.rounded_down(), tau.rounded_up(), kappa}(form(RoundSurfaces<Approx>(scene)));
-    if (quick.lo > 0 || quick.hi < 0) return quick.lo > 0 ? 1 : -1;
-    const Ball near = InBalls(ball(tau.n, static_cast<int>(tau.k)), kappa)(form(RoundSurfaces<Ball>(scene)));
-    if (const auto sign = certain_sign(near)) return *sign;
-    return sign_at(AsSurdPoly{kappa}(form(RoundSurfaces<RootSum>(scene))), tau);
+    const double cosine = kappa * (1 - at.tau * at.tau), sine = 2 * kappa * at.tau;
+    const auto direction = [&](const Feature& to) -> Direction {
+        constexpr double unit[] = {1, 0, -1, 0};
+        if (to.kind == Kind::seam) return {-unit[(to.branch + 3) & 3], unit[to.branch & 3], 1};
+        if (to.kind == Kind::vertex_edge) {
+            const auto E = edge<Approx>(scene.obstacles, to.obstacle);
+            return {E.x.v, E.y.v, E.x.m + E.y.m};
+        }
+        const auto E = edge<Approx>(scene.robot, to.robot);
+        return {sine * E.y.v - cosine * E.x.v, -sine * E.x.v - cosine * E.y.v, 4 * (E.x.m + E.y.m)};
+    };
+    const Direction d = direction(f), e = direction(g);
+    if (const double value = d.x * e.y - d.y * e.x; std::abs(value) > 0x1p-46 * (d.m * e.m) + tiny) return value > 0 ? 1 : -1;
+    const auto form = [&]<class K>(const RoundSurfaces<K>& of) {  // of both, a quarter turn on
+        const auto along = [&](const Feature& to) { return to.kind == Kind::seam ? quarter_turn(of.axis(to.branch)) : of.along(to); };
+        return cross(along(f), along(g));
+    };
+    if (const auto sign = certain_sign(InBalls(at.ball(), kappa)(form(RoundSurfaces<Ball>(scene))))) return *sign;
+    return sign_at(AsSurdPoly{kappa}(form(RoundSurfaces<RootSum>(scene))), at.exact());
 }
 
-int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Dyadic& tau) const {
-    if (const auto range = range_of(place<Approx>(curve, axis, Between{tau.rounded_down(), tau.rounded_up(), kappa})))
+int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Sample& at) const {
+    if (const auto range = range_of(place<Approx>(curve, axis, around(at))))
         if (range->lo > 0 || range->hi < 0) return range->lo > 0 ? 1 : -1;
-    const auto in_balls = place<Ball>(curve, axis, InBalls(ball(tau.n, static_cast<int>(tau.k)), kappa));
+    const auto in_balls = place<Ball>(curve, axis, InBalls(at.ball(), kappa));
     const auto sign = sign_of_difference(in_balls.a, in_balls.b, in_balls.d, {}, {}), below = certain_sign(in_balls.c);
     if (sign && below) return *sign * *below;
     const auto x = place<RootSum>(curve, axis, AsSurdPoly{kappa});
+    const Dyadic tau = at.exact();
     return sign_at(Radicals{x.a, x.b, x.d, {}, {}, {}}, tau) * sign_at(x.c, tau);
 }
 
@@ -161,6 +180,26 @@ template <class K, class Ring>
 auto RoundOrders::event(const Feature& first, const Feature& second, const Ring& in) const {
     if (const auto trig = quadratic<K>(first, second)) return in(*trig);
     return sum_of(meeting(RoundSurfaces<K>(scene), surface.contact, first, second), in);
+}
+
+bool RoundOrders::are_proportional(const Event& x, const Event& y) const {
+    // true if all minors are zero; nothing if that is not certain
+    const auto answer = [&]<class K>(const auto& sign) -> std::optional<bool> {
+        const auto f = quadratic<K>(x.first, x.second), g = quadratic<K>(y.first, y.second);
+        if (!f || !g) return false;
+        bool is_certain = true;
+        for (const K& minor : {f->a * g->b - f->b * g->a, f->a * g->c - f->c * g->a, f->b * g->c - f->c * g->b}) {
+            const std::optional<int> found = sign(minor);
+            if (found && *found != 0) return false;
+            is_certain &= found.has_value();
+        }
+        return is_certain ? std::optional(true) : std::nullopt;
+    };
+    const auto by_doubles = answer.template operator()<Approx>(
+        [](const Approx& v) { return std::abs(v.v) > 2 * round_error * v.m + tiny ? std::optional(1) : std::nullopt; });
+    if (by_doubles) return *by_doubles;
+    if (const auto by_balls = answer.template operator()<Ball>([](const Ball& v) { return certain_sign(v); })) return *by_balls;
+    return *answer.template operator()<RootSum>([](const RootSum& v) { return std::optional(v.sign()); });
 }
 
 RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {

@@ -75,6 +75,24 @@ struct CurvePlace {
     bool has_root;
 };
 
+// t = N / D at which one line meets another.
+template <class K>
+std::array<Trig<K>, 2> place_of_line(const RoundSurfaces<K>& of, const Feature& x, const Feature& f) {
+    const auto U = of.along(x), V = of.along(f);
+    const K square = of.square_of_length(x);
+    return {of.rho(x) * of.length(x) * dot(V, U) - square * of.offset(f, x), square * cross(V, U)};
+}
+
+// The same where the two lines are one, as a limit: N and D are zero there.
+template <class K, class Ring>
+auto limit_of_line(const Scene& scene, const Feature& x, const Feature& f, const Ring& in) {
+    using V = decltype(in.number(whole<K>(0)));
+    const V zero = in.number(whole<K>(0));
+    const auto slope = [&](const Trig<K>& g) { return in(Trig<K>{whole<K>(0), g.c, -g.b}); };
+    const auto [N, D] = place_of_line(RoundSurfaces<K>(scene), x, f);
+    return CurvePlace<V>{slope(N), zero, zero, slope(D), false};
+}
+
 // Place of a curve f on a surface x: t on a line; on a circle a coordinate of u that grows counter-clockwise over the quadrant,
 // along the axis at its end (axis 0), or against that at its beginning (1).
 template <class K, class Ring>
@@ -93,9 +111,8 @@ auto place_of_curve(const Scene& scene, const Feature& x, const Feature& f, int 
             return CurvePlace<V>{constant(whole<K>(at_end ? 1 : 0)), zero, zero, w, false};
         }
         if (is_line(f)) {
-            const auto V_ = of.along(f);
-            const auto N = of.rho(x) * of.length(x) * dot(V_, U) - square * of.offset(f, x);
-            return CurvePlace<V>{in(N), zero, zero, in(square * cross(V_, U)), false};
+            const auto [N, D] = place_of_line(of, x, f);
+            return CurvePlace<V>{in(N), zero, zero, in(D), false};
         }
         const K sigma = of.rho(f);
         const V M = in(of.offset(x, f));

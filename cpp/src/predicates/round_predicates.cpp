@@ -77,6 +77,27 @@ Event Predicates::restored_round(Event x, int place) {
     return x;
 }
 
+// True if two angles are roots of one polynomial: by their names, in which branches of curves do not matter, or as their quadratics
+// are equal up to a factor.
+bool Predicates::is_same_round(const Event& x, const Event& y) const {
+    struct Names {
+        Code first, second;
+    };
+    const auto names = [&](const Event& e) -> Names {
+        Feature first = e.first, second = e.second;
+        if (second.kind != Kind::none && !(is_circle(second) && second.branch == 2)) {
+            if (first.kind != Kind::seam) first.branch = 0;
+            if (second.kind != Kind::seam) second.branch = 0;
+        }
+        return {code(scene, first), code(scene, second)};
+    };
+    const Names p = names(x), q = names(y);
+    if (p.first == q.first && p.second == q.second) return true;
+    const bool are_curves = x.second.kind != Kind::none && y.second.kind != Kind::none;
+    if (are_curves && p.first == q.second && p.second == q.first) return true;
+    return RoundOrders(scene, surface).are_proportional(x, y);
+}
+
 // True if two curves meet at a root of the polynomial of the three surfaces: if another branch does, they do not.
 bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) const {
     const RoundOrders orders(scene, surface);
@@ -106,7 +127,7 @@ Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, 
         if (!at.fine)
             if (const int sign = orders.order_on(p, q, at.tau, at.tau); sign != 0) return ++counters.filter, sign;
         if (const auto sign = orders.order_in_balls(p, q, at.ball())) return ++counters.interval, *sign;
-        return ++counters.exact, orders.order_at(p, q, at.exact());
+        return ++counters.exact, orders.order_at(p, q, at);
     };
     if (all.all_zero) {  // a branch of the one meets a branch of the other everywhere
         for (int attempt = 0; attempt < 3 && result.sign[0] == 0; ++attempt) result.sign[0] = sign_at_sample(between(from, to, attempt));
