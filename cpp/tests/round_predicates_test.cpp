@@ -58,7 +58,7 @@ static void orders_agree_with_long_doubles() {
             if (piece < found.at.size() && found.at[piece].lo <= tau) continue;
             CHECK(found.sign[piece] == sign);
             if (n % 16 == 0) {
-                CHECK(orders.order_at(p, q, Dyadic::from(tau)) == sign);
+                CHECK(orders.order_at(p, q, Sample{tau, {}}) == sign);
                 const auto in_balls = orders.order_in_balls(p, q, Ball(tau));
                 CHECK(!in_balls || *in_balls == sign);
             }

@@ -82,7 +82,8 @@ void LevelGluer<At>::glue(Index rank, std::span<const Index> sides) {
     At at = [&] {
         const double lo = angles.lo(rank, chart), hi = angles.hi(rank, chart);
         if constexpr (is_round)
-            return At(scene, chart, lo, hi, [&] { return angles.critical(rank, chart).exact_among_grown(scene); });
+            return At(scene, chart, lo, hi, [&] { return angles.critical(rank, chart).exact_among_grown(scene); },
+                      [&] { return angles.critical(rank, chart).bracket(scene); });
         else
             return At(scene, chart, lo, hi, [&] { return angles.critical(rank, chart).exact(scene); },
                       [&] { return angles.critical(rank, chart).bracket(scene); });
@@ -95,7 +96,9 @@ void LevelGluer<At>::glue(Index rank, std::span<const Index> sides) {
         const CriticalAngle angle = is_above ? angle_from(on, trapezoids, k) : angle_to(on, trapezoids, k);
         if constexpr (!is_round) know(at, scene, angle);
         else if (angle.first.kind == Kind::edge_edge) at.know_parallel(angle.first.robot, angle.first.obstacle);
-        else if (angle.second.kind != Kind::none) at.know_meeting(on.contact, angle.first, angle.second);
+        else if (angle.second.kind == Kind::none && angle.first.kind != Kind::none) at.know_touch(on.contact, angle.first);
+        else if (angle.second.kind != Kind::none && angle.place == 0)
+            at.know_meeting(on.contact, angle.first, angle.second, angle.lo, angle.hi);
         const Code low = code(scene, unpacked(trapezoids.lower[k])), high = code(scene, unpacked(trapezoids.upper[k]));
         levels.push_back({k, is_above, on.contact, low, high, 0, 0, 1, 0, 0});
     }

@@ -80,7 +80,8 @@ PlacedPose place_of(const Boundary& boundary, Index k, Side side, double start) 
     if (side == Side::upper || side == Side::lower) {
         const Feature curve = unpacked((side == Side::upper ? trapezoids.upper : trapezoids.lower)[k]);
         if (scene.is_round) {
-            RoundJunction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact_among_grown(scene); });
+            RoundJunction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact_among_grown(scene); },
+                             [&, in = chart] { return angles.critical(rank, in).bracket(scene); });
             t = at.value(contact, at.spot(contact, curve, rank == angles.from[k]));
         } else {
             const Junction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact(scene); },

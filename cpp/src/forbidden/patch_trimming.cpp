@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "forbidden/round_shadows.hpp"
 #include "forbidden/round_trim.hpp"
 
 namespace cfree {
@@ -126,6 +127,7 @@ void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vect
     const Range range = range_of(scene, contact, count.decisions);
     const std::size_t before = out.size();
     const std::vector<Index> edges = owners.edges_at(contact.obstacle);
+    RoundShadows shadows(scene, contact, near.pieces());
     for (int r = 0; r < range.count; ++r) {
         RoundTrimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r], edges);
         for (const Feature& owner : before_it) {
@@ -136,12 +138,16 @@ void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vect
                 else trimmer.cede(owner, shared.from[s], shared.to[s]);
             }
         }
-        for (const Index k : near.pieces())
+        if (!trimmer.empty()) shadows.cut(range.chart[r], range.from[r].lo, range.to[r].hi);
+        for (std::size_t n = 0; n < near.pieces().size(); ++n)
             for (Index p = 0; p < scene.robot.pieces() && !trimmer.empty(); ++p) {
-                if (scene.robot.piece_layer[p] != scene.obstacles.piece_layer[k]) continue;
+                const Index k = near.pieces()[n];
+                if (scene.robot.piece_layer[p] != scene.obstacles.piece_layer[k] || shadows.is_own(p, n)) continue;
+                const Slices::Part part = shadows.part(p, n);
+                if (part.empty()) continue;
                 ++count.pairs;
                 heed_stop();
-                trimmer.cover(p, k);
+                trimmer.cover(p, k, shadows.slices, part);
             }
         trimmer.finish(patch, out, thin);
         count.decisions += trimmer.decide.counters;

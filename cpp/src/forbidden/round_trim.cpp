@@ -30,7 +30,7 @@ std::array<Feature, 2> RoundTrimmer::quadrant() const {
 }
 
 // The same, or the joints that are in them at every angle.
-std::array<Feature, 2> RoundTrimmer::ends_of_quadrant(const Dyadic& at) const {
+std::array<Feature, 2> RoundTrimmer::ends_of_quadrant(const Sample& at) const {
     const auto seams = quadrant();
     auto limits = seams;
     for (const int end : {0, 1})
@@ -51,6 +51,14 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     std::vector<std::array<Feature, 2>> cones;  // first and last direction
     if (O.has_extent(j)) cones.push_back({Feature{Kind::vertex_edge, i, O.previous[j]}, Feature{Kind::vertex_edge, i, j}});
     if (A.has_extent(i)) cones.push_back({Feature{Kind::edge_vertex, A.previous[i], j}, Feature{Kind::edge_vertex, i, j}});
+    if (O.has_extent(j)) {  // a cone that does not turn
+        const auto& [first, last] = cones[0];
+        const Sample any{events[0].lo, {}};
+        const auto is_between = [&](const Feature& from, const Feature& at, const Feature& to) {
+            return orders.turn(from, at, any) >= 0 && orders.turn(at, to, any) >= 0;
+        };
+        if (!is_between(seams[0], first, seams[1]) && !is_between(first, seams[0], last)) return areas;
+    }
     std::vector<Event> cuts;
     const auto add = [&](const Predicates::Roots& roots) { cuts.insert(cuts.end(), roots.at.begin(), roots.at.end()); };
     for (const auto& [first, last] : cones)
@@ -66,7 +74,7 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     for (Index from = 0; const Event& cut : cuts) {
         if (decide.order(events[from], cut) == 0) continue;
         const Index to = intern(cut);
-        const Dyadic at = decide.between(events[from], events[to]).exact();
+        const Sample at = decide.between(events[from], events[to]);
         const auto is_inside = [&](const Feature& line) {
             if (orders.turn(seams[0], line, at) < 0 || orders.turn(line, seams[1], at) < 0) return false;
             return std::all_of(cones.begin(), cones.end(), [&](const auto& cone) {
@@ -92,9 +100,20 @@ void RoundTrimmer::cede_circle(const Feature& owner) {
     for (const Area& area : in_cones(owner)) take({area, -1, -1, nullptr});
 }
 
-void RoundTrimmer::cover(Index p, Index k) {
+void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& part) {
     static const State crossing{Meets::crosses, {}, {}, {}, 0, 0, {}, {}};
-    todo.assign(1, {0, 1});
+    const auto limit = [&](int s) {
+        return s == 0 ? 0 : s == slices.count ? 1 : intern({{}, {}, slices.at[s], slices.at[s]});
+    };
+    // nothing is left before the first part, or after the last one
+    double lo = 2, hi = -2;
+    for (const auto* areas : {&live, &thin})
+        for (const Area& x : *areas) lo = std::min(lo, events[x.from].lo), hi = std::max(hi, events[x.to].hi);
+    int first = part.first, last = part.last;
+    while (first <= last && slices.at[first + 1] < lo) ++first;
+    while (first <= last && slices.at[last] > hi) --last;
+    if (first > last) return;
+    todo.assign(1, {limit(first), limit(last + 1)});
     while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();
@@ -521,8 +540,7 @@ void RoundTrimmer::touch(const Feature& f, const Sample& at, Cover& out) {
             const int sign = sign_of(other, seam, at);
             out.watched.push_back({other, seam, sign, sign == 0});
         }
-        const Dyadic tau = at.exact();
-        if (orders.coordinate_sign(curve[0], 0, tau) <= 0 || orders.coordinate_sign(curve[0], 1, tau) >= 0) return;
+        if (orders.coordinate_sign(curve[0], 0, at) <= 0 || orders.coordinate_sign(curve[0], 1, at) >= 0) return;
     }
     out.touched.push_back(curve);
 }
@@ -531,7 +549,6 @@ void RoundTrimmer::touch(const Feature& f, const Sample& at, Cover& out) {
 void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out) {
     const Feature& x = surface.contact;
     const auto seams = quadrant();
-    const Dyadic tau = at.exact();
     struct Placed {
         Crossing crossing;
         int quadrant;  // quarter turns from the beginning of this one
@@ -548,7 +565,7 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
                 out.watched.push_back({with_branch(other, side), {}, touches, touches == 0});
             }
         }
-        const int ahead = orders.coordinate_sign(c.curve, 0, tau), back = orders.coordinate_sign(c.curve, 1, tau);
+        const int ahead = orders.coordinate_sign(c.curve, 0, at), back = orders.coordinate_sign(c.curve, 1, at);
         placed.push_back({c, ahead >= 0 ? (back <= 0 ? 0 : 1) : (back > 0 ? 2 : 3)});
     }
     if (is_critical) return;
@@ -556,7 +573,7 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
         if (p.quadrant != q.quadrant) return p.quadrant - q.quadrant;
         Surface there = surface;
         there.contact.branch = static_cast<std::int8_t>((x.branch + p.quadrant) & 3);
-        return RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, tau);
+        return RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, at);
     };
     std::sort(placed.begin(), placed.end(), [&](const Placed& p, const Placed& q) {
         const int sign = order(p, q);

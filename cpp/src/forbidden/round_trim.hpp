@@ -14,8 +14,8 @@ public:
     // The part of a patch between two angles of one chart. A quadrant starts with the parts of it that are in the cones of its
     // two vertices; a joint with an edge of obstacles at its centre bounds it also if it is in an end of the quadrant.
     RoundTrimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to, const std::vector<Index>& edges_at_centre);
-    // Subtract the pillar of robot piece p and obstacle piece k.
-    void cover(Index p, Index k);
+    // Subtract the pillar of robot piece p and obstacle piece k, which covers nothing outside these slices.
+    void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
     // Subtract what another pair of vertices with the same circle owns of the quadrant.
     void cede_circle(const Feature& owner);
 
@@ -83,7 +83,7 @@ private:
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);
     std::array<Feature, 2> quadrant() const;
-    std::array<Feature, 2> ends_of_quadrant(const Dyadic& at) const;
+    std::array<Feature, 2> ends_of_quadrant(const Sample& at) const;
     std::vector<Area> in_cones(const Feature& contact);
     bool crosses_at(const Band& band, Index event) override;
     int order_at(Index event, Index p, Index q) override;

@@ -3,7 +3,7 @@
 
 #include "cfree/support/elementary.hpp"
 #include "predicates/close_angles.hpp"
-#include "predicates/form.hpp"
+#include "predicates/round_orders.hpp"
 
 namespace cfree {
 
@@ -133,6 +133,8 @@ Event Predicates::restored(const Event& x, int place) {
 
 bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
     if (scene.is_round) {
+        const RoundForm f = RoundOrders(scene, surface).form(x.first, x.second);
+        if (f.sign(lo) * f.sign(hi) < 0) return true;
         const auto p = coefficients<Ball>(x.first, x.second);
         return cfree::sign_at(p, lo).value_or(0) * cfree::sign_at(p, hi).value_or(0) < 0;
     }
@@ -155,10 +157,11 @@ std::optional<bool> are_proportional(const Coefficients<T>& p, const Coefficient
 // True if two angles are roots of one polynomial by identity of features.
 bool Predicates::same_polynomial(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none || y.first.kind == Kind::none) return false;
+    if (scene.is_round) return is_same_round(x, y);
     const auto same = [&](const Feature& p, const Feature& q) { return same_feature(scene, p, q); };
     if (same(x.first, y.first) && same(x.second, y.second)) return true;
     if (x.second.kind != Kind::none) return same(x.first, y.second) && same(x.second, y.first);
-    if (x.first.kind != Kind::vertex_vertex || y.first.kind != Kind::vertex_vertex || y.second.kind != Kind::none || scene.is_round)
+    if (x.first.kind != Kind::vertex_vertex || y.first.kind != Kind::vertex_vertex || y.second.kind != Kind::none)
         return false;
     // helices at one height above the surface's edge
     const Shape &A = scene.robot, &O = scene.obstacles;

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "predicates/isolation.hpp"
+#include "predicates/round_orders.hpp"
 
 namespace cfree {
 
@@ -179,7 +180,9 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
                                     const Event& to) {
     Candidates all;
     Brackets found;
-    if (!scene.is_round && (isolate_around(f, from.lo, to.hi, found) || double_only)) {
+    const bool is_isolated = scene.is_round ? isolate_around(RoundOrders(scene, surface).form(first, second), from.lo, to.hi, found)
+                                            : isolate_around(f, from.lo, to.hi, found) || double_only;
+    if (is_isolated) {
         ++counters.filter;
         for (const auto& [below, above] : found) all.at.push_back({first, second, below, above});
     } else {

@@ -6,29 +6,137 @@
 #include <stdexcept>
 
 #include "cfree/exact/radicals.hpp"
+#include "predicates/round_orders.hpp"
 
 namespace cfree {
 
-RoundJunction::RoundJunction(const Scene& s, int in, double from, double to, std::function<LongRoot()> number)
-    : scene(s), chart(in), lo(from), hi(to), kappa(in ? -1 : 1), exact(std::move(number)) {}
+RoundJunction::RoundJunction(const Scene& s, int in, double from, double to, std::function<LongRoot()> number,
+                             std::function<std::optional<Predicates::Bracket>()> closely)
+    : scene(s), chart(in), lo(from), hi(to), kappa(in ? -1 : 1), exact(std::move(number)), narrow(std::move(closely)) {}
 
 void RoundJunction::know_parallel(Index g, Index f) { known.insert({0, 0, code(scene, {Kind::edge_edge, g, f})}); }
 
-void RoundJunction::know_meeting(const Feature& on, const Feature& first, const Feature& second) {
+// Names in which branches, and quadrants of circles, do not matter.
+static Code bare_code(const Scene& scene, Feature f) {
+    if (f.kind != Kind::seam) f.branch = 0;
+    return code(scene, f);
+}
+static MeetingNames::Name bare_name(const Scene& scene, const std::array<Feature, 3>& features) {
+    MeetingNames::Name name;
+    for (std::size_t k = 0; k < 3; ++k) name[k] = bare_code(scene, features[k]);
+    std::sort(name.begin(), name.end());
+    return name;
+}
+static std::array<Code, 2> touch_name(const Scene& scene, const Feature& x, const Feature& y) {
+    const Code first = bare_code(scene, x), second = bare_code(scene, y);
+    return {std::min(first, second), std::max(first, second)};
+}
+
+void RoundJunction::know_touch(const Feature& on, const Feature& other) { touching.push_back(touch_name(scene, on, other)); }
+
+void RoundJunction::know_meeting(const Feature& on, const Feature& first, const Feature& second, double from, double to) {
     MeetingNames::Name name{code(scene, on), code(scene, first), code(scene, second)};
     std::sort(name.begin(), name.end());
     known.insert(name);
+    const bool is_foot = is_circle(second) && second.branch == 2;
+    if (!is_foot) meetings.push_back({bare_name(scene, {on, first, second}), from, to});
+}
+
+// True if t is the same on both.
+static bool have_one_edge(const Feature& x, const Feature& y) {
+    return x.kind == y.kind && x.robot == y.robot && x.obstacle == y.obstacle;
+}
+
+// Order of two curves of a surface near this angle, if it is certain, else 0.
+static int order_near(const RoundOrders& orders, const Feature& p, const Feature& q, double tau) {
+    const int sign = orders.order_on(p, q, tau, tau);
+    return sign != 0 ? sign : orders.order_in_balls(p, q, tau).value_or(0);
+}
+
+// True if three surfaces meet here, and so do these two curves: between two angles they go through one another, which they can do
+// only where the three meet; or, if one is smooth with the other, as they do on this branch.
+bool RoundJunction::do_cross(const Spot& p, const Spot& q) const {
+    const Feature& on = p.on;
+    if (!have_one_edge(on, q.on) || on.branch != q.on.branch || p.is_limit || q.is_limit) return false;
+    const auto name = bare_name(scene, {on, p.curve, q.curve});
+    const auto meeting = std::find_if(meetings.begin(), meetings.end(), [&](const Meeting& m) { return m.name == name; });
+    if (meeting == meetings.end()) return false;
+    const double from = meeting->lo, to = meeting->hi;
+    const RoundOrders orders(scene, {on, chart});
+    const Feature &line = is_line(p.curve) ? p.curve : q.curve, &circle = is_line(p.curve) ? q.curve : p.curve;
+    if (is_smooth(scene, line, circle)) {
+        const auto branch = orders.joint_branch(line, circle, from, to);
+        return branch && circle.branch == *branch && (is_line(on) || line.branch == *branch);
+    }
+    for (const Spot* s : {&p, &q}) {
+        const auto x = place_of_curve<Approx>(scene, on, s->curve, 0, Between{from, to, kappa});
+        if (!(x.c.lo > 0 || x.c.hi < 0) || (x.has_root && !(x.d.lo > 0))) return false;
+    }
+    return order_near(orders, p.curve, q.curve, from) * order_near(orders, p.curve, q.curve, to) < 0;
+}
+
+// True if two lines are one here, because edges known to be parallel join their contacts.
+bool RoundJunction::are_one_line(const Feature& x, const Feature& y) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const auto are_parallel = [&](Index g, Index f) { return known.contains({0, 0, code(scene, {Kind::edge_edge, g, f})}); };
+    const auto joins = [](const Shape& s, Index e, Index v, Index w) {
+        return (s.point[s.v[e]] == s.point[v] && s.point[s.w[e]] == s.point[w]) || (s.point[s.v[e]] == s.point[w] && s.point[s.w[e]] == s.point[v]);
+    };
+    if (x.kind != y.kind) {
+        const Feature &ve = x.kind == Kind::vertex_edge ? x : y, &ev = x.kind == Kind::vertex_edge ? y : x;
+        const Feature circle{Kind::vertex_vertex, ve.robot, ev.obstacle};
+        return are_parallel(ev.robot, ve.obstacle) && is_smooth(scene, ve, circle) && is_smooth(scene, ev, circle) && parallel(x, y) > 0;
+    }
+    const bool of_vertex = x.kind == Kind::vertex_edge;
+    const Shape& turning = of_vertex ? A : O;
+    const Index v = of_vertex ? x.robot : x.obstacle, w = of_vertex ? y.robot : y.obstacle;
+    if (of_vertex ? O.line[x.obstacle] != O.line[y.obstacle] : A.line[x.robot] != A.line[y.robot]) return false;
+    if (turning.vertex_radius[v] != turning.vertex_radius[w]) return false;
+    for (const Index e : {v, turning.previous[v]})
+        if (joins(turning, e, v, w) && (of_vertex ? are_parallel(e, x.obstacle) : are_parallel(x.robot, e))) return true;
+    return false;
+}
+
+// True if two places are of one curve here, by names: one surface, or two lines that are one; both branches where it touches.
+bool RoundJunction::are_one_curve(const Spot& p, const Spot& q) {
+    const bool is_one_surface = have_one_edge(p.on, q.on);
+    if (p.is_limit || q.is_limit || (is_circle(p.on) && !is_one_surface)) return false;
+    const auto is_joint = [&](const Spot& s) { return is_smooth(scene, s.on, s.curve) || is_smooth(scene, s.curve, s.on); };
+    const auto have_one_branch = [&] {
+        if (is_joint(p) || is_joint(q) || (is_line(p.on) && is_line(p.curve))) return true;
+        return p.curve.branch == q.curve.branch && (is_one_surface || parallel(p.on, q.on) > 0);
+    };
+    if (p.curve.kind == Kind::seam || q.curve.kind == Kind::seam) return false;
+    if (bare_code(scene, p.curve) != bare_code(scene, q.curve))
+        return is_line(p.curve) && is_line(q.curve) && are_one_line(p.curve, q.curve) && have_one_branch();
+    const auto touches = [&](const Spot& s) {
+        const auto name = touch_name(scene, s.on, s.curve);
+        return std::find(touching.begin(), touching.end(), name) != touching.end();
+    };
+    return have_one_branch() || touches(p) || touches(q);
 }
 
 // True if features that meet here prove two places equal: two curves; joints of a circle with parallel lines, in one quadrant.
 bool RoundJunction::is_known(const Feature& surface, const Spot& p, const Spot& q) const {
     MeetingNames::Name name{code(scene, surface), p.code, q.code};
     std::sort(name.begin(), name.end());
-    if (known.contains(name)) return true;
+    if (known.contains(name) || do_cross(p, q)) return true;
     if (!is_circle(surface) || !is_smooth(scene, p.curve, surface) || !is_smooth(scene, q.curve, surface)) return false;
     if (p.curve.kind == q.curve.kind) return false;
     const Feature &ve = p.curve.kind == Kind::vertex_edge ? p.curve : q.curve, &ev = p.curve.kind == Kind::vertex_edge ? q.curve : p.curve;
     return known.contains({0, 0, code(scene, {Kind::edge_edge, ev.robot, ve.obstacle})});
+}
+
+// A ball around this angle, unless only the exact number gives it.
+std::optional<Ball> RoundJunction::near_ball() {
+    if (lo == hi) return Ball(lo);
+    if (!narrow) return {};
+    if (!bracket) bracket = narrow();
+    if (!*bracket) return {};
+    const auto& [below, above] = **bracket;
+    Ball middle = (below + above) * Ball(0.5);
+    middle.radius = (std::abs(((above - below) * Ball(0.5)).hi) + middle.radius) * (1 + 0x1p-40) + least_radius;
+    return middle;
 }
 
 LongRoot& RoundJunction::here() {
@@ -38,7 +146,7 @@ LongRoot& RoundJunction::here() {
 
 template <class F>
 int RoundJunction::sign(const F& form) {
-    const Bounds near = Between{lo, hi, kappa}(form.template operator()<Ball>(RoundSurfaces<Ball>(scene)));
+    const Bounds near = Between{lo, hi, kappa}(form.template operator()<Approx>(RoundSurfaces<Approx>(scene)));
     if (near.lo > 0) return 1;
     if (near.hi < 0) return -1;
     return sign_at(AsSurdPoly{kappa}(form.template operator()<RootSum>(RoundSurfaces<RootSum>(scene))), here());
@@ -64,7 +172,7 @@ int RoundJunction::parallel(const Feature& x, const Feature& y) {
 // Left of x's line, |U| times the distance of y's: the outward normals are equal, or opposite.
 template <class K>
 static Trig<K> offset_of_parallel(const RoundSurfaces<K>& of, const Feature& x, const Feature& y, int along) {
-    return of.offset(x, y) - K(along) * of.rho(y) * of.length(x);
+    return of.offset(x, y) - whole<K>(along) * of.rho(y) * of.length(x);
 }
 
 int RoundJunction::side(const Feature& x, const Feature& y) {
@@ -74,7 +182,7 @@ int RoundJunction::side(const Feature& x, const Feature& y) {
 }
 
 Interval RoundJunction::offset(const Feature& x, const Feature& y) const {
-    const RoundSurfaces<Ball> of(scene);
+    const RoundSurfaces<Approx> of(scene);
     const Bounds dot_of = Between{lo, hi, kappa}(dot(of.along(x), of.along(y)));
     if (!(dot_of.lo > 0 || dot_of.hi < 0)) return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     const Bounds found = Between{lo, hi, kappa}(offset_of_parallel(of, x, y, dot_of.lo > 0 ? 1 : -1));
@@ -99,12 +207,13 @@ RoundSpot RoundJunction::spot(const Feature& on, const Feature& curve, bool is_a
         result.jumps = are_one_circle(on, circle);
     }
     if (is_line(on) && is_line(curve)) result.is_limit = turn(on, curve) == 0;
+    if (result.is_limit && on.kind != curve.kind) {  // tangents of one circle, which become one, meet in their joint with it
+        const Feature &ve = on.kind == Kind::vertex_edge ? on : curve, &ev = on.kind == Kind::vertex_edge ? curve : on;
+        const Feature circle{Kind::vertex_vertex, ve.robot, ev.obstacle};
+        if (is_smooth(scene, ve, circle) && is_smooth(scene, ev, circle) && parallel(on, curve) > 0)
+            result.curve = circle, result.code = code(scene, circle), result.is_limit = false;
+    }
     return result;
-}
-
-// True if t is the same on both.
-static bool have_one_edge(const Feature& x, const Feature& y) {
-    return x.kind == y.kind && x.robot == y.robot && x.obstacle == y.obstacle;
 }
 
 // The place on its own surface; t on another line that is the same here.
@@ -112,11 +221,15 @@ template <class K, class Ring>
 auto RoundJunction::place(const Feature& surface, const Spot& p, int axis, const Ring& in) const {
     const RoundSurfaces<K> of(scene);
     const auto constant = [&](const K& k) { return in(RoundSurfaces<K>::constant(k)); };
-    using V = decltype(constant(K(1)));
+    using V = decltype(constant(whole<K>(1)));
     const auto own = [&]() -> CurvePlace<V> {
+        if (p.is_limit) return limit_of_line<K>(scene, p.on, p.curve, in);
         if (!p.given) return place_of_curve<K>(scene, p.on, p.curve, axis, in);
-        const V zero = in.number(K(0));
-        if constexpr (std::is_same_v<K, Ball>) return {constant(ball(p.given->n, 0)), zero, zero, constant(ball(p.given->d, 0)), false};
+        const V zero = in.number(whole<K>(0));
+        if constexpr (std::is_same_v<K, Approx>) {
+            const double t = ratio(p.given->n, p.given->d);
+            return {constant(Approx{t, std::abs(t)}), zero, zero, constant(whole<K>(1)), false};
+        } else if constexpr (std::is_same_v<K, Ball>) return {constant(ball(p.given->n, 0)), zero, zero, constant(ball(p.given->d, 0)), false};
         else return {constant(K(p.given->n)), zero, zero, constant(K(p.given->d)), false};
     };
     CurvePlace<V> result = own();
@@ -128,7 +241,7 @@ auto RoundJunction::place(const Feature& surface, const Spot& p, int axis, const
     return result;
 }
 
-// The same where the curve's two surfaces are one circle, or parallel lines, here.
+// The same, also where the curve's two surfaces are one circle here.
 CurvePlace<SurdPoly> RoundJunction::place_exactly(const Feature& surface, const Spot& p, int axis) const {
     const AsSurdPoly in{kappa};
     if (p.jumps) {
@@ -141,28 +254,21 @@ CurvePlace<SurdPoly> RoundJunction::place_exactly(const Feature& surface, const 
         const SurdPoly zero = in.number(RootSum(0));
         return {in.number(signed_along), zero, zero, in.number(RootSum::root(square.c[0])), false};
     }
-    if (!p.is_limit) return place<RootSum>(surface, p, axis, in);
-    auto own = place_of_curve<RootSum>(scene, p.on, p.curve, axis, in);
-    own.a = derivative(own.a), own.c = derivative(own.c);
-    if (have_one_edge(p.on, surface)) return own;
-    const RoundSurfaces<RootSum> of(scene);
-    const auto U = of.along(surface);
-    own.a = in(dot(of.between(p.on, surface), U)) * own.c + in(dot(of.along(p.on), U)) * own.a;
-    own.c = own.c * in(RoundSurfaces<RootSum>::constant(of.square_of_length(surface)));
-    return own;
+    return place<RootSum>(surface, p, axis, in);
 }
 
 Interval RoundJunction::range(const Feature& surface, const Spot& p) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (p.jumps || p.is_limit) return {-infinity, infinity};
-    const auto found = range_of(place<Ball>(surface, p, 0, Between{lo, hi, kappa}));
+    if (p.jumps) return {-infinity, infinity};
+    const auto found = range_of(place<Approx>(surface, p, 0, Between{lo, hi, kappa}));
     return found ? Interval{found->lo, found->hi} : Interval{-infinity, infinity};
 }
 
 double RoundJunction::value(const Feature& surface, const Spot& p) {
-    const Ball tau = narrow_ball(here());
+    const auto near = near_ball();
+    const Ball tau = near ? *near : narrow_ball(here());
     const auto coordinate = [&](int axis) {
-        if (p.jumps || p.is_limit) {
+        if (p.jumps) {
             const auto x = place_exactly(surface, p, axis);
             const int most = std::max(size(x.a), size(x.c));
             return value_at(x.a, tau, most).hi / value_at(x.c, tau, most).hi;
@@ -175,18 +281,35 @@ double RoundJunction::value(const Feature& surface, const Spot& p) {
     return std::clamp(along_end / (1 + along_start), 0.0, 1.0);
 }
 
+// Order in balls, if certain; also if it is certainly 0.
+std::optional<int> RoundJunction::order_in_balls(const Feature& surface, const Spot& p, const Spot& q, const Ball& tau) const {
+    const InBalls in(tau, kappa);
+    const auto x = place<Ball>(surface, p, 0, in), y = place<Ball>(surface, q, 0, in);
+    const auto first = certain_sign(x.c), second = certain_sign(y.c);
+    if (!first || !second) return {};
+    Ball difference = x.a * y.c - y.a * x.c;
+    if (x.has_root) difference = difference + x.b * y.c * sqrt(x.d);
+    if (y.has_root) difference = difference - y.b * x.c * sqrt(y.d);
+    const auto sign = certain_sign(difference);
+    return sign ? std::optional(*sign * *first * *second) : std::nullopt;
+}
+
 int RoundJunction::order(const Feature& surface, const Spot& p, const Spot& q) {
     if (p.code == q.code && !p.given && !q.given && !p.jumps && code(scene, p.on) == code(scene, q.on)) return 0;
-    if (!p.jumps && !p.is_limit && !q.jumps && !q.is_limit)
+    if (!p.jumps && !q.jumps && !p.given && !q.given && are_one_curve(p, q)) return 0;
+    if (!p.jumps && !q.jumps)
         for (int axis = 0; axis < (is_circle(surface) && !p.given && !q.given ? 2 : 1); ++axis) {
-            const auto first = range_of(place<Ball>(surface, p, axis, Between{lo, hi, kappa}));
-            const auto second = range_of(place<Ball>(surface, q, axis, Between{lo, hi, kappa}));
+            const auto first = range_of(place<Approx>(surface, p, axis, Between{lo, hi, kappa}));
+            const auto second = range_of(place<Approx>(surface, q, axis, Between{lo, hi, kappa}));
             if (first && second && first->hi < second->lo) return -1;
             if (first && second && second->hi < first->lo) return 1;
         }
     // where two lines are one, a joint of theirs is on both, but their curve may come to another place
     const bool is_of_crossing = !p.jumps && !q.jumps && !p.is_limit && !q.is_limit;
     if (is_of_crossing && !p.given && !q.given && is_known(surface, p, q)) return 0;
+    if (!p.jumps && !q.jumps)
+        if (const auto tau = near_ball())
+            if (const auto sign = order_in_balls(surface, p, q, *tau)) return *sign;
     const auto x = place_exactly(surface, p, 0), y = place_exactly(surface, q, 0);
     const Radicals difference{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}};
     return sign_at(difference, here()) * sign_at(x.c, here()) * sign_at(y.c, here());

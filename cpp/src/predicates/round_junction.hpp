@@ -21,13 +21,17 @@ struct RoundSpot {
 class RoundJunction {
 public:
     using Spot = RoundSpot;
-    RoundJunction(const Scene& scene, int chart, double lo, double hi, std::function<LongRoot()> exact);
+    RoundJunction(const Scene& scene, int chart, double lo, double hi, std::function<LongRoot()> exact,
+                  std::function<std::optional<Predicates::Bracket>()> narrow = nullptr);
 
     // Enter an edge of the robot and one of the obstacles that are parallel here.
     void know_parallel(Index g, Index f);
 
-    // Enter two curves of a surface that meet here.
-    void know_meeting(const Feature& on, const Feature& first, const Feature& second);
+    // Enter two curves of a surface that meet here, and nowhere else between two numbers.
+    void know_meeting(const Feature& on, const Feature& first, const Feature& second, double from, double to);
+
+    // Enter a surface and one that touches it here.
+    void know_touch(const Feature& on, const Feature& other);
 
     // See Junction.
     int turn(const Feature& x, const Feature& y);
@@ -61,9 +65,22 @@ private:
     int chart;
     double lo, hi, kappa;
     std::function<LongRoot()> exact;
-    std::optional<LongRoot> root;  // computed when needed
+    std::function<std::optional<Predicates::Bracket>()> narrow;
+    std::optional<LongRoot> root;  // computed when needed, as the next
+    std::optional<std::optional<Predicates::Bracket>> bracket;
+    std::optional<Ball> near_ball();
+    std::optional<int> order_in_balls(const Feature& surface, const Spot& p, const Spot& q, const Ball& tau) const;
+    bool are_one_line(const Feature& x, const Feature& y);
+    bool are_one_curve(const Spot& p, const Spot& q);
     bool is_known(const Feature& surface, const Spot& p, const Spot& q) const;
+    bool do_cross(const Spot& p, const Spot& q) const;
     MeetingNames known;            // parallel edges; two curves that meet, and their surface
+    struct Meeting {
+        MeetingNames::Name name;  // without branches
+        double lo, hi;
+    };
+    std::vector<Meeting> meetings;
+    std::vector<std::array<Code, 2>> touching;  // names of two surfaces, without branches
 };
 
 }  // namespace cfree

@@ -48,20 +48,26 @@ std::optional<int> sign_of_difference(const Ball& a, const Ball& b, const Ball& 
 }  // namespace
 
 int RoundOrders::compare_radius(const Feature& circle) const {
-    const RoundSurfaces<RootSum> of(scene);
-    return (of.rho(surface.contact) - of.rho(circle)).sign();
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index own[] = {A.vertex_radius[surface.contact.robot], O.vertex_radius[surface.contact.obstacle]};
+    const Index other[] = {A.vertex_radius[circle.robot], O.vertex_radius[circle.obstacle]};
+    if (own[0] == other[0] || own[1] == other[1]) {  // classes rise
+        const Index difference = own[0] - other[0] + own[1] - other[1];
+        return (difference > 0) - (difference < 0);
+    }
+    return (rho<Int>(scene, own[0], own[1]) - rho<Int>(scene, other[0], other[1])).sign();
 }
 
 std::array<double, 2> RoundOrders::range(const Feature& f, double lo, double hi) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto found = range_of(place<Ball>(f, 0, Between{lo, hi, kappa}));
+    const auto found = range_of(place<Approx>(f, 0, Between{lo, hi, kappa}));
     return found ? std::array{found->lo, found->hi} : std::array{-infinity, infinity};
 }
 
 int RoundOrders::order_on(const Feature& p, const Feature& q, double lo, double hi) const {
     const Between in{lo, hi, kappa};
     for (int axis = 0; axis < (is_line(surface.contact) ? 1 : 2); ++axis) {
-        const auto first = range_of(place<Ball>(p, axis, in)), second = range_of(place<Ball>(q, axis, in));
+        const auto first = range_of(place<Approx>(p, axis, in)), second = range_of(place<Approx>(q, axis, in));
         if (first && second && first->hi < second->lo) return -1;
         if (first && second && second->hi < first->lo) return 1;
     }
@@ -86,8 +92,12 @@ RoundOrders::Difference RoundOrders::difference(const Feature& p, const Feature&
     return {{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}}, x.c, y.c};
 }
 
-int RoundOrders::order_at(const Feature& p, const Feature& q, const Dyadic& tau) const {
+int RoundOrders::order_at(const Feature& p, const Feature& q, const Sample& at) const {
+    const Between near = around(at);
+    if (const int sign = order_on(p, q, near.lo, near.hi); sign != 0) return sign;
+    if (const auto sign = order_in_balls(p, q, at.ball())) return *sign;
     const Difference d = difference(p, q);
+    const Dyadic tau = at.exact();
     return sign_at(d.value, tau) * sign_at(d.first, tau) * sign_at(d.second, tau);
 }
 
@@ -96,22 +106,42 @@ int RoundOrders::order_at(const Feature& p, const Feature& q, LongRoot& root) co
     return sign_at(d.value, root) * sign_at(d.first, root) * sign_at(d.second, root);
 }
 
-int RoundOrders::turn(const Feature& f, const Feature& g, const Dyadic& tau) const {
-    const auto form = [&]<class K>(const RoundSurfaces<K>& of) {  // of both, a quarter turn on
-        const auto direction = [&](const Feature& to) { return to.kind == Kind::seam ? quarter_turn(of.axis(to.branch)) : of.along(to); };
-        return cross(direction(f), direction(g));
+int RoundOrders::turn(const Feature& f, const Feature& g, const Sample& at) const {
+    if (f.kind == g.kind && (f.kind == Kind::vertex_edge ? f.obstacle == g.obstacle : f.kind == Kind::edge_vertex && f.robot == g.robot))
+        return 0;
+    // Directions times w = 1 + tau^2 <= 2: with magnitudes m of both coordinates together they are within 8 u m of the truth.
+    struct Direction {
+        double x, y, m;
     };
-    const Ball near = InBalls(ball(tau.n, static_cast<int>(tau.k)), kappa)(form(RoundSurfaces<Ball>(scene)));
-    if (const auto sign = certain_sign(near)) return *sign;
-    return sign_at(AsSurdPoly{kappa}(form(RoundSurfaces<RootSum>(scene))), tau);
+    const double cosine = kappa * (1 - at.tau * at.tau), sine = 2 * kappa * at.tau;
+    const auto direction = [&](const Feature& to) -> Direction {
+        constexpr double unit[] = {1, 0, -1, 0};
+        if (to.kind == Kind::seam) return {-unit[(to.branch + 3) & 3], unit[to.branch & 3], 1};
+        if (to.kind == Kind::vertex_edge) {
+            const auto E = edge<Approx>(scene.obstacles, to.obstacle);
+            return {E.x.v, E.y.v, E.x.m + E.y.m};
+        }
+        const auto E = edge<Approx>(scene.robot, to.robot);
+        return {sine * E.y.v - cosine * E.x.v, -sine * E.x.v - cosine * E.y.v, 4 * (E.x.m + E.y.m)};
+    };
+    const Direction d = direction(f), e = direction(g);
+    if (const double value = d.x * e.y - d.y * e.x; std::abs(value) > 0x1p-46 * (d.m * e.m) + tiny) return value > 0 ? 1 : -1;
+    const auto form = [&]<class K>(const RoundSurfaces<K>& of) {  // of both, a quarter turn on
+        const auto along = [&](const Feature& to) { return to.kind == Kind::seam ? quarter_turn(of.axis(to.branch)) : of.along(to); };
+        return cross(along(f), along(g));
+    };
+    if (const auto sign = certain_sign(InBalls(at.ball(), kappa)(form(RoundSurfaces<Ball>(scene))))) return *sign;
+    return sign_at(AsSurdPoly{kappa}(form(RoundSurfaces<RootSum>(scene))), at.exact());
 }
 
-int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Dyadic& tau) const {
-    const auto in_balls = place<Ball>(curve, axis, InBalls(Ball(tau.rounded_down()), kappa));
-    const bool is_double = compare(Dyadic::from(tau.rounded_down()), tau) == 0;
+int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Sample& at) const {
+    if (const auto range = range_of(place<Approx>(curve, axis, around(at))))
+        if (range->lo > 0 || range->hi < 0) return range->lo > 0 ? 1 : -1;
+    const auto in_balls = place<Ball>(curve, axis, InBalls(at.ball(), kappa));
     const auto sign = sign_of_difference(in_balls.a, in_balls.b, in_balls.d, {}, {}), below = certain_sign(in_balls.c);
-    if (is_double && sign && below) return *sign * *below;
+    if (sign && below) return *sign * *below;
     const auto x = place<RootSum>(curve, axis, AsSurdPoly{kappa});
+    const Dyadic tau = at.exact();
     return sign_at(Radicals{x.a, x.b, x.d, {}, {}, {}}, tau) * sign_at(x.c, tau);
 }
 
@@ -128,7 +158,7 @@ Trig<K> RoundOrders::joint_direction(const Feature& line, const Feature& circle)
     return is_line(x) ? cross(of.along(x), of.along(line)) : -dot(of.between(circle, x), of.along(line));
 }
 std::optional<int> RoundOrders::joint_branch(const Feature& line, const Feature& circle, double lo, double hi) const {
-    const Bounds range = Between{lo, hi, kappa}(joint_direction<Ball>(line, circle));
+    const Bounds range = Between{lo, hi, kappa}(joint_direction<Approx>(line, circle));
     return range.lo > 0 ? std::optional(1) : range.hi < 0 ? std::optional(-1) : std::nullopt;
 }
 int RoundOrders::joint_branch(const Feature& line, const Feature& circle, LongRoot& root) const {
@@ -149,14 +179,40 @@ std::optional<Trig<K>> RoundOrders::quadratic(const Feature& first, const Featur
 template <class K, class Ring>
 auto RoundOrders::event(const Feature& first, const Feature& second, const Ring& in) const {
     if (const auto trig = quadratic<K>(first, second)) return in(*trig);
-    return meeting(RoundSurfaces<K>(scene), surface.contact, first, second, in);
+    return sum_of(meeting(RoundSurfaces<K>(scene), surface.contact, first, second), in);
 }
 
-std::optional<Filtered> RoundOrders::filtered(const Feature& first, const Feature& second) const {
-    constexpr double error = 0x1p-45;  // of at most 200 roundings
-    const auto f = quadratic<Approx>(first, second);
-    if (!f) return {};
-    return Filtered{f->a.v, kappa * f->b.v, kappa * f->c.v, error * (f->a.m + f->b.m + f->c.m) + tiny};
+bool RoundOrders::are_proportional(const Event& x, const Event& y) const {
+    // true if all minors are zero; nothing if that is not certain
+    const auto answer = [&]<class K>(const auto& sign) -> std::optional<bool> {
+        const auto f = quadratic<K>(x.first, x.second), g = quadratic<K>(y.first, y.second);
+        if (!f || !g) return false;
+        bool is_certain = true;
+        for (const K& minor : {f->a * g->b - f->b * g->a, f->a * g->c - f->c * g->a, f->b * g->c - f->c * g->b}) {
+            const std::optional<int> found = sign(minor);
+            if (found && *found != 0) return false;
+            is_certain &= found.has_value();
+        }
+        return is_certain ? std::optional(true) : std::nullopt;
+    };
+    const auto by_doubles = answer.template operator()<Approx>(
+        [](const Approx& v) { return std::abs(v.v) > 2 * round_error * v.m + tiny ? std::optional(1) : std::nullopt; });
+    if (by_doubles) return *by_doubles;
+    if (const auto by_balls = answer.template operator()<Ball>([](const Ball& v) { return certain_sign(v); })) return *by_balls;
+    return *answer.template operator()<RootSum>([](const RootSum& v) { return std::optional(v.sign()); });
+}
+
+RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {
+    RoundForm result;
+    if (const auto f = quadratic<Approx>(first, second)) {
+        result.p = filtered_round(*f, kappa);
+        return result;
+    }
+    const Products<Approx> all = meeting(RoundSurfaces<Approx>(scene), surface.contact, first, second);
+    result.degree = all.degree;
+    for (int i = 0; i < all.factor_count; ++i) result.factors.push_back(filtered_round(all.factors[static_cast<std::size_t>(i)], kappa));
+    for (int t = 0; t < all.term_count; ++t) result.terms.push_back(all.terms[static_cast<std::size_t>(t)]);
+    return result;
 }
 
 Coefficients<Ball> RoundOrders::in_balls(const Feature& first, const Feature& second) const {

@@ -12,15 +12,15 @@ class RoundOrders {
 public:
     RoundOrders(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
 
-    // Sign of p - q if it is certainly the same everywhere between two angles, else 0.
+    // Sign of p - q if it is certainly the same everywhere between two angles, else 0; in doubles.
     int order_on(const Feature& p, const Feature& q, double lo, double hi) const;
     // Sign of the radius of the surface, a circle, minus that of another one.
     int compare_radius(const Feature& circle) const;
     // Bounds of a curve's place between two angles, or of all.
     std::array<double, 2> range(const Feature& curve, double lo, double hi) const;
-    // Sign of p - q at a sample, in balls if that is certain.
+    // Sign of p - q at an angle, in balls if that is certain; and at a sample.
     std::optional<int> order_in_balls(const Feature& p, const Feature& q, const Ball& tau) const;
-    int order_at(const Feature& p, const Feature& q, const Dyadic& tau) const;
+    int order_at(const Feature& p, const Feature& q, const Sample& at) const;
     // True if the two curves meet at a root of the polynomial of their surfaces.
     bool meet_at(const Feature& p, const Feature& q, LongRoot& root) const;
     // Branch on which a line and a circle that is smooth with it go through their joint where that is on the surface, if it
@@ -31,17 +31,22 @@ public:
     // Sign at a root of p - q, places at which no denominator is zero there.
     int order_at(const Feature& p, const Feature& q, LongRoot& root) const;
     // Sign of u x v for two unit vectors to joints or to ends of quadrants.
-    int turn(const Feature& f, const Feature& g, const Dyadic& tau) const;
+    int turn(const Feature& f, const Feature& g, const Sample& at) const;
     // Sign at a sample of a coordinate of a curve on a circle, see `place`.
-    int coordinate_sign(const Feature& curve, int axis, const Dyadic& tau) const;
+    int coordinate_sign(const Feature& curve, int axis, const Sample& at) const;
 
     // Polynomial of an event's features, times a power of 1 + tau^2.
-    // The same in doubles, if it is a quadratic.
-    std::optional<Filtered> filtered(const Feature& first, const Feature& second) const;
+    // True if the polynomials of two events are quadratics, and equal up to a factor.
+    bool are_proportional(const Event& x, const Event& y) const;
+    RoundForm form(const Feature& first, const Feature& second) const;  // in doubles
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
     SurdPoly exactly(const Feature& first, const Feature& second) const;
 
 private:
+    // Angles at a sample, and around it if that is no double.
+    Between around(const Sample& at) const {
+        return {at.tau, at.fine ? at.fine->rounded_up() : at.tau, kappa};
+    }
     // p - q is the value over the product of the two denominators.
     struct Difference {
         Radicals value;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cfree/exact/surd_polynomial.hpp"
-#include "predicates/form.hpp"
+#include "predicates/round_form.hpp"
 #include "predicates/round_surfaces.hpp"
 
 namespace cfree {
@@ -19,8 +19,8 @@ inline Bounds outwards(double lo, double hi) {
 inline Bounds operator+(const Bounds& x, const Bounds& y) { return outwards(x.lo + y.lo, x.hi + y.hi); }
 inline Bounds operator-(const Bounds& x, const Bounds& y) { return outwards(x.lo - y.hi, x.hi - y.lo); }
 inline Bounds operator*(const Bounds& x, const Bounds& y) {
-    const auto [lo, hi] = std::minmax({x.lo * y.lo, x.lo * y.hi, x.hi * y.lo, x.hi * y.hi});
-    return outwards(lo, hi);
+    const double a = x.lo * y.lo, b = x.lo * y.hi, c = x.hi * y.lo, d = x.hi * y.hi;
+    return outwards(std::min(std::min(a, b), std::min(c, d)), std::max(std::max(a, b), std::max(c, d)));
 }
 inline Bounds sqrt(const Bounds& x) { return outwards(std::sqrt(std::max(0.0, x.lo)), std::sqrt(std::max(0.0, x.hi))); }
 inline Bounds bounds(const Ball& x) {
@@ -31,6 +31,12 @@ inline Bounds bounds(const Ball& x) {
 // Ring of intervals that hold the values at all angles between two.
 struct Between {
     double lo, hi, kappa;
+    Bounds number(const Approx& k) const { return outwards(k.v - round_error * k.m, k.v + round_error * k.m); }
+    Bounds operator()(const Trig<Approx>& x) const {
+        const Filtered f = filtered_round(x, kappa);
+        const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
+        return {std::min(std::min(p, q), r) - f.err, std::max(std::max(p, q), r) + f.err};
+    }
     Bounds number(const Ball& k) const { return bounds(k); }
     Bounds operator()(const Trig<Ball>& f) const {
         // Bernstein coefficients, by the polar form
@@ -69,26 +75,43 @@ struct CurvePlace {
     bool has_root;
 };
 
+// t = N / D at which one line meets another.
+template <class K>
+std::array<Trig<K>, 2> place_of_line(const RoundSurfaces<K>& of, const Feature& x, const Feature& f) {
+    const auto U = of.along(x), V = of.along(f);
+    const K square = of.square_of_length(x);
+    return {of.rho(x) * of.length(x) * dot(V, U) - square * of.offset(f, x), square * cross(V, U)};
+}
+
+// The same where the two lines are one, as a limit: N and D are zero there.
+template <class K, class Ring>
+auto limit_of_line(const Scene& scene, const Feature& x, const Feature& f, const Ring& in) {
+    using V = decltype(in.number(whole<K>(0)));
+    const V zero = in.number(whole<K>(0));
+    const auto slope = [&](const Trig<K>& g) { return in(Trig<K>{whole<K>(0), g.c, -g.b}); };
+    const auto [N, D] = place_of_line(RoundSurfaces<K>(scene), x, f);
+    return CurvePlace<V>{slope(N), zero, zero, slope(D), false};
+}
+
 // Place of a curve f on a surface x: t on a line; on a circle a coordinate of u that grows counter-clockwise over the quadrant,
 // along the axis at its end (axis 0), or against that at its beginning (1).
 template <class K, class Ring>
 auto place_of_curve(const Scene& scene, const Feature& x, const Feature& f, int axis, const Ring& in) {
     const RoundSurfaces<K> of(scene);
     const auto constant = [&](const K& k) { return in(RoundSurfaces<K>::constant(k)); };
-    using V = decltype(constant(K(1)));
-    const V zero = in.number(K(0)), w = constant(K(1));
+    using V = decltype(constant(whole<K>(1)));
+    const V zero = in.number(whole<K>(0)), w = constant(whole<K>(1));
     if (is_line(x)) {
         const auto U = of.along(x);
         const K square = of.square_of_length(x);
-        if (const int end = smooth_end(scene, x, f); end >= 0) return CurvePlace<V>{constant(K(end)), zero, zero, w, false};
+        if (const int end = smooth_end(scene, x, f); end >= 0) return CurvePlace<V>{constant(whole<K>(end)), zero, zero, w, false};
         if (is_line(f)) {
-            const auto V_ = of.along(f);
-            const auto N = of.rho(x) * of.length(x) * dot(V_, U) - square * of.offset(f, x);
-            return CurvePlace<V>{in(N), zero, zero, in(square * cross(V_, U)), false};
+            const auto [N, D] = place_of_line(of, x, f);
+            return CurvePlace<V>{in(N), zero, zero, in(D), false};
         }
         const K sigma = of.rho(f);
         const V M = in(of.offset(x, f));
-        return CurvePlace<V>{in(dot(of.between(f, x), U)), in.number(K(f.branch)), constant(sigma * sigma * square) * w - M * M,
+        return CurvePlace<V>{in(dot(of.between(f, x), U)), in.number(whole<K>(f.branch)), constant(sigma * sigma * square) * w - M * M,
                         constant(square), true};
     }
     const MovingVector<K> e = axis == 0 ? of.axis(x.branch + 1) : of.axis(x.branch + 2);
@@ -98,7 +121,7 @@ auto place_of_curve(const Scene& scene, const Feature& x, const Feature& f, int 
     const auto seen = of.seen(x, f);
     const K r = of.rho(x);
     const V delta = in(seen.delta), square = in(seen.square);
-    return CurvePlace<V>{delta * in(dot(seen.n, e)), in.number(K(f.branch)) * in(dot(quarter_turn(seen.n), e)),
+    return CurvePlace<V>{delta * in(dot(seen.n, e)), in.number(whole<K>(f.branch)) * in(dot(quarter_turn(seen.n), e)),
                     constant(r * r) * square - delta * delta, constant(r) * square, true};
 }
 
@@ -115,7 +138,8 @@ struct PlanePoint {
 template <class K>
 MovingVector<K> position(const Scene& scene, const Site& at) {
     const auto vertex = [](const Shape& s, Index v) -> Vec<K> {
-        if constexpr (std::is_same_v<K, Ball>) return {Ball(s.x[v], s.x_low[v], ball_error(s.x[v])), Ball(s.y[v], s.y_low[v], ball_error(s.y[v]))};
+        if constexpr (std::is_same_v<K, Approx>) return {{s.x[v], std::abs(s.x[v])}, {s.y[v], std::abs(s.y[v])}};
+        else if constexpr (std::is_same_v<K, Ball>) return {Ball(s.x[v], s.x_low[v], ball_error(s.x[v])), Ball(s.y[v], s.y_low[v], ball_error(s.y[v]))};
         else return {K(s.X[v]), K(s.Y[v])};
     };
     return {vertex(scene.obstacles, at.obstacle), vertex(scene.robot, at.robot)};
@@ -135,7 +159,7 @@ PlanePoint<V> plane_point(const Scene& scene, const Feature& x, const CurvePlace
             const V step = length * in(dot(U, e));
             return {(length * in(dot(start, e)) - rho * in(dot(left, e))) * t.c + step * t.a, step * t.b};
         };
-        return {coordinate(0), coordinate(1), t.d, length * constant(K(1)) * t.c, t.has_root};
+        return {coordinate(0), coordinate(1), t.d, length * constant(whole<K>(1)) * t.c, t.has_root};
     }
     const V rho = constant(of.rho(x));
     const auto coordinate = [&](int axis) -> typename PlanePoint<V>::Coordinate {
@@ -143,9 +167,9 @@ PlanePoint<V> plane_point(const Scene& scene, const Feature& x, const CurvePlace
         const CurvePlace<V>& place = turns % 2 == 0 ? t : from_start;
         const V a = rho * place.a, b = rho * place.b, centre = in(dot(start, of.axis(axis))) * t.c;
         if (turns < 2) return {centre + a, b};
-        return {centre - a, in.number(K(0)) - b};
+        return {centre - a, in.number(whole<K>(0)) - b};
     };
-    return {coordinate(0), coordinate(1), t.d, constant(K(1)) * t.c, t.has_root};
+    return {coordinate(0), coordinate(1), t.d, constant(whole<K>(1)) * t.c, t.has_root};
 }
 
 // Range of a place, if its denominator is certain.

@@ -12,23 +12,23 @@ static auto point(const Scene& scene, const CurveOf& c, const Ring& in) {
 }
 
 Reach RoundPoints::reach(const CurveOf& c, double lo, double hi) const {
-    const RoundSurfaces<Ball> of(scene);
-    const auto t = c.curve.kind == Kind::none ? std::nullopt : range_of(place_of_curve<Ball>(scene, c.on, c.curve, 0, Between{lo, hi, kappa}));
+    const RoundSurfaces<Approx> of(scene);
+    const auto t = c.curve.kind == Kind::none ? std::nullopt : range_of(place_of_curve<Approx>(scene, c.on, c.curve, 0, Between{lo, hi, kappa}));
     const Bounds along = t ? Bounds{std::max(t->lo, 0.0), std::min(t->hi, 1.0)} : Bounds{0, 1};
     // a + b cos + c sin is between its values at both ends, or beyond them by at most the sagitta
     const double cosine = (1 + lo * hi) / std::sqrt((1 + lo * lo) * (1 + hi * hi)), sagitta = std::max(0.0, 1 - cosine) + 4 * u;
-    const auto range = [&](const Trig<Ball>& f) {
+    const auto range = [&](const Trig<Approx>& f) {
         const auto at = [&](double tau) {
             const Between in{tau, tau, kappa};
-            const Bounds value = in(f), w = in(RoundSurfaces<Ball>::constant(Ball(1.0)));
+            const Bounds value = in(f), w = in(RoundSurfaces<Approx>::constant(whole<Approx>(1)));
             return outwards(std::min(value.lo / w.lo, value.lo / w.hi), std::max(value.hi / w.lo, value.hi / w.hi));
         };
         const Bounds first = at(lo), last = at(hi);
-        const double slack = sagitta * (std::abs(f.b.hi) + std::abs(f.c.hi)) * (1 + 4 * u);
+        const double slack = sagitta * (f.b.m + f.c.m) * (1 + 4 * u);
         return outwards(std::min(first.lo, last.lo) - slack, std::max(first.hi, last.hi) + slack);
     };
-    const MovingVector<Ball> start = position<Ball>(scene, of.site(c.on));
-    const Bounds rho = bounds(of.rho(c.on)), round{-rho.hi, rho.hi};
+    const MovingVector<Approx> start = position<Approx>(scene, of.site(c.on));
+    const Bounds rho = Between{lo, hi, kappa}.number(of.rho(c.on)), round{-rho.hi, rho.hi};
     const auto coordinate = [&](int axis) {
         Bounds x = range(dot(start, of.axis(axis))) + round;
         if (is_line(c.on)) x = x + along * range(dot(of.along(c.on), of.axis(axis)));
@@ -71,6 +71,15 @@ bool RoundPoints::are_slit(const Feature& x, const Feature& y, const Dyadic& tau
 }
 
 bool RoundPoints::may_be_one(const CurveOf& c, const CurveOf& d, const Dyadic& tau) const {
+    const Between at{tau.rounded_down(), tau.rounded_up(), kappa};
+    const auto near = [&](const CurveOf& curve) { return point<Approx>(scene, curve, at); };
+    const auto p_near = near(c), q_near = near(d);
+    const auto are_apart = [&](const auto& x, const auto& y) {
+        const auto first = range_of(CurvePlace<Bounds>{x.a, x.b, p_near.d, p_near.c, p_near.has_root});
+        const auto second = range_of(CurvePlace<Bounds>{y.a, y.b, q_near.d, q_near.c, q_near.has_root});
+        return first && second && (first->hi < second->lo || second->hi < first->lo);
+    };
+    if (are_apart(p_near.x, q_near.x) || are_apart(p_near.y, q_near.y)) return false;
     const InBalls in(ball(tau.n, static_cast<int>(tau.k)), kappa);
     const auto p = point<Ball>(scene, c, in), q = point<Ball>(scene, d, in);
     const auto differ = [&](const auto& x, const auto& y) {

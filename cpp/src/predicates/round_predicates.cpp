@@ -25,8 +25,8 @@ Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, con
 }
 
 int Predicates::event_sign(const Feature& first, const Feature& second, const Sample& at) {
-    if (const auto f = at.fine ? std::nullopt : RoundOrders(scene, surface).filtered(first, second))
-        if (const int sign = sign_on(*f, at.tau, at.tau); sign != 0) return ++counters.filter, sign;
+    if (!at.fine)
+        if (const int sign = RoundOrders(scene, surface).form(first, second).sign(at.tau); sign != 0) return ++counters.filter, sign;
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(coefficients<Ball>(first, second), at.ball());
         else return cfree::sign_at(RoundOrders(scene, surface).exactly(first, second), at.exact());
@@ -37,13 +37,17 @@ Predicates::Roots Predicates::event_roots(const Feature& first, const Feature& s
 }
 
 int Predicates::event_sign_on(const Feature& first, const Feature& second, double lo, double hi) const {
-    if (const auto f = RoundOrders(scene, surface).filtered(first, second))
-        if (const int sign = sign_on(*f, lo, hi); sign != 0) return sign;
+    int sign[7];
+    const auto common = [&](int degree) {  // if there is one
+        const bool is_one = std::all_of(sign, sign + degree + 1, [&](int s) { return s == sign[0]; });
+        return is_one ? sign[0] : 0;
+    };
+    const RoundForm form = RoundOrders(scene, surface).form(first, second);
+    form.signs(lo, hi, sign);
+    if (std::find(sign, sign + form.degree + 1, 0) == sign + form.degree + 1) return common(form.degree);
     const Balls p(coefficients<Ball>(first, second));
-    int sign[7], sum = 0;
     p.signs(lo, hi, sign);
-    for (int i = 0; i <= p.degree; ++i) sum += sign[i];
-    return std::abs(sum) <= p.degree ? 0 : sum > 0 ? 1 : -1;
+    return common(p.degree);
 }
 
 LongRoot Predicates::long_root_of(const Event& x) const {
@@ -75,6 +79,27 @@ Event Predicates::restored_round(Event x, int place) {
     return x;
 }
 
+// True if two angles are roots of one polynomial: by their names, in which branches of curves do not matter, or as their quadratics
+// are equal up to a factor.
+bool Predicates::is_same_round(const Event& x, const Event& y) const {
+    struct Names {
+        Code first, second;
+    };
+    const auto names = [&](const Event& e) -> Names {
+        Feature first = e.first, second = e.second;
+        if (second.kind != Kind::none && !(is_circle(second) && second.branch == 2)) {
+            if (first.kind != Kind::seam) first.branch = 0;
+            if (second.kind != Kind::seam) second.branch = 0;
+        }
+        return {code(scene, first), code(scene, second)};
+    };
+    const Names p = names(x), q = names(y);
+    if (p.first == q.first && p.second == q.second) return true;
+    const bool are_curves = x.second.kind != Kind::none && y.second.kind != Kind::none;
+    if (are_curves && p.first == q.second && p.second == q.first) return true;
+    return RoundOrders(scene, surface).are_proportional(x, y);
+}
+
 // True if two curves meet at a root of the polynomial of the three surfaces: if another branch does, they do not.
 bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) const {
     const RoundOrders orders(scene, surface);
@@ -102,8 +127,10 @@ Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, 
     }
     const Roots all = roots({}, p, q, from, to);
     const auto sign_at_sample = [&](const Sample& at) {
+        if (!at.fine)
+            if (const int sign = orders.order_on(p, q, at.tau, at.tau); sign != 0) return ++counters.filter, sign;
         if (const auto sign = orders.order_in_balls(p, q, at.ball())) return ++counters.interval, *sign;
-        return ++counters.exact, orders.order_at(p, q, at.exact());
+        return ++counters.exact, orders.order_at(p, q, at);
     };
     if (all.all_zero) {  // a branch of the one meets a branch of the other everywhere
         for (int attempt = 0; attempt < 3 && result.sign[0] == 0; ++attempt) result.sign[0] = sign_at_sample(between(from, to, attempt));

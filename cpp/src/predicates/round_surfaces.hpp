@@ -182,22 +182,52 @@ std::optional<Trig<K>> joint_of_three(const RoundSurfaces<K>& of, const Scene& s
     return {};
 }
 
-// Polynomial of the angles at which three surfaces without a joint meet in a point, from the ring of `in`: numbers at an angle, or polynomials.
-// All its terms are homogeneous in 1, cos and sin, so it is the true one times a power of 1 + tau^2.
-template <class K, class Ring>
-auto meeting(const RoundSurfaces<K>& of, const Feature& x, const Feature& y, const Feature& z, const Ring& in) {
+// A polynomial as a sum of products of two or three quadratics, by their places in a list.
+template <class K>
+struct Products {
+    struct Term {
+        int sign;
+        std::array<int, 3> factors;
+    };
+    int degree, factor_count, term_count;
+    std::array<Trig<K>, 7> factors;
+    std::array<Term, 4> terms;
+};
+
+// Polynomial of the angles at which three surfaces without a joint meet in a point. All its terms are homogeneous in 1, cos and
+// sin, so it is the true one times a power of 1 + tau^2.
+template <class K>
+Products<K> meeting(const RoundSurfaces<K>& of, const Feature& x, const Feature& y, const Feature& z) {
     if (is_line(x) && is_line(y) && is_line(z)) {
         const auto U = of.along(x), V = of.along(y), W = of.along(z);
         const auto from_x = RoundSurfaces<K>::constant(of.rho(x) * of.length(x));
-        return in(from_x) * in(cross(V, W)) + in(of.offset(y, x)) * in(cross(W, U)) + in(of.offset(z, x)) * in(cross(U, V));
+        return {4, 6, 3, {from_x, cross(V, W), of.offset(y, x), cross(W, U), of.offset(z, x), cross(U, V)},
+                {{{1, {0, 1}}, {1, {2, 3}}, {1, {4, 5}}}}};
     }
     const Feature &circle = is_circle(x) ? x : is_circle(y) ? y : z, &first = is_circle(x) ? y : x;
     const Feature& second = is_circle(x) || is_circle(y) ? z : y;
     const auto p = of.seen(circle, first), q = of.seen(circle, second);
-    const auto d = in(p.delta), e = in(q.delta), c = in(cross(p.n, q.n));
     const K r = of.rho(circle);
-    return d * d * in(q.square) + e * e * in(p.square) - in(K(2) * dot(p.n, q.n)) * d * e -
-           in(RoundSurfaces<K>::constant(r * r)) * c * c;
+    return {6, 7, 4,
+            {p.delta, q.delta, cross(p.n, q.n), p.square, q.square, whole<K>(2) * dot(p.n, q.n), RoundSurfaces<K>::constant(r * r)},
+            {{{1, {0, 0, 4}}, {1, {1, 1, 3}}, {-1, {0, 1, 5}}, {-1, {2, 2, 6}}}}};
+}
+
+// The same in the ring of `in`: numbers at an angle, or polynomials.
+template <class K, class Ring>
+auto sum_of(const Products<K>& p, const Ring& in) {
+    using V = decltype(in(p.factors[0]));
+    std::vector<V> factors;
+    for (int i = 0; i < p.factor_count; ++i) factors.push_back(in(p.factors[static_cast<std::size_t>(i)]));
+    std::optional<V> sum;
+    for (int t = 0; t < p.term_count; ++t) {
+        const auto& term = p.terms[static_cast<std::size_t>(t)];
+        const auto factor = [&](int i) -> const V& { return factors[static_cast<std::size_t>(term.factors[static_cast<std::size_t>(i)])]; };
+        V product = factor(0) * factor(1);
+        if (p.degree == 6) product = product * factor(2);
+        sum = !sum ? product : term.sign > 0 ? *sum + product : *sum - product;
+    }
+    return *sum;
 }
 
 }  // namespace cfree

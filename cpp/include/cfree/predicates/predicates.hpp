@@ -227,6 +227,7 @@ private:
     // The same where shapes are grown (round_predicates.cpp).
     Order compare_round(const Feature& p, const Feature& q, const Event& from, const Event& to);
     Candidates roots_exactly_round(const Feature& first, const Feature& second, double lo, double hi);
+    bool is_same_round(const Event& x, const Event& y) const;
     bool meet_at(const Feature& p, const Feature& q, const Event& x) const;
     std::vector<SurdRoot> roots_around(const Event& x) const;
     int place_round(const Event& x) const;
