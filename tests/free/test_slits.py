@@ -23,7 +23,8 @@ def turned_by(name: str) -> Turn:
     return lambda x, y: (c * F(x) - s * F(y), s * F(x) + c * F(y))  # type: ignore[arg-type]
 
 
-def box(x0: object, y0: object, x1: object, y1: object, turn: Turn = turned_by("level")) -> list[Point]:
+def box(x0: object, y0: object, x1: object, y1: object, turn: Turn | None = None) -> list[Point]:
+    turn = turn or turned_by("level")
     return [turn(x0, y0), turn(x1, y0), turn(x1, y1), turn(x0, y1)]
 
 
@@ -39,7 +40,7 @@ def cells(scene: Scene) -> int:
     return len(free_space(boundary(scene)).cells)
 
 
-# a corridor along the right bound: room beyond the width of the robot -> scene; and the cells with more room, and without
+# a corridor along the right bound: room beyond the width of the robot -> scene; cells with more room, and without
 AT_BOUNDS: dict[str, tuple[Callable[[F], Scene], int, int]] = {
     "a disc and a wall": (
         lambda more: Scene(Curved.circle((0, 0), 1), [box(2, -5, 9 - more, 15)], bounds=BOUNDS), 2, 1,
@@ -57,7 +58,7 @@ AT_BOUNDS: dict[str, tuple[Callable[[F], Scene], int, int]] = {
     ),
     "a disc at the reference point, and more of the robot": (
         lambda more: Scene(
-            [Curved.circle((0, 0), "1/2"), Curved.circle((2, 0), "1/2")], [box(3, -5, F(19, 2) - more, 15)], bounds=BOUNDS
+            [Curved.circle((x, 0), "1/2") for x in (0, 2)], [box(3, -5, F(19, 2) - more, 15)], bounds=BOUNDS
         ), 2, 1,
     ),
     "a disc above a bound": (

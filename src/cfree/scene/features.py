@@ -24,7 +24,7 @@ from cfree.value import kept
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
-    from cfree.scene.scene import Scene
+    from cfree.scene.scene import Bounds, Scene
 
 Point = tuple[int, int]
 BODY, REFERENCE = 0, 1  # layers
@@ -205,14 +205,14 @@ def _grown(scene: Scene) -> SceneFeatures:
     shapes = rounded_shapes(scene)
     if shapes is None:
         raise UnsupportedError(why_not_rounded(scene))
-    return features_of_cores(shapes, scene)
+    return features_of_cores(shapes, scene, scene.bounds)
 
 
-def features_of_cores(cores: Cores, scene: Scene) -> SceneFeatures:
-    """Number the features of grown cores in the workspace and the bounds of a scene."""
+def features_of_cores(cores: Cores, scene: Scene, bounds: Bounds | None) -> SceneFeatures:
+    """Number the features of grown cores in the workspace of a scene, and in bounds."""
     radii = [cores.robot[0].radius, *(shape.radius for shape in cores.obstacles)]
     robot, obstacles = ([shape.handle for shape in shapes] for shapes in (cores.robot, cores.obstacles))
-    _, _, workspace, bounds = core_shapes((), (), scene.workspace, scene.bounds)
+    _, _, workspace, bounds = core_shapes((), (), scene.workspace, bounds)
     made = _core.SceneFeatures(robot, obstacles, workspace, bounds, None, radii)
     of_robot, *of_obstacles = map(float, radii)
     features = SceneFeatures.of(made, [of_robot] * len(robot), of_obstacles or [0.0])
