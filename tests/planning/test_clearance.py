@@ -74,16 +74,14 @@ RHOMBUS = [("1/2", 0), (0, "1/4"), ("-1/2", 0), (0, "-1/4")]
 
 @pytest.mark.slow
 @pytest.mark.parametrize("bounds", [None, (-8, -8, 8, 8)])
-def test_a_clearance_too_near_to_the_largest_is_open(bounds: tuple[int, ...] | None) -> None:
+def test_cells_decide_a_clearance_near_the_largest_and_it_is_open_at_a_place(bounds: tuple[int, ...] | None) -> None:
     """A rhombus is sqrt(1/5) wide: no rational number is what it keeps in the middle of the gate."""
     scene, most = gate({"tau": "1/7"}, RHOMBUS, bounds=bounds), 1 - math.sqrt(1 / 5) / 2
     ends = Pose(0, 5), Pose(0, -5)
-    if bounds is None:  # cells decide
-        assert cfree.verify.answer(scene, plan(scene, *ends, clearance=most)).verified
-    else:
-        with pytest.raises(UndecidedError, match="too near to the largest that a path keeps") as caught:
-            plan(scene, *ends, clearance=most)
-        assert caught.value.lo < most < caught.value.hi < 1.001 * caught.value.lo
+    assert cfree.verify.answer(scene, plan(scene, *ends, clearance=most)).verified
+    with pytest.raises(UndecidedError, match="too near to the largest that a path keeps") as caught:
+        plan(scene, ends[0], [(0, -5)], clearance=most)
+    assert caught.value.lo < most < caught.value.hi < 1.001 * caught.value.lo
     assert isinstance(plan(scene, *ends, clearance=Fraction(0.999 * most)), Path)
     assert isinstance(plan(scene, *ends, clearance=Fraction(1.001 * most)), Separated)
 

@@ -66,9 +66,14 @@ def test_a_disc_goes_along_a_gap_that_just_fits() -> None:
     assert cfree.verify.answer(scene, path).verified
 
 
-def test_a_gap_that_is_just_too_narrow_is_left_undecided() -> None:
+def test_a_gap_that_is_just_too_narrow_has_a_proof_by_cells_or_is_left_undecided(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     walls = [[(-1, y), (1, y), (1, z), (-1, z)] for y, z in ((-9, "-0.9999999"), (1, 9))]
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), walls, bounds=(-4, -4, 4, 4), start=(-3, 0, 0), goal=(3, 0, 0))
+    proof = cfree.plan(scene, tolerance=0.001)
+    assert isinstance(proof, cfree.Separated) and cfree.verify.answer(scene, proof).verified
+    monkeypatch.setattr("cfree.planning.curved.round_cells", lambda *_: None)
     with pytest.raises(cfree.UndecidedError, match="touch, or all but") as caught:
         cfree.plan(scene, tolerance=0.001)
     assert 0 < caught.value.error <= 0.001

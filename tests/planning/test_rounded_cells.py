@@ -100,3 +100,114 @@ def test_cells_and_searches_agree_in_random_rooms(far: F) -> None:
         proof = separated_by_cells(scene, start, goal, Options())
         assert (proof is None) == (radius <= gap)
         assert proof is None or cfree.verify.answer(scene, proof).verified
+
+
+TRIANGLE = [(0, 0), (2, 0), (0, 1)]
+ROOM = [(0, 0), (10, 0), (10, 10), (0, 10)]
+
+
+def under_a_wall(robot: Any, thickness: F, **region: Any) -> Scene:
+    """A wall that leaves a gap above the bounds, or the workspace."""
+    return Scene(robot, [Curved([(4, 2), (5, 2), (5, 15), (4, 15)], grown=thickness)], **region)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("excess", [HAIR, F(0), -HAIR])
+@pytest.mark.parametrize("name", ["a disc above bounds", "a triangle above bounds", "a disc above a workspace"])
+def test_a_gap_at_bounds_or_a_workspace_has_a_proof_or_a_path(name: str, excess: F, tmp_path: FilePath) -> None:
+    start, goal = Pose(1, 3), Pose(9, 5)
+    if name == "a disc above bounds":
+        scene = under_a_wall(Curved.circle((0, 0), 1), 1 + excess, bounds=(0, 0, 10, 10))
+    elif name == "a triangle above bounds":
+        start = Pose(0, 5, {"tau": -2})
+        scene = under_a_wall(Curved(TRIANGLE, grown="1/2"), F(3, 2) + excess, bounds=(0, 0, 10, 10))
+    else:
+        scene, start, goal = (
+            under_a_wall(Curved.circle((0, 0), "1/2"), 1 + excess, workspace=ROOM),
+            Pose(1, 3),
+            Pose(9, 5),
+        )
+    answer = cfree.plan(scene, start, goal)
+    assert isinstance(answer, cfree.Path) == (excess <= 0)
+    assert cfree.verify.answer(scene, answer).verified
+    if isinstance(answer, cfree.Separated) and scene.bounds:
+        assert answer.bounds is not None and all(
+            a < b for a, b in zip(answer.bounds, scene.bounds[:2], strict=False)
+        ), "they are larger than the scene's"
+        cfree.save(answer, tmp_path / "proof.json")
+        assert cfree.load(tmp_path / "proof.json") == answer
+        assert cfree.verify.answer(scene, str(tmp_path / "proof.json")).verified
+        from dataclasses import replace
+
+        for wrong in (scene.bounds, None):
+            assert not cfree.verify.answer(scene, replace(answer, bounds=wrong)).verified
+
+
+def test_several_goals_have_a_proof_each_and_a_disc_has_one_for_a_place() -> None:
+    scene = under_a_wall(Curved.circle((0, 0), "1/2"), 1 + HAIR, workspace=ROOM)
+    start, goals = Pose(1, 3), [Pose(9, 5), Pose(8, 6, {"tau": 1}), (8, 3)]
+    answer = cfree.plan(scene, start, goals)
+    assert isinstance(answer, cfree.AllSeparated) and answer.of == "closed" and len(answer.proofs) == 3
+    assert cfree.verify.answer(scene, answer).verified
+    one = cfree.plan(scene, start, goals[:1])
+    assert isinstance(one, cfree.AllSeparated) and cfree.verify.answer(scene, one).verified
+    beside = cfree.plan(scene, start, [*goals, Pose(2, 5)])
+    assert isinstance(beside, cfree.Path) and beside.goal == Pose(2, 5)
+
+
+def test_a_proof_by_cells_at_a_place_is_none_for_a_robot_that_turns() -> None:
+    """The proof is about one orientation; verify refuses it for the others."""
+    from cfree.planning.goals import all_separated
+
+    scene = under_a_wall(Curved(TRIANGLE, grown="1/2"), F(2), bounds=(0, 0, 10, 10))
+    proof = separated_by_cells(scene, Pose(0, 5, {"tau": -2}), Pose(9, 5), Options())
+    assert proof is not None
+    all_ = all_separated([proof], [(F(9), F(5))], is_whole=True)
+    result = cfree.verify.answer(scene, all_)
+    assert not result.verified and "turns there" in str(result.findings)
+
+
+def test_discs_smaller_by_more_digits_than_the_scene_has_prove_a_finer_miss() -> None:
+    fine = F(1, 2**200)
+    scene, start, goal = rooms(Curved.circle((0, 0), F(1, 2) + fine))
+    proof = separated_by_cells(scene, start, goal, Options())
+    assert proof is not None and cfree.verify.answer(scene, proof).verified
+    narrower, _, _ = rooms(Curved.circle((0, 0), F(1, 2) - fine))
+    assert separated_by_cells(narrower, start, goal, Options()) is None
+
+
+def test_a_fault_of_the_core_leaves_other_ways(monkeypatch: pytest.MonkeyPatch) -> None:
+    import cfree._core as core
+
+    def fails(*_: object) -> None:
+        raise RuntimeError("no ray in general position")
+
+    scene, start, goal = rooms(Curved.circle((0, 0), F(1, 2) + HAIR))
+    monkeypatch.setattr(core, "free_space", fails)
+    assert separated_by_cells(scene, start, goal, Options()) is None
+    with pytest.raises(cfree.UndecidedError):
+        cfree.plan(scene, start, goal)
+
+
+def test_cells_are_not_computed_where_they_take_long() -> None:
+    from cfree.planning.rounded_cells import WORK, round_cells, work_for
+    from cfree.scene.features import grown_features
+
+    few, _, _ = rooms(Curved.circle((0, 0), F(1, 2)))
+    assert 0 < work_for(grown_features(few)) < WORK
+    many = Scene(Curved.circle((0, 0), "1/4"), [Curved.circle((k, j), "1/4") for k in range(60) for j in range(60)])
+    assert work_for(grown_features(many)) > WORK and round_cells(many, Options()) is None
+
+
+def test_blockers_of_a_proof_by_cells_are_numbered_as_in_the_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only proofs of polygons inside the shapes number polygons."""
+    from cfree.analysis.blockers import _possible
+    from cfree.planning.curved import CurvedPlanner
+    from cfree.planning.planner import Planner
+
+    scene, start, goal = rooms(Curved.circle((0, 0), F(1, 2) + HAIR))
+    planner = CurvedPlanner(Planner(scene))
+    proof = planner.plan(start, goal)
+    assert isinstance(proof, cfree.Separated) and proof.rounded is not None
+    monkeypatch.setattr(CurvedPlanner, "obstacle_of", lambda *_: 0)
+    assert _possible(planner, proof, range(len(scene.obstacles))) == set(proof.obstacles)

@@ -127,9 +127,11 @@ def made(scene: Scene, radius: Fraction) -> tuple[Any, ...]:
     radii = [radius] * len(parts) + [other.radius for other in others]
     handles = [part.handle for part in parts], [other.handle for other in others]
     features = core.SceneFeatures(*handles, None, None, None, [(radius, ()) for radius in radii])
-    boundary = core.compute_boundary(features.scene, 1, False, lambda _: True)
+    boundary = core.compute_boundary(features.scene, 1, core.may_have_slits(features.scene), lambda _: True)
     numbered = SceneFeatures.of(features)
-    return parts, others, numbered, boundary, free_space(boundary_of(scene, numbered, boundary))
+    wrapped = boundary_of(scene, numbered, boundary)
+    wrapped.regularized = wrapped
+    return parts, others, numbered, boundary, free_space(wrapped)
 
 
 @cache

@@ -1,5 +1,8 @@
 // Surfaces that coincide: every piece of boundary that several patches share belongs to one of them.
 #pragma once
+#include <memory>
+#include <optional>
+
 #include "cfree/predicates/predicates.hpp"
 
 namespace cfree {
@@ -11,6 +14,27 @@ struct Range {
     Event from[2], to[2];
 };
 Range range_of(const Scene& scene, const Feature& contact, Counters& counters);
+
+// Contacts among grown shapes whose surfaces coincide and whose free sides face each other. A line of the obstacles, moved by
+// both radii, is one with a line that faces it. The robot's vertex is then a disc's centre for both; or it is at the reference
+// point, and one of the lines is a bound. Or else two lines of the robot face each other around a disc.
+class RoundSlits {
+public:
+    explicit RoundSlits(const Scene& scene);
+    ~RoundSlits();
+    void add_opposite(const Feature& contact, std::vector<Feature>& out) const;
+    bool may_be() const;
+
+private:
+    struct Lines;
+    std::vector<Index> at(Index vertex) const;  // vertices of the other layer at the place of one
+    static const Lines* moved_by(const std::vector<std::unique_ptr<const Lines>>& all, const Int& further);
+    const Scene& scene;
+    std::vector<Index> references, bodies;
+    std::unique_ptr<const Lines> bounds;
+    // Edges of the obstacles, by radii of the robot, and edges of the robot, by radii of discs among the obstacles.
+    std::vector<std::unique_ptr<const Lines>> walls, prongs;
+};
 
 class CoincidentSurfaces {
 public:
@@ -35,6 +59,7 @@ private:
     const Scene& scene;
     bool regularized;
     Groups robot_points, robot_lines, obstacle_points, obstacle_lines;
+    std::optional<RoundSlits> slits;  // of grown shapes
 };
 
 }  // namespace cfree

@@ -149,6 +149,7 @@ void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vect
                 heed_stop();
                 trimmer.cover(p, k, shadows.slices, part);
             }
+        trimmer.split_at_touches(near.pieces());
         trimmer.finish(patch, out, thin);
         count.decisions += trimmer.decide.counters;
     }

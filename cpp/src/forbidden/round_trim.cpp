@@ -134,11 +134,6 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
             bounds(band);
             take({band, p, k, &crossing});
         }
-        for (const auto& [lower, upper] : found.touched) {
-            Area pinch{span.from, span.to, curve_of(lower, false), curve_of(upper, false), 0, 1};
-            bounds(pinch);
-            subtract_from_live({pinch, -1, -1, nullptr});
-        }
         if (span.to != whole.to) todo.push_back({span.to, whole.to});
         if (span.from != whole.from) todo.push_back({whole.from, span.from});
     }
@@ -360,7 +355,6 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
     if (count > 0)
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
     if (!reaches(side) || (count == 0 && !reaches(-side))) {
-        if (side > 0 && sign_of(with_branch(circle, side), {}, at) == 0) touch(circle, at, out);
         if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
         return out;
     }
@@ -377,13 +371,6 @@ int RoundTrimmer::foot_sign(const Pillar& pillar, int edge, int arc, const Sampl
     return sign_of(line, circle, at);
 }
 
-// The centre stays beside an edge, between its ends.
-void RoundTrimmer::watch_beside(const Pillar& pillar, int k, Cover& out) const {
-    for (const int arc : {k, k + 1}) {
-        const auto [line, circle] = foot(pillar, k, arc);
-        out.watched.push_back({line, circle, arc == k ? 1 : -1, true});
-    }
-}
 // The centre stays in the cone of an arc.
 void RoundTrimmer::watch_cone(const Pillar& pillar, int k, Cover& out) const {
     if (pillar.count() == 0) return;
@@ -421,7 +408,6 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         const int touches = sign_of(with_branch(edge.line, 1), {}, at);
         watch_edge(edge, out);
         out.watched.push_back({with_branch(edge.line, 1), {}, touches > 0 ? 1 : -1, touches <= 0});
-        if (touches == 0) watch_beside(pillar, k, out), touch(edge.line, at, out);
         if (touches <= 0) return out;
         out.watched.push_back({with_branch(edge.line, -1), {}, -1, true});
         for (const int j : {2 * k, 2 * k + 1}) watch_joint(pillar, j, 1, out);
@@ -434,7 +420,6 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         const int apart = sign_of(with_branch(circle, 1), {}, at);
         watch_arc(pillar, k, out);
         out.watched.push_back({with_branch(circle, 1), {}, apart >= 0 ? 1 : -1, apart >= 0});
-        if (apart == 0) touch(circle, at, out);
         if (apart >= 0) {
             watch_cone(pillar, k, out);
             return out;
@@ -513,36 +498,17 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     // all of the circle is inside, or outside: beyond an edge or an arc, or around the pillar
     for (int k = 0; k < count; ++k) {
         if (foot_sign(pillar, k, k, at) <= 0 || foot_sign(pillar, k, k + 1, at) >= 0) continue;
-        const Feature& line = pillar.edge(k).line;
-        const int reach = sign_of(with_branch(line, 1), {}, at);
-        if (reach == 0) watch_beside(pillar, k, out), touch(line, at, out);
-        is_apart |= reach <= 0;
+        is_apart |= sign_of(with_branch(pillar.edge(k).line, 1), {}, at) <= 0;
     }
     for (int k = 0; k < std::max(count, 1); ++k) {
         if (count > 0 && (foot_sign(pillar, k - 1, k, at) < 0 || foot_sign(pillar, k, k, at) > 0)) continue;
-        const int gap = sign_of(with_branch(pillar.circle(k), 1), {}, at);
-        if (gap == 0) watch_cone(pillar, k, out), touch(pillar.circle(k), at, out);
-        is_apart |= gap >= 0;
+        is_apart |= sign_of(with_branch(pillar.circle(k), 1), {}, at) >= 0;
     }
     const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
                            (count == 0 && orders.compare_radius(pillar.circle(0)) > 0);
     if (!is_apart && !is_around)
         out.bands.push_back(quadrant());
     return out;
-}
-
-// Cut the patch where a feature touches it from outside at every angle.
-void RoundTrimmer::touch(const Feature& f, const Sample& at, Cover& out) {
-    const std::array<Feature, 2> curve{with_branch(f, -1), with_branch(f, 1)};
-    if (is_circle(surface.contact)) {
-        const Feature other = with_branch(f, 0);
-        for (const Feature& seam : quadrant()) {
-            const int sign = sign_of(other, seam, at);
-            out.watched.push_back({other, seam, sign, sign == 0});
-        }
-        if (orders.coordinate_sign(curve[0], 0, at) <= 0 || orders.coordinate_sign(curve[0], 1, at) >= 0) return;
-    }
-    out.touched.push_back(curve);
 }
 
 // The covered parts of the quadrant, from crossings in any order: between one where the circle enters and the next one.

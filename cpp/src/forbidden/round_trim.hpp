@@ -18,8 +18,12 @@ public:
     void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
     // Subtract what another pair of vertices with the same circle owns of the quadrant.
     void cede_circle(const Feature& owner);
+    // Cut what is live along curves that others touch from the free side at every angle; these are of the pieces near the patch.
+    void split_at_touches(const std::vector<Index>& pieces);
 
 private:
+    struct Touch;
+    std::vector<Touch> touches(const std::vector<Index>& pieces) const;
     // A pillar at a sample: arcs[k] is followed counter-clockwise by edges[k]. A point has one arc and no edge.
     struct Arc {
         Index s, v;
@@ -54,7 +58,6 @@ private:
     };
     struct Cover {
         std::vector<std::array<Feature, 2>> bands;
-        std::vector<std::array<Feature, 2>> touched;  // the same curve twice: free space is pinched there
         std::vector<Watch> watched;
     };
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
@@ -76,9 +79,7 @@ private:
     Cover on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at);
     std::array<Feature, 2> foot(const Pillar& pillar, int edge, int arc) const;
     int foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at);
-    void watch_beside(const Pillar& pillar, int k, Cover& out) const;
     void watch_cone(const Pillar& pillar, int k, Cover& out) const;
-    void touch(const Feature& f, const Sample& at, Cover& out);
     void clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out);
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);

@@ -125,8 +125,9 @@ void Trimmer::cede(const Feature& owner, const Event& from, const Event& to) {
     const auto tighter = [&](Index own, const Event& other, int later) {
         return decide.order(other, events[own]) * later > 0 ? intern(other) : own;
     };
-    const auto& line = scene.obstacles.line;
-    const bool backwards = owner.kind == Kind::vertex_edge && line[owner.obstacle] != line[surface.contact.obstacle];
+    const auto& line = owner.kind == Kind::vertex_edge ? scene.obstacles.line : scene.robot.line;
+    const bool backwards = owner.kind == Kind::vertex_edge ? line[owner.obstacle] != line[surface.contact.obstacle]
+                                                           : line[owner.robot] != line[surface.contact.robot];
     const Feature first = end_helix(scene, owner, backwards ? 1 : 0), last = end_helix(scene, owner, backwards ? 0 : 1);
     Area band{tighter(0, from, 1), tighter(1, to, -1), curve_of(first, false), curve_of(last, false), 0, 1};
     if (!before(band.from, band.to)) return;

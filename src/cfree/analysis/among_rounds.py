@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -294,19 +295,20 @@ def _deepest(leaves: Callable[[Fraction], bool], size: Fraction) -> Fraction:
 
 def _bottlenecks(decisions: Decisions, lo: Fraction, hi: Fraction) -> tuple[Bottleneck, ...]:
     """Return the places where space opens between two insets, for the finest polygons of a proof that are not many."""
-    few = [by for by, (proof, _) in decisions.proofs.items() if by <= lo and _patches(proof) <= PATCHES]
+    few = [by for by, (proof, near) in decisions.proofs.items() if by <= lo and _patches(proof, near) <= PATCHES]
     if not few:
         return ()
     proof, near = decisions.proofs[max(few)]
-    assert proof.scene is not None, "it was not read from a file"
-    scene, space = proof.scene, free_space(boundary(proof.scene))
+    scene = _polygons(proof, near)
+    assert scene is not None, "it has patches"
+    space = free_space(boundary(scene))
     by = hi - max(few) + 2 * Fraction(max(near.errors))
     for _ in range(WIDER):
         robot = [part for shape in scene.robot for part in inset(shape, by)]
         other = free_space(boundary(with_robot(scene, robot, scene.bounds))) if robot else None
         if other is not None and other.common_cell(decisions.start, decisions.goal) is not None:
             places = bottlenecks(space, other, decisions.start, decisions.goal)
-            return tuple(_among(near, place) for place in places)
+            return tuple(_among(near, place, outward=proof.rounded is not None) for place in places)
         by *= 2
     return ()
 
@@ -318,13 +320,23 @@ def _pieces(shape: AnyShape) -> int:
     return len(shape.path) if isinstance(shape.path, tuple) else 1
 
 
-def _patches(proof: Separated) -> int:
-    return MotionChecker(proof.scene).features.patches if proof.scene else 0
+def _polygons(proof: Separated, near: Approximations) -> Scene | None:
+    """Return a scene of polygons without a path: a proof's, or polygons around the shapes; None if there are none."""
+    if proof.rounded is None:
+        return proof.scene
+    with suppress(UndecidedError):
+        return near.scene(outward=True)
+    return None
 
 
-def _among(near: Approximations, place: Bottleneck) -> Bottleneck:
+def _patches(proof: Separated, near: Approximations) -> int:
+    scene = _polygons(proof, near)
+    return MotionChecker(scene).features.patches if scene else PATCHES + 1
+
+
+def _among(near: Approximations, place: Bottleneck, *, outward: bool) -> Bottleneck:
     """Return a bottleneck between polygons as one between the shapes that they replace."""
-    one, other = (near.obstacle_of(k) for k in place.obstacles)
+    one, other = (near.obstacle_of(k, outward=outward) for k in place.obstacles)
     return Bottleneck(place.pose, (one, other), (placed(near.exact, one), placed(near.exact, other)))
 
 

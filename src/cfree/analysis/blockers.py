@@ -144,7 +144,9 @@ def _possible(planner: Planner | CurvedPlanner, proof: Separated, numbers: range
     """Return the obstacles without which the proof may fail, by their numbers in the whole scene."""
     if proof.of != "closed":
         return set(numbers)
-    own = map(planner.obstacle_of, proof.obstacles) if isinstance(planner, CurvedPlanner) else proof.obstacles
+    own: Iterable[int] = proof.obstacles
+    if isinstance(planner, CurvedPlanner) and proof.rounded is None:  # polygons in place of obstacles
+        own = map(planner.obstacle_of, own)
     return {numbers[i] for i in own if i >= 0}
 
 

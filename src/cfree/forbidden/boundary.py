@@ -224,7 +224,8 @@ class Boundary(BoundaryRecord, Shown):
     def regularized(self) -> Boundary:
         """The boundary of the interior of the closure of the forbidden space: without parts of no width.
 
-        It has no isolated parts, and no slits between bounds and a wall; computed at first use.
+        It has no isolated parts, no slits between bounds and a wall, and none that a disc fills exactly; computed at
+        first use.
         """
         self.require_complete()
         return _computed(self.scene, True, os.cpu_count() or 1)

@@ -107,8 +107,8 @@ class FreeSpace(Value, Shown):
     ----------
     boundary : Boundary
     surfaces : Boundary
-        The boundary whose closed surfaces bound the cells: `boundary`, or ``boundary.regularized`` if `bounds` may
-        leave slits of no width, which are not in the interior.
+        The boundary whose closed surfaces bound the cells: `boundary`, or ``boundary.regularized`` if `bounds` or
+        grown shapes may leave slits of no width, which are not in the interior.
     component : (F,) int32
         The closed surface of each trapezoid of `surfaces`.
     parent : (C,) int32
@@ -402,7 +402,7 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
 
     Notes
     -----
-    Among rounded shapes a corridor exactly as wide as the robot is a cell of volume 0, one for each half turn.
+    A corridor exactly as wide as the robot is in no cell, and neither is a place where free space is pinched.
 
     Examples
     --------

@@ -29,7 +29,7 @@ from cfree.planning.goals import AllSeparated, all_separated, cheapest, name_of,
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
-from cfree.planning.rounded_cells import separated_by_cells
+from cfree.planning.rounded_cells import FEW, RoundCells, round_cells, separated_by_cells
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.true_shapes import TrueShapes
@@ -113,6 +113,7 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
     """Return a path to a pose or place; or a proof for the pose, or for each interval of orientations at the place."""
     scene, start, options, clearance = query.scene, query.start, query.options, query.options.clearance
     hi, disc, inside = math.inf, list[ExactPoint](), list[ExactPoint]()
+    cells: RoundCells | None = None
 
     def for_scene(path: Path | Proof) -> Path | None:
         """Convert to a path of the scene's robot; None if it has slides, which keep contacts of the larger robot."""
@@ -132,6 +133,11 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
                 return cheapest(paths, larger, options.preferences)
             if proofs := _proofs(query, goal, inside, name):
                 return proofs
+            if sides == SIDES[0] and isinstance(goal, Pose) and options.exact_discs:
+                cells = round_cells(scene, options, FEW)
+                proof = cells.proof(start, goal) if cells else None
+                if proof is not None:
+                    return [proof]
             answers = [outer.path_or_proof(start, end, options) for end in ends]
             if paths := [path for path in map(for_scene, answers) if path]:
                 return cheapest(paths, larger, options.preferences)
@@ -147,9 +153,10 @@ def _to_one(query: _Query, goal: Goal, name: str) -> Path | list[Separated]:
             raise UndecidedError(f"{held.said()}, {more}; give another clearance")
     if options.exact_discs and (paths := _among_discs(query, goal)):
         return cheapest(paths, larger, options.preferences)
-    proof = separated_by_cells(scene, start, goal, options) if isinstance(goal, Pose) else None
-    if proof is not None:
-        return [proof]
+    if isinstance(goal, Pose) and options.exact_discs and cells is None:
+        proof = separated_by_cells(scene, start, goal, options)
+        if proof is not None:
+            return [proof]
     smaller = _grown(scene, inside, scene.bounds)
     inner = PosePlanner(smaller)
     # the scene's bounds, not the wider ones of a proof

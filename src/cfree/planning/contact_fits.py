@@ -127,7 +127,7 @@ def _may_touch(robot: _Rows, others: _Rows, place: tuple[float, float], near: fl
 
 
 class Fits:
-    """The vertices, arcs and segments of a scene.
+    """The vertices, arcs and segments of a scene, and its bounds.
 
     Parameters
     ----------
@@ -141,6 +141,10 @@ class Fits:
         self._others = [*dict.fromkeys(chain.from_iterable(map(_features, others)))]
         self._reach = max(map(_extent, self._robot))
         self._rows = _Rows.of(self._robot)
+        x0, y0, x1, y1 = map(Fraction, scene.bounds or (0, 0, 0, 0))
+        zero, one = Fraction(0), Fraction(1)
+        sides = ((one, zero, x0), (-one, zero, -x1), (zero, one, y0), (zero, -one, -y1))
+        self._bounds = [_Held((u, v), h) for u, v, h in sides] if scene.bounds else []
 
     def angles(self, x: float, y: float, theta: float, near: float, most: float = ASKEW) -> list[Fraction | None]:
         """Return half-angle tangents near an orientation: those parallel to something near, and the simplest."""
@@ -155,7 +159,12 @@ class Fits:
             if fit := _between(one, other, place):
                 (x, y), along = fit
                 own, center = one.own, None
-                if own and own == other.own and isinstance(own, Round):
+                if own is None or other.own is None:  # bounds hold the reference point
+                    own = own or other.own
+                    is_held = isinstance(own, Round) and not any(own.center)
+                else:
+                    is_held = own == other.own
+                if is_held and isinstance(own, Round):
                     a, b = _rotated(own.center, tau)
                     center = Center(own.center, (x + a, y + b))
                 yield Line(pose_at(x, y, tau), along, center)
@@ -185,10 +194,13 @@ class Fits:
         """Yield the contacts near a pose, the nearest first."""
         held = dict[_Held, float]()
         x, y = map(float, place)
+        for bound in self._bounds:
+            assert bound.n is not None
+            if (off := abs(float(bound.n[0] * place[0] + bound.n[1] * place[1] - bound.h))) <= near:
+                held[bound] = off
         others = self._close(x, y, near)
-        if not others:
-            return
-        may_touch = _may_touch(self._rows.turned(tau), _Rows.of(others), (x, y), near)
+        rows = _Rows.of(others) if others else None
+        may_touch = _may_touch(self._rows.turned(tau), rows, (x, y), near) if rows else np.zeros((1, 0), bool)
         for k in np.flatnonzero(may_touch.any(axis=1)).tolist():
             own = self._robot[k]
             turned = _turned(own, tau)

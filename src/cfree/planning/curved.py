@@ -30,20 +30,32 @@ from cfree.libraries import NDArray, np
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.caller import OutOfWork, Work
-from cfree.planning.goals import AllSeparated, cheapest, name_of, no_orientation, pose_in, refuse_far, several
+from cfree.planning.goals import (
+    AllSeparated,
+    all_separated,
+    cheapest,
+    name_of,
+    no_orientation,
+    pose_in,
+    refuse_far,
+    several,
+)
 from cfree.planning.options import Options
 from cfree.planning.planner import Planner, answer_for_any, answer_for_one
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
 from cfree.planning.reach import Reach
 from cfree.planning.round_places import STRAIGHT, is_free_place
-from cfree.planning.rounded_cells import separated_by_cells
+from cfree.planning.rounded_cells import FEW as FEW_PAIRS
+from cfree.planning.rounded_cells import WORK as PAIRS
+from cfree.planning.rounded_cells import RoundCells, round_cells
 from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.true_shapes import TruePlanner, TrueShapes
 from cfree.planning.unreachable import Unreachable
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
+from cfree.scene.rounded import is_disc_about_reference
 from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Car, Vehicle
 
@@ -169,14 +181,14 @@ class CurvedPlanner:
         def ask(planner: PosePlanner, options: Options) -> Answer:
             return answer_for_any(planner, begin, ends, options)
 
-        answer = self._answer(ask, (begin, *ends), options)
+        answer = self._answer(ask, (begin, *ends), options, for_any=True)
         assert not isinstance(answer, Proof)
         return answer
 
-    def _answer(self, ask: Ask, ends: Sequence[Goal], options: Options) -> Answer:
+    def _answer(self, ask: Ask, ends: Sequence[Goal], options: Options, *, for_any: bool = False) -> Answer:
         query = CurvedQuery(self._near, replace(options, tolerance=self._tolerance))
         try:
-            return query.answer(ask, ends)
+            return query.answer(ask, ends, for_any=for_any)
         finally:
             self._last = query.last or self._last
 
@@ -206,12 +218,12 @@ class CurvedQuery:
         self._is_limited = options.tolerance is None and options.max_seconds is None
         self._work = Work(PATCHES) if self._is_limited else options.work
         self._decided: dict[bool, Decided] = {}
-        self._is_tried = False
+        self._cells: RoundCells | None = None
         has_arcs = arcs_of(near.exact) is not None
         self._true = TrueShapes(near.exact, near, options.clearance) if has_arcs else None
 
-    def answer(self, ask: Ask, ends: Sequence[Goal]) -> Answer:
-        """Answer the query; `ask` answers it in a scene of polygons.
+    def answer(self, ask: Ask, ends: Sequence[Goal], *, for_any: bool = False) -> Answer:
+        """Answer the query; `ask` answers it in a scene of polygons, for any of several goals or for the only one.
 
         Raises
         ------
@@ -220,7 +232,7 @@ class CurvedQuery:
         """
         self._refuse(ends)
         try:
-            return self._refined(ask, ends)
+            return self._refined(ask, ends, for_any=for_any)
         except UndecidedError as error:
             if not self.options.clearance or error.path is not None:
                 raise
@@ -300,7 +312,7 @@ class CurvedQuery:
             return self.options
         return replace(self.options, max_seconds=max(0.0, seconds - (time.monotonic() - self._begin)))
 
-    def _refined(self, ask: Ask, goals: Sequence[Goal]) -> Answer:
+    def _refined(self, ask: Ask, goals: Sequence[Goal], *, for_any: bool) -> Answer:
         searches, ends = [FEW, MANY], [end for end in goals if isinstance(end, Pose)]
         while True:
             apart, inner, refused = None, None, None
@@ -310,13 +322,17 @@ class CurvedQuery:
                 if is_early and (path := self._first_path(true, poses, searches.pop(0))):
                     return path
                 inner = self._asked(ask, outward=False)
+                if not isinstance(inner, Path) and inner is not None:
+                    return self._for_curves(inner)
+                by_cells = self._by_cells(goals, FEW_PAIRS, for_any=for_any) if is_early else None
+                if by_cells is not None:
+                    return by_cells
                 if isinstance(inner, Path):
                     guides = self._guides(true, inner, poses) if self._thorough or is_early else ()
                     if path := next(filter(None, (self._mended(true, guide) for guide in guides)), None):
                         return path
-                elif inner is not None:
-                    return self._for_curves(inner)
-                by_cells = self._by_cells(goals) if self._thorough and not self._is_tried else None
+                if is_early and self._thorough:
+                    by_cells = self._by_cells(goals, PAIRS, for_any=for_any)
                 if by_cells is not None:
                     return by_cells
             try:
@@ -342,14 +358,27 @@ class CurvedQuery:
             if not self.near.refine(_poses(within, ends), () if apart is None else apart.obstacles):
                 raise self._undecided(self._reason or TOUCHING)
 
-    def _by_cells(self, goals: Sequence[Goal]) -> Separated | None:
-        """Return a proof by cells among the shapes themselves, for two poses."""
-        self._is_tried = True
-        if len(goals) != 2 or not all(isinstance(goal, Pose) for goal in goals):
+    def _by_cells(self, goals: Sequence[Goal], most: int, *, for_any: bool) -> Separated | AllSeparated | None:
+        """Return a proof by cells among the shapes themselves; None without one, or if it was tried.
+
+        Goals are poses; or places, if the robot is a disc about its reference point.
+        """
+        is_disc = is_disc_about_reference(self.near.exact)
+        start, *ends = poses = [
+            goal if isinstance(goal, Pose) else pose_at(*goal, Fraction(0))
+            for goal in goals
+            if is_disc or isinstance(goal, Pose)
+        ]
+        if self._cells is not None or len(poses) < len(goals):
             return None
-        start, goal = goals
-        assert isinstance(start, Pose) and isinstance(goal, Pose)
-        return separated_by_cells(self.near.exact, start, goal, self._within_time())
+        self._cells = round_cells(self.near.exact, self._within_time(), most)
+        proofs = list[Separated]()
+        for end in ends:
+            proof = self._cells.proof(start, end) if self._cells else None
+            if proof is None:
+                return None
+            proofs.append(proof)
+        return all_separated(proofs, goals[1:], is_whole=True) if for_any else proofs[0]
 
     def _guides(self, true: TruePlanner, inner: Path, poses: Sequence[Pose]) -> Iterator[Path]:
         """Yield a path among inner polygons; those to exact poses instead if it ends at a place in an inexact one."""

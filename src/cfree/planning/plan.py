@@ -189,7 +189,8 @@ def _answer(
 
     if scene.curved:
         query = CurvedQuery(Approximations(scene, options.tolerance), options)
-        answer = query.answer(ask, (start, goals) if isinstance(goals, Pose) else (start, *goals))
+        poses = (start, goals) if isinstance(goals, Pose) else (start, *goals)
+        answer = query.answer(ask, poses, for_any=not isinstance(goals, Pose))
     else:
         answer = ask(PosePlanner(scene, space), options)
     return ends.marked(answer) if ends else answer

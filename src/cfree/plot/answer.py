@@ -255,7 +255,7 @@ def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labe
 def surface_of(answer: Separated, scene: Scene) -> Boundary:
     """Return the surface of a separation as a boundary of its trapezoids alone, for drawing only."""
     if answer.rounded:
-        return _surface(answer.pieces, scene, features_of_cores(answer.rounded, scene))
+        return _surface(answer.pieces, scene, features_of_cores(answer.rounded, scene, answer.bounds))
     if answer.of == "closed":
         scene = Scene(answer.robot, scene.obstacles, bounds=answer.bounds, workspace=scene.workspace, units=scene.units)
     return _surface(answer.pieces, scene, scene_features(scene))

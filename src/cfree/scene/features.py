@@ -23,7 +23,7 @@ from cfree.value import kept
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
-    from cfree.scene.scene import Scene
+    from cfree.scene.scene import Bounds, Scene
 
 Point = tuple[int, int]
 BODY, REFERENCE = 0, 1  # layers
@@ -211,15 +211,15 @@ def _grown(scene: Scene) -> SceneFeatures:
     shapes = rounded_shapes(scene)
     if shapes is None:
         raise UnsupportedError(why_not_rounded(scene))
-    return features_of_cores(shapes, scene)
+    return features_of_cores(shapes, scene, scene.bounds)
 
 
-def features_of_cores(cores: Cores, scene: Scene) -> SceneFeatures:
-    """Number the features of grown cores in the workspace and the bounds of a scene."""
+def features_of_cores(cores: Cores, scene: Scene, bounds: Bounds | None) -> SceneFeatures:
+    """Number the features of grown cores in the workspace of a scene, and in bounds."""
     robot, obstacles = ([shape.handle for shape in shapes] for shapes in (cores.robot, cores.obstacles))
-    _, _, workspace, bounds = core_shapes((), (), scene.workspace, scene.bounds)
+    _, _, workspace, limits = core_shapes((), (), scene.workspace, bounds)
     rounding = [shape.rounding for shape in (*cores.robot, *cores.obstacles)]
-    features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, bounds, None, rounding))
+    features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, limits, None, rounding))
     refuse_too_many(features)
     return features
 

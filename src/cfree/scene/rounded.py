@@ -256,6 +256,12 @@ def _on_chords(rings: Sequence[Sequence[Side]]) -> Rounded | None:
     return Rounded(core, Fraction(0), tuple(arcs))
 
 
+def is_disc_about_reference(scene: Scene) -> bool:
+    """True if all of the robot's shapes are discs about its reference point: nothing depends on its orientation."""
+    paths = [shape.path if isinstance(shape, Curved) and not shape.holes else None for shape in scene.robot]
+    return all(isinstance(path, Circle) and not any(path.center) for path in paths)
+
+
 def why_not_rounded(scene: Scene) -> str:
     """Explain which shape keeps a scene from being one of rounded shapes, and what to do.
 

@@ -23,7 +23,7 @@ from cfree.scene.digest import Stamp, Whole, stamp_of
 from cfree.scene.goals import Moved, text_of, text_of_move
 from cfree.scene.reading import Note, together
 from cfree.scene.reading_lines import Claim
-from cfree.scene.rounded import Cores
+from cfree.scene.rounded import Cores, is_disc_about_reference
 from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.vehicles.vehicle import described
 from cfree.verify.arc_motions import ArcWorld
@@ -269,6 +269,8 @@ def _all_of(scene: Scene, outcome: AllSeparated, report: Callable[[float], objec
         about = [proof for proof in there if isinstance(proof, Separated)]
         where = f"({float(place[0]):g}, {float(place[1]):g})"
         turned = world
+        if world is None and not is_disc_about_reference(scene):
+            findings.append(Finding(TURNS, where, "its proofs have no polygons in which the robot turns there"))
         has_clearance = bool(there) and bool(there[0].clearance)
         if world and has_clearance:
             turned = turning(world, about[0]) if about and _is_one_robot(about) else None

@@ -26,7 +26,8 @@ def rounded_findings(
 ) -> Iterator[Finding]:
     """Findings about a separation among grown cores in a scene of segments and arcs."""
     true = grown_scene(scene, proof.clearance) if proof.clearance else scene
-    yield from end_findings(proof, ArcWorld(true))
+    world = ArcWorld(scene)
+    yield from end_findings(proof, world.with_robot(proof.clearance) if proof.clearance else world)
     surface = _surface(proof, cores, scene)
     if surface is None:
         yield Finding(CONTACTS, "pieces", "one names a feature that no core has")
@@ -36,7 +37,7 @@ def rounded_findings(
 
 def _surface(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation | None:
     """Return a separation in the form that is checked; None if a piece names no vertex of a core."""
-    features = features_of_cores(cores, scene)
+    features = features_of_cores(cores, scene, proof.bounds)
     robot, obstacle = (
         _numbers(shape, pairs)
         for shape, pairs in ((features.robot, proof.pieces.robot), (features.obstacles, proof.pieces.obstacle))
@@ -56,7 +57,7 @@ def _surface(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation | 
         proof.pieces.table,
         proof.start,
         proof.goal,
-        None,
+        proof.bounds,
         scene.workspace,
     )
 

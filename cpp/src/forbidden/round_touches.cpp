@@ -1,0 +1,130 @@
+// Curves along which another surface touches a patch from its free side, at every angle: free space is pinched there; theory,
+// "Rounded shapes".
+#include <algorithm>
+
+#include "cfree/contact/contact_line.hpp"
+#include "cfree/scene/features.hpp"
+#include "forbidden/round_trim.hpp"
+
+namespace cfree {
+
+namespace {
+
+const Int& radius(const Shape& s, Index v) { return s.radii[s.vertex_radius[v]].exact; }
+
+}  // namespace
+
+// Two surfaces touch at every angle only if the robot's place is one for both, a disc's centre or the reference point, or if the
+// obstacles' is, a disc's centre. In the plane of the other shape they then stand still.
+struct RoundTrimmer::Touch {
+    Feature feature;
+    Vec<Int> towards;  // from the centre of the patch's circle, in the plane of the obstacles, or of the robot
+    bool turns;        // true in that of the robot
+};
+
+std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>& pieces) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature& own = surface.contact;
+    const bool is_circle_here = is_circle(own);
+    const Index i = own.robot, j = own.obstacle;
+    std::vector<Touch> result;
+    // the patch's feature of one shape against a vertex or an edge of this shape, at distances from the common place of the other
+    const auto add = [&](const Shape& s, Index mine, Index other, bool is_edge, const Int& my_distance, const Int& other_distance,
+                         const Feature& feature) {
+        const Int both = my_distance + other_distance;
+        const auto is_tangent = [&](Index e, Index v) {
+            const Vec<Int> E = edge<Int>(s, e);
+            const Int outwards = -cross(E, difference<Int>(s, v, s.v[e]));
+            return outwards.sign() >= 0 && outwards * outwards == both * both * dot(E, E);
+        };
+        if (is_circle_here && is_edge) {
+            const Vec<Int> E = edge<Int>(s, other);
+            if (is_tangent(other, mine)) result.push_back({feature, {-E.y, E.x}, &s == &A});
+        } else if (is_circle_here) {
+            const Vec<Int> d = difference<Int>(s, other, mine);
+            if (dot(d, d) == both * both && !both.is_zero()) result.push_back({feature, d, &s == &A});
+        } else if (is_tangent(mine, other)) {
+            result.push_back({feature, {}, &s == &A});
+        }
+    };
+    const auto is_disc = [](const Shape& s, Index v) { return s.previous[v] == v; };
+    // around one place of the robot
+    if (own.kind != Kind::edge_vertex) {
+        const bool is_reference = A.layer[i] == reference_layer;
+        const Int mine = radius(A, i) + (is_circle_here ? radius(O, j) : radius(O, O.v[j]));
+        for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {
+            const bool is_same_layer = A.layer[i2] == A.layer[i];
+            if (is_same_layer ? i2 != i || is_reference || !is_disc(A, i) : A.X[i2] != A.X[i] || A.Y[i2] != A.Y[i]) continue;
+            const auto add_at = [&](Index v) {
+                if (O.layer[v] != A.layer[i2] || !O.emit[v]) return;
+                if (O.convex[v] && A.convex[i2])
+                    add(O, j, v, false, mine, radius(A, i2) + radius(O, v), {Kind::vertex_vertex, i2, v, 1});
+                if (is_circle_here && O.makes_surfaces(v) && A.convex[i2])
+                    add(O, j, v, true, mine, radius(A, i2) + radius(O, v), {Kind::vertex_edge, i2, v, 1});
+            };
+            if (A.layer[i2] == reference_layer) {
+                for (Index v = 0; v < O.ring_vertices; ++v) add_at(v);
+                continue;
+            }
+            std::vector<Index> near;
+            for (const Index k : pieces)
+                for (Index p = O.piece[k]; p < O.piece[k + 1]; ++p)
+                    if (O.piece_vertex[p] < O.ring_vertices) near.push_back(O.piece_vertex[p]);
+            std::sort(near.begin(), near.end());
+            near.erase(std::unique(near.begin(), near.end()), near.end());
+            for (const Index v : near) add_at(v);
+        }
+    }
+    // around a disc among the obstacles
+    if (own.kind != Kind::vertex_edge && is_disc(O, j) && O.layer[j] == body_layer) {
+        const Int& disc = radius(O, j);
+        const Int mine = disc + (is_circle_here ? radius(A, i) : radius(A, A.v[i]));
+        for (Index v = 0; v < A.ring_vertices; ++v) {
+            if (A.layer[v] != body_layer) continue;
+            if (A.convex[v]) add(A, i, v, false, mine, radius(A, v) + disc, {Kind::vertex_vertex, v, j, 1});
+            if (is_circle_here && A.makes_surfaces(v)) add(A, i, v, true, mine, radius(A, v) + disc, {Kind::edge_vertex, v, j, 1});
+        }
+    }
+    return result;
+}
+
+void RoundTrimmer::split_at_touches(const std::vector<Index>& pieces) {
+    if (live.empty()) return;
+    const auto split_between = [&](Index from, Index to, const Feature& feature) {
+        const Index t = curve_of(feature, false);
+        Area seam{from, to, t, t, 0, 1};
+        bounds(seam);
+        subtract_from_live({seam, -1, -1, nullptr});
+    };
+    for (const Touch& touch : touches(pieces)) {
+        if (is_line(surface.contact)) {
+            split_between(0, 1, touch.feature);
+            continue;
+        }
+        // the place is in the quadrant between two angles at which it is in an end of it
+        std::vector<Event> cuts;
+        if (touch.turns)
+            for (const Feature& seam : quadrant()) {
+                const auto roots = decide.event_roots(touch.feature, seam, events[0], events[1]);
+                cuts.insert(cuts.end(), roots.at.begin(), roots.at.end());
+            }
+        std::sort(cuts.begin(), cuts.end(), [&](const Event& p, const Event& q) { return decide.order(p, q) < 0; });
+        cuts.push_back(events[1]);
+        for (Index from = 0; const Event& cut : cuts) {
+            if (decide.order(events[from], cut) == 0) continue;
+            const Index to = intern(cut);
+            Vec<Int> to_place = touch.towards;
+            if (touch.turns) {
+                const Dyadic tau = decide.between(events[from], events[to]).exact();
+                const auto R = rotation_by(surface.chart, tau.n, Int(1) << tau.k);
+                const Vec<Int> turned = R(to_place);
+                to_place = {-turned.x, -turned.y};
+            }
+            for (int turns = surface.contact.branch; turns > 0; --turns) to_place = {to_place.y, -to_place.x};  // the quadrant becomes the first
+            if (to_place.x.sign() > 0 && to_place.y.sign() > 0) split_between(from, to, touch.feature);
+            from = to;
+        }
+    }
+}
+
+}  // namespace cfree
