@@ -1,6 +1,7 @@
 // Questions to the core when something moves, and where its answers go.
-import { Cancelled, Engine, type Columns, doubles, integers, string, value } from "./engine";
+import { Cancelled, Engine, type Columns, bytes, doubles, integers, string, value } from "./engine";
 import type { Editor } from "./editor";
+import { entries, show_legend } from "./legend";
 import { $, fault, say, working } from "./page";
 import { digits, number } from "./shapes";
 import { wrapped, type Space } from "./space";
@@ -65,6 +66,8 @@ export class Session {
   on_opened = () => {};
   on_seen = () => {};
   on_vehicle = () => {};
+  has_arcs = false; // the boundary, patches of an arc on an arc
+  on_built = () => {};
 
   constructor(
     readonly workspace: Workspace,
@@ -199,10 +202,13 @@ export class Session {
     const is_now = source === this.now.source;
     const cells = value(counts, "cells");
     $("facts").textContent =
-      `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s${around_words(read, this.file.units)}`;
+      `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s${around_words(read, this.file.names, this.file.units)}`;
     if (this.space) {
       this.space.show_scene(box, radius, false);
       this.space.show_mesh(mesh!);
+      show_legend(entries(read, mesh!));
+      this.has_arcs = bytes(mesh!, "kind").includes(2);
+      this.on_built();
       for (const who of ["start", "goal"] as const) this.place(who);
     }
     if (!is_now) return;
