@@ -20,6 +20,9 @@ constexpr double on_curves = 0.5;        // share of the error that chords of cu
 constexpr double least_angle = 1e-7;     // steps of theta below it are not divided
 constexpr std::size_t most_rows = 2000;  // of a grid over a face, and points in a row
 
+// Parts of about a step, the same for sizes that are equal up to rounding.
+int parts(double size, double step) { return static_cast<int>(std::min<double>(most_rows, std::ceil(size / step - 1e-9))); }
+
 using Xy = Vec<double>;
 struct Sample {
     double theta;
@@ -160,9 +163,9 @@ private:
         const Index twin = in.twin[h];
         const double step = twin < 0 ? sheet.across : std::min(sheet.across, sheets[in.face[twin]].across);
         const double theta = angle(h), first = sheet.u(place(h), theta), last = sheet.u(place(after(h)), theta);
-        const auto parts = static_cast<int>(std::min<double>(most_rows, std::ceil(std::abs(last - first) / step)));
+        const int count = parts(std::abs(last - first), step);
         std::vector<Sample> samples;
-        for (int k = 1; k < parts; ++k) samples.push_back({theta, sheet.at(first + (last - first) * k / parts, theta)});
+        for (int k = 1; k < count; ++k) samples.push_back({theta, sheet.at(first + (last - first) * k / count, theta)});
         return samples;
     }
 
@@ -195,7 +198,7 @@ private:
         for (Index h = in.first[f]; h < in.first[f + 1]; ++h) add_side(h, rim[in.side[h]]);
         Triangulation net;
         std::vector<Point> points;
-        const double wide = std::min(sheet.across, std::max(sheet.length, error));
+        const double wide = sheet.is_circle() ? sheet.across : std::min(sheet.across, sheet.length);
         const auto add = [&](const Point& p) {
             points.push_back(p);
             net.places.push_back({p.u / wide, p.theta / sheet.turn});
@@ -216,7 +219,6 @@ private:
         for (const std::size_t side : {0, 2})
             for (std::size_t k = 1; k < sides[side].size(); ++k) net.split_rim(sides[side][k - 1], corner(side + 1), sides[side][k]);
         net.make_delaunay();
-        const auto parts = [](double size, double step) { return static_cast<int>(std::min<double>(most_rows, std::ceil(size / step))); };
         const int rows = parts(sheet.to - sheet.from, sheet.turn);
         for (int row = 1; row < rows; ++row) {
             const double theta = sheet.from + (sheet.to - sheet.from) * row / rows;

@@ -377,11 +377,13 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
     const AtPoint local = geometry_at(*world.scene, contact, t, at.theta, 1);
     reply.add("t", t), reply.add("phi", at.theta), reply.add("K", local.K), reply.add("H", local.H);
     reply.text("pose", words_of(pose_in_contact(*world.scene, contact, t, at.theta)));
-    // all of the patch that is left: from and to in angles
+    // all of the contact that is left, from and to in angles: one patch, or some quadrants of a circle
+    const auto named_by = [](const Feature& f) { return std::array{static_cast<Index>(f.kind), f.robot, f.obstacle}; };
+    const auto of_patch = [&](Index k) { return named_by(contact_of(*world.boundary, k)); };
     std::vector<double> range;
     std::vector<Index> same;
     for (std::size_t k = 0; k < table.size(); ++k) {
-        if (table.patch[k] != table.patch[static_cast<std::size_t>(trapezoid)]) continue;
+        if (of_patch(static_cast<Index>(k)) != named_by(contact)) continue;
         const Index which = static_cast<Index>(k);
         same.push_back(which);
         range.push_back(theta_of(table.chart[k], table.tau_from(which)));
@@ -390,14 +392,14 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
     reply.add("same", same), reply.add("range", range);
     // parts of its sides in common with other patches
     const CellComplex& c = *world.cells;
-    const Index patch = table.patch[static_cast<std::size_t>(trapezoid)];
     std::set<Index> others;
+    std::set<std::array<Index, 3>> seen{named_by(contact)};
     for (std::size_t side = 0; side < c.face.size(); ++side) {
         const Index twin = c.twin[side];
-        if (twin >= 0 && table.patch[static_cast<std::size_t>(c.face[side])] == patch)
-            others.insert(table.patch[static_cast<std::size_t>(c.face[static_cast<std::size_t>(twin)])]);
+        if (twin < 0 || of_patch(c.face[side]) != named_by(contact)) continue;
+        const Index other = c.face[static_cast<std::size_t>(twin)];
+        if (seen.insert(of_patch(other)).second) others.insert(table.patch[static_cast<std::size_t>(other)]);
     }
-    others.erase(patch);
     Named trims;
     for (const Index other : others) trims.add(world, world.boundary->patches.contact(other));
     trims.put("trims", reply);

@@ -36,12 +36,11 @@ export function entries(scene: Columns, mesh: Columns): Entry[] {
 export function show_legend(shown: Entry[]): void {
   $("legend").replaceChildren(
     ...shown.flatMap(({ mark, text }) => {
+      const name = document.createElement("span");
       const sign = document.createElement("i");
       sign.className = mark;
-      const name = document.createElement("span");
-      name.className = `of-${mark}`;
-      name.textContent = text;
-      return [sign, name, " "];
+      name.append(sign, text);
+      return [name, " "];
     }),
   );
 }

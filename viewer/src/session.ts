@@ -11,7 +11,9 @@ import { frame_of, track_of, usual, words_of, type Gear, type Vehicle, type Whee
 import type { FilePose, SceneText } from "./words";
 import type { Drag, Seen, Who, Workspace } from "./workspace";
 
-const PATIENCE = 300; // ms that a boundary may take before the next edit ends it
+// ms that a boundary may take before the next edit ends it: half as long again as the last one, within these
+const PATIENCE = 300;
+const MOST_PATIENCE = 1500;
 const COARSE = 9000;
 const FINE = 60_000; // triangles
 const QUICK = 300;
@@ -167,10 +169,12 @@ export class Session {
   // Build the boundary of the scene as it is now; of several requests the newest succeeds.
   private wanted?: { is_fine: boolean };
   private building_since = 0;
+  private last_took = 0;
   async build(is_fine: boolean): Promise<void> {
     this.wanted = { is_fine };
     if (this.building_since) {
-      if (is_fine || performance.now() - this.building_since > PATIENCE) this.builder.end();
+      const patience = Math.min(MOST_PATIENCE, Math.max(PATIENCE, 1.5 * this.last_took));
+      if (is_fine || performance.now() - this.building_since > patience) this.builder.end();
       return;
     }
     const slow = setTimeout(() => working(true), 250);
@@ -179,6 +183,7 @@ export class Session {
       this.building_since = performance.now();
       try {
         await this.build_once(wish.is_fine);
+        this.last_took = performance.now() - this.building_since;
       } catch (error) {
         if (!(error instanceof Cancelled)) fault("pose", error);
         else if (!this.wanted) $("facts").textContent = "stopped: no boundary";
