@@ -32,9 +32,7 @@ void show_polygons(const std::string& prefix, const std::vector<std::shared_ptr<
     reply.add(prefix + ".xy", xy), reply.add(prefix + ".ring", ring), reply.add(prefix + ".polygon", polygon);
 }
 
-double near(const Ratio& x) { return nearest(x.n, x.d); }
-
-// Outlines with arcs; radii of the shapes that are drawn, and the error of polygons around others.
+// Outlines with arcs; and the error of polygons around shapes that are not rounded.
 void show_rounds(const World& world, Reply& reply) {
     const GivenScene& scene = world.rounds->scene;
     const auto show = [&](const std::string& prefix, const std::vector<GivenShape>& shapes) {
@@ -45,10 +43,6 @@ void show_rounds(const World& world, Reply& reply) {
     };
     show("robot", scene.robot), show("obstacles", scene.obstacles);
     if (scene.workspace) show("workspace", std::vector{*scene.workspace});
-    std::vector<double> radii;
-    for (std::size_t k = 0; k < world.shapes.obstacles.size(); ++k) radii.push_back(near(world.shapes.obstacle_radius(k)));
-    if (world.shapes.workspace) radii.push_back(0);
-    reply.add("robot.radius", near(world.shapes.robot_radius)), reply.add("obstacles.radius", radii);
     if (!world.near->inexact.empty()) reply.add("around", world.near->error), reply.add("around.shapes", world.near->inexact);
 }
 
@@ -143,12 +137,28 @@ std::optional<Line> line_kind(const Scene& scene, const Feature& first, const Fe
     return Line::crossing;
 }
 
+// Radii of the vertices of a contact, or of those at the start of its edge.
+struct Radii {
+    double robot, obstacle;
+};
+Radii radii_of(const Scene& scene, const Feature& contact) {
+    if (!scene.is_round) return {0, 0};
+    const auto radius = [&](const Shape& of, Index v) { return of.radii[of.vertex_radius[v]].about.hi * scene.unit(); };
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    return {radius(A, contact.kind == Kind::edge_vertex ? A.v[contact.robot] : contact.robot),
+            radius(O, contact.kind == Kind::vertex_edge ? O.v[contact.obstacle] : contact.obstacle)};
+}
+std::uint8_t grown_of(const Scene& scene, const Feature& contact) {
+    const Radii radii = radii_of(scene, contact);
+    return static_cast<std::uint8_t>((radii.robot > 0 ? 1 : 0) + (radii.obstacle > 0 ? 2 : 0));
+}
+
 std::uint8_t kind_of(const Feature& contact) { return is_circle(contact) ? 2 : contact.kind == Kind::vertex_edge ? 0 : 1; }
 
 struct SurfaceColumns {
     std::vector<double> xyz, normal, lines, gaussian, mean;  // curvatures without units
     std::vector<Index> corners, face, cell, owner;  // owner: the obstacle, or bounds or workspace
-    std::vector<std::uint8_t> kind, line_kind;
+    std::vector<std::uint8_t> kind, line_kind, grown;  // grown: 1 for an arc of the robot, and 2 for one of an obstacle; empty among polygons
 };
 
 SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cells, const Mesh& mesh, double length,
@@ -174,6 +184,7 @@ SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cell
                 out.normal.insert(out.normal.end(), local.normal.begin(), local.normal.end());
                 out.gaussian.push_back(local.K * length * length), out.mean.push_back(local.H * length);
                 out.kind.push_back(kind_of(contact));
+                if (features.scene->is_round) out.grown.push_back(grown_of(*features.scene, contact));
                 out.owner.push_back(owners[static_cast<std::size_t>(contact.obstacle)]);
                 out.cell.push_back(space ? space->cell_of[static_cast<std::size_t>(cells.component[static_cast<std::size_t>(face)])] : -1);
             }
@@ -214,6 +225,7 @@ void put(const SurfaceColumns& columns, Reply& reply) {
     reply.add("face", columns.face), reply.add("kind", columns.kind), reply.add("cell", columns.cell), reply.add("owner", columns.owner);
     reply.add("gaussian", columns.gaussian), reply.add("mean", columns.mean);
     reply.add("lines", columns.lines), reply.add("line_kind", columns.line_kind);
+    if (!columns.grown.empty()) reply.add("grown", columns.grown);
 }
 
 // A pose on a grid, exactly in contact; next to it where an edge of irrational length is moved outwards.
@@ -270,8 +282,8 @@ void Named::add(const World& world, const Feature& contact) {
     robot_part.push_back(part), robot_vertex.push_back(vertex);
     const auto [polygon, corner] = owner(world.features.obstacles, j);
     obstacle.push_back(polygon), obstacle_vertex.push_back(corner);
-    const auto radius = [&](const Shape& of, Index v) { return world.scene->is_round ? of.radii[of.vertex_radius[v]].about.hi * world.scene->unit() : 0; };
-    robot_radius.push_back(radius(A, turns ? A.v[i] : i)), obstacle_radius.push_back(radius(O, on_edge ? O.v[j] : j));
+    const Radii radii = radii_of(*world.scene, contact);
+    robot_radius.push_back(radii.robot), obstacle_radius.push_back(radii.obstacle);
     // an edge is moved outwards
     const auto ends = [](std::vector<double>& xy, Vec<double> p, Vec<double> q, double by) {
         const Vec<double> d = q - p;

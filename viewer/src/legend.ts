@@ -1,5 +1,5 @@
 // The legend of the right view: colours of the patches and lines that are there.
-import { type Columns, bytes, doubles } from "./engine";
+import { type Columns, bytes, integers } from "./engine";
 import { $ } from "./page";
 
 export interface Entry {
@@ -13,21 +13,23 @@ const OF_POLYGONS: Entry[] = [
   { mark: "se", text: "edge on edge" },
 ];
 
-// Among round shapes: an arc stands for a vertex that is grown. Contacts with the bounds are those of the reference point.
-export function entries(scene: Columns, mesh: Columns): Entry[] {
-  if (!scene["robot.radius"]) return OF_POLYGONS;
-  const robot = doubles(scene, "robot.radius")[0]! > 0 ? "arc" : "vertex";
-  const radii = doubles(scene, "obstacles.radius");
-  const [arcs, vertices] = [radii.some((r) => r > 0), radii.some((r) => r === 0)];
-  const obstacle = arcs && vertices ? "arc or vertex" : arcs ? "arc" : "vertex";
-  const owner = mesh.owner as Int32Array;
-  const kinds = new Set(bytes(mesh, "kind").filter((_, k) => owner[k] !== -1));
+// Among rounded shapes an arc stands for a vertex that is grown. Contacts with the bounds are those of the reference point.
+export function entries(mesh: Columns): Entry[] {
+  if (!mesh.grown) return OF_POLYGONS;
+  const [kind, grown, owner] = [bytes(mesh, "kind"), bytes(mesh, "grown"), integers(mesh, "owner")];
+  // the arcs of each kind of patch that there is: of the robot 1, of an obstacle 2
+  const found = [0, 1, 2].map((of) => new Set(grown.filter((_, k) => kind[k] === of && owner[k] !== -1)));
+  const name = (of: number, bit: number) =>
+    ["arc", "vertex"].filter((_, k) => [...found[of]!].some((arcs) => (arcs & bit) > 0 === (k === 0))).join(" or ");
+  const patches: (Entry & { is: boolean })[] = [
+    { mark: "ve", text: `${name(0, 1)} on edge`, is: found[0]!.size > 0 },
+    { mark: "ev", text: `edge on ${name(1, 2)}`, is: found[1]!.size > 0 },
+    { mark: "aa", text: `${name(2, 1)} on ${name(2, 2)}`, is: found[2]!.size > 0 },
+  ];
   const lines = new Set(bytes(mesh, "line_kind"));
   const curves = [...(lines.has(1) ? ["helix"] : []), ...(lines.has(3) ? ["smooth joint"] : [])].join(", ");
   return [
-    ...(kinds.has(0) ? [{ mark: "ve", text: `${robot} on edge` } as const] : []),
-    ...(kinds.has(1) ? [{ mark: "ev", text: `edge on ${obstacle}` } as const] : []),
-    ...(kinds.has(2) ? [{ mark: "aa", text: `${robot} on ${robot === "arc" ? obstacle : "arc"}` } as const] : []),
+    ...patches.filter(({ is }) => is).map(({ mark, text }) => ({ mark, text })),
     ...(curves ? [{ mark: "he", text: curves } as const] : []),
     ...(lines.has(2) ? [{ mark: "se", text: "edge on edge" } as const] : []),
   ];

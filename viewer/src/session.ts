@@ -211,7 +211,7 @@ export class Session {
     if (this.space) {
       this.space.show_scene(box, radius, false);
       this.space.show_mesh(mesh!);
-      show_legend(entries(read, mesh!));
+      show_legend(entries(mesh!));
       this.has_arcs = bytes(mesh!, "kind").includes(2);
       this.on_built();
       for (const who of ["start", "goal"] as const) this.place(who);

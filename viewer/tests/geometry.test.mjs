@@ -121,31 +121,28 @@ test("patches of an arc on an arc have a colour, and a scale of K to both sides"
   assert.match(LEGENDS(false).gaussian, /-1 \(dark\) to 0/);
 });
 
-test("the legend has the patches and lines of round shapes that are there", () => {
-  const told = (scene, mesh) => entries(scene, mesh).map(({ mark, text }) => `${mark}: ${text}`);
-  const round = (robot, ...obstacles) => ({
-    "robot.radius": Float64Array.of(robot),
-    "obstacles.radius": Float64Array.from(obstacles),
-  });
-  const mesh = (kind, lines, owner = kind.map(() => 0)) => ({
-    kind: Uint8Array.from(kind),
-    line_kind: Uint8Array.from(lines),
-    owner: Int32Array.from(owner),
-  });
+test("the legend has the patches and lines of rounded shapes that are there", () => {
+  const told = (kind, grown, lines, owner = kind.map(() => 0)) =>
+    entries({
+      kind: Uint8Array.from(kind),
+      ...(grown && { grown: Uint8Array.from(grown) }),
+      line_kind: Uint8Array.from(lines),
+      owner: Int32Array.from(owner),
+    }).map(({ mark, text }) => `${mark}: ${text}`);
   const polygons = ["ve: vertex on edge", "ev: edge on vertex", "he: helix", "se: edge on edge"];
-  assert.deepEqual(told({}, mesh([0], [])), polygons);
-  assert.deepEqual(told(round(1, 0, 2), mesh([0, 1, 2], [0, 3, 2])), [
+  assert.deepEqual(told([0], undefined, []), polygons);
+  assert.deepEqual(told([0, 1, 1, 2, 2], [1, 1, 3, 1, 3], [0, 3, 2]), [
     "ve: arc on edge",
     "ev: edge on arc or vertex",
     "aa: arc on arc or vertex",
     "he: smooth joint",
     "se: edge on edge",
   ]);
-  assert.deepEqual(told(round(0, 2), mesh([1, 2], [])), ["ev: edge on arc", "aa: vertex on arc"]);
-  assert.deepEqual(told(round(1, 0), mesh([0, 2, 0], [1, 3], [0, 0, -1])), [
+  assert.deepEqual(told([0, 1, 2], [0, 2, 2], []), ["ve: vertex on edge", "ev: edge on arc", "aa: vertex on arc"]);
+  assert.deepEqual(told([0, 2, 0], [1, 1, 0], [1, 3], [0, 0, -1]), [
     "ve: arc on edge",
     "aa: arc on vertex",
     "he: helix, smooth joint",
   ]);
-  assert.deepEqual(told(round(1, 2), mesh([2, 0], [], [0, -1])), ["aa: arc on arc"]);
+  assert.deepEqual(told([2, 0], [3, 0], [], [0, -1]), ["aa: arc on arc"]);
 });
