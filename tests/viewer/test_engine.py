@@ -213,13 +213,17 @@ def test_round_contact_is_exact_and_reached_exactly() -> None:
     assert 0 <= (x - 3) ** 2 + y**2 - Fraction(9, 4) < Fraction(1, 2**50)
 
 
-def test_neither_path_nor_proof_among_round_shapes_is_said() -> None:
+FAR = cfree.Curved([(20, 0), (22, 0), Arc((20, 0), center=(21, 0))])  # not rounded: it has corners
+
+
+@pytest.mark.parametrize(("more", "verdict"), [([], "round apart"), ([FAR], "round")], ids=["rounded", "others"])
+def test_neither_path_nor_proof_among_round_shapes_is_said(more: list[cfree.Curved], verdict: str) -> None:
     barely = [
         [(x, Fraction(y) + side * Fraction("1e-9")) for x, y in wall] for wall, side in zip(WALL, (-1, 1), strict=True)
     ]
-    scene = cfree.Scene(DISC, barely, bounds=ROOM)
+    scene = cfree.Scene(DISC, [*barely, *more], bounds=ROOM)
     _, answer = asked(["open", scene_text(scene)], ["plan", "-4 0 0", "4 0 0", "", 0])
-    assert answer["verdict"] == "round"
+    assert answer["verdict"] == verdict
 
 
 @pytest.mark.parametrize(
