@@ -108,9 +108,10 @@ private:
         Index vertex;
         double u, theta;
     };
-    // Vertices of an edge, in the direction of its first half-edge.
+    // Vertices of an edge: of a curve by theta, of others from a place on. Half-edges of an edge may have other vertices at its ends.
     struct Run {
-        Index begin, start, count;
+        Index begin, count;
+        Xy from;
     };
 
     bool is_curve(Index h) const { return static_cast<Side>(in.side[h]) == Side::upper || static_cast<Side>(in.side[h]) == Side::lower; }
@@ -153,9 +154,8 @@ private:
         const double turn = twin < 0 ? sheet.turn : std::min(sheet.turn, sheets[in.face[twin]].turn);
         std::vector<Sample> samples;
         const Sample start{angle(h), place(h)}, end{angle(after(h)), place(after(h))};
-        const bool rises = start.theta < end.theta;
-        bisect(sheet, static_cast<Side>(in.side[h]) == Side::upper, rises ? start : end, rises ? end : start, turn, samples);
-        if (!rises) std::reverse(samples.begin(), samples.end());
+        const bool is_upper = static_cast<Side>(in.side[h]) == Side::upper;
+        bisect(sheet, is_upper, is_upper ? start : end, is_upper ? end : start, turn, samples);
         return samples;
     }
     std::vector<Sample> samples_of_level(Index h) const {
@@ -178,18 +178,19 @@ private:
             const Xy p{out.xyz[3 * static_cast<std::size_t>(vertex)], out.xyz[3 * static_cast<std::size_t>(vertex) + 1]};
             into.push_back({vertex, is_curve(h) ? sheet.ends(theta)[is_upper] : sheet.u(p, theta), theta});
         };
-        const Index start = vertex_of(h);
         const std::pair key{in.edge[h], !is_curve(h) && on_seam(in.vertex[h]) && is_late(h)};
         auto found = runs.find(key);
         if (found == runs.end()) {
             const auto samples = is_curve(h) ? samples_of_curve(h) : samples_of_level(h);
             const auto begin = static_cast<Index>(out.xyz.size() / 3);
             for (const Sample& sample : samples) add_vertex(sample);
-            found = runs.emplace(key, Run{begin, start, static_cast<Index>(samples.size())}).first;
+            found = runs.emplace(key, Run{begin, static_cast<Index>(samples.size()), place(h)}).first;
         }
-        put(start);
+        put(vertex_of(h));
         const Run run = found->second;
-        for (Index k = 0; k < run.count; ++k) put(run.begin + (run.start == start ? k : run.count - 1 - k));
+        const auto from_there = [&](const Xy& p) { return norm(p.x - run.from.x, p.y - run.from.y); };
+        const bool is_forward = is_curve(h) ? is_upper : from_there(place(h)) < from_there(place(after(h)));
+        for (Index k = 0; k < run.count; ++k) put(run.begin + (is_forward ? k : run.count - 1 - k));
     }
 
     void fill(Index f) {

@@ -60,6 +60,15 @@ SCENES = {
     "grown triangle among discs": Scene(GROWN, ring("0.6")),
     "polygon among discs": Scene(TRIANGLE, ring("1/2")),
     "grown rectangle in a room": Scene(Curved(BOX, grown="0.1"), [Curved(KITE, grown="0.2")], workspace=ROOM),
+    "disc in a gap of its own width": Scene(
+        disc(0, "0.25", "0.375"),
+        [
+            [("0.25", "2.5"), (1, "2.25"), ("1.5", "2.5"), (2, 4)],
+            Curved(
+                [(1, "0.5"), (5, "0.5"), Arc((5, "1.5"), center=(5, 1)), (1, "1.5"), Arc((1, "0.5"), center=(1, 1))]
+            ),
+        ],
+    ),
     "two discs in bounds": Scene([disc(0, 0, "1/2"), disc(1, 0, "1/2")], [KITE, disc(3, 0, 1)], bounds=(-6, -6, 6, 6)),
 }
 
