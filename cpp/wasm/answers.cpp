@@ -161,9 +161,10 @@ std::string vehicle_text(const GivenVehicle& vehicle) {
 std::string pair_text(Index a, Index b) { return '[' + std::to_string(a) + ", " + std::to_string(b) + ']'; }
 std::string contact_text(const SceneFeatures& features, const Feature& f) {
     const auto i = static_cast<std::size_t>(f.robot), j = static_cast<std::size_t>(f.obstacle);
-    return std::string("{\"kind\": ") + quoted(f.kind == Kind::vertex_edge ? "vertex-edge" : "edge-vertex") + ", \"robot\": " +
-           pair_text(features.robot.polygon[i], features.robot.vertex[i]) + ", \"obstacle\": " +
-           pair_text(features.obstacles.polygon[j], features.obstacles.vertex[j]) + "}";
+    const char* kind = f.kind == Kind::vertex_edge ? "vertex-edge" : f.kind == Kind::edge_vertex ? "edge-vertex" : "vertex-vertex";
+    return std::string("{\"kind\": ") + quoted(kind) + ", \"robot\": " + pair_text(features.robot.polygon[i], features.robot.vertex[i]) +
+           ", \"obstacle\": " + pair_text(features.obstacles.polygon[j], features.obstacles.vertex[j]) +
+           (f.kind == Kind::vertex_vertex ? ", \"quadrant\": " + std::to_string(f.branch) : "") + "}";
 }
 
 // Motion from one pose to the next; theta is counted on.
@@ -220,11 +221,25 @@ std::string motion(const SceneFeatures& features, const ContactSlide& s, double&
            terms(s.y) + ", \"d\": " + terms(s.d) + ", \"tau\": " + quoted(s.tau) + "}}";
 }
 
-std::string polygon_text(const Polygon& polygon) {
+// A polygon, or the points of a thin one, without the end of the object.
+std::string begun_text(const Polygon& polygon) {
     const auto points = [](const std::vector<Rational>& of) { return listed(of, [](const Rational& p) { return exact(p[0], p[1]); }); };
+    if (polygon.is_thin()) return "{\"points\": " + points(ring(polygon, 0));
     std::string holes;
     for (std::size_t r = 1; r + 1 < polygon.offsets.size(); ++r) holes += (r > 1 ? ", " : "") + points(ring(polygon, r));
-    return "{\"outer\": " + points(ring(polygon, 0)) + (holes.empty() ? "" : ", \"holes\": [" + holes + "]") + "}";
+    return "{\"outer\": " + points(ring(polygon, 0)) + (holes.empty() ? "" : ", \"holes\": [" + holes + "]");
+}
+std::string polygon_text(const Polygon& polygon) { return begun_text(polygon) + "}"; }
+
+// The grown cores that a proof is about.
+std::string cores_text(const SceneShapes& shapes) {
+    const auto grown = [](const Polygon& core, const Ratio& radius) { return begun_text(core) + ", \"radius\": " + quoted(radius) + "}"; };
+    const auto all = [&](const auto& cores, const std::vector<Rounding>& rounding) {
+        std::string text;
+        for (std::size_t k = 0; k < cores.size(); ++k) text += (k ? ", " : "") + grown(*cores[k], rounding_of(rounding, k).radius);
+        return "[" + text + "]";
+    };
+    return "{\"robot\": " + all(shapes.robot, shapes.robot_rounding) + ", \"obstacles\": " + all(shapes.obstacles, shapes.obstacle_rounding) + "}";
 }
 
 // The scene of polygons that a proof is about.
@@ -236,9 +251,12 @@ std::string polygons_text(const SceneShapes& shapes) {
     return text + "}";
 }
 
+// Kind, features and, if it is not 0, the branch.
 std::string name(std::uint64_t code) {
     const Feature f = unpacked(code);
-    return listed(std::array{static_cast<int>(f.kind), f.robot, f.obstacle}, [](int k) { return std::to_string(k); });
+    std::vector<int> parts{static_cast<int>(f.kind), f.robot, f.obstacle};
+    if (f.branch != 0) parts.push_back(f.branch & 3);
+    return listed(parts, [](int k) { return std::to_string(k); });
 }
 
 std::string piece(const SceneFeatures& features, const Boundary& boundary, Index face) {
@@ -287,14 +305,17 @@ std::string separation_text(const World& world, const World::Answer& answer, con
     for (const Index face : proof.surface.faces)
         obstacles.insert(features.obstacles.polygon[static_cast<std::size_t>(boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(face)]).obstacle)]);
     const auto same = [](const std::string& text) { return text; };
-    std::string text = head(world, "separated", answer.start, answer.goal) + (world.proved ? ",\n \"polygons\": " + polygons_text(world.proved->shapes) : "") +
+    const bool is_rounded = proof.of->scene().is_round;
+    std::string text = head(world, "separated", answer.start, answer.goal) +
+                       (world.proved && !is_rounded ? ",\n \"polygons\": " + polygons_text(world.proved->shapes) : "") +
                        ",\n \"of\": " + quoted(proof.is_closed ? "closed" : "interior") +
                        ",\n \"obstacles\": " + listed(obstacles, [](Index k) { return std::to_string(k); });
-    if (proof.is_closed) {
+    if (is_rounded) text += ",\n \"rounded\": " + cores_text(proof.of->shapes());
+    else if (proof.is_closed) {
         text += ",\n \"smaller_robot\": " + listed(proof.of->shapes().robot, [](const auto& part) { return polygon_text(*part); });
         if (const auto& bounds = proof.of->shapes().bounds) text += ",\n \"larger_bounds\": " + listed(*bounds, [](const Ratio& x) { return quoted(x); });
     }
-    if (const auto more = auxiliary(features, boundary, proof.surface.faces); !more.empty()) text += ",\n \"auxiliary\": " + listed(more, same);
+    if (const auto more = auxiliary(features, boundary, proof.surface.faces); !is_rounded && !more.empty()) text += ",\n \"auxiliary\": " + listed(more, same);
     return text + ",\n \"surface\": " + listed(proof.surface.faces, [&](Index face) { return piece(features, boundary, face); }, ",\n") + "}\n";
 }
 

@@ -200,13 +200,15 @@ std::optional<Poses> searched(const World& world, const End& start, const End& g
     return searcher.poses(route);
 }
 
-using Decided = std::variant<std::monostate, Poses, Separation>;  // nothing: undecided
+// What cells tell of two poses: nothing, that a path exists, or that none keeps a distance.
+enum class Cells { unknown, joined, apart };
+using Decided = std::variant<Cells, Poses, Separation>;  // cells alone: undecided
 
 Decided planned(const World& world, const End& start, const End& goal) {
     auto answer = world.planner->plan(start, goal, {});
     if (auto* way = std::get_if<Poses>(&answer)) return std::move(*way);
     if (auto* proof = std::get_if<Separation>(&answer)) return std::move(*proof);
-    return {};
+    return Cells::unknown;
 }
 
 // A path among the polygons inside of round shapes, or one beside it, if it is free among these; else nothing.
@@ -218,8 +220,10 @@ std::optional<Poses> mended(const World& world, const Poses& way) {
     return motions.join(beside) ? std::optional(std::move(beside)) : std::nullopt;
 }
 
-// A path among round shapes, or a proof among polygons inside of them, or neither. The world's polygons become finer.
+// A path among round shapes, or a proof among smaller rounded shapes or among polygons inside, or neither. The world's polygons
+// become finer.
 Decided decided(World& world, const End& start, const End& goal) {
+    Cells cells = Cells::unknown;
     std::int64_t left = most_patches;
     Listener counted;
     counted.spend = [&](std::int64_t patches) {
@@ -229,8 +233,16 @@ Decided decided(World& world, const End& start, const End& goal) {
         std::optional<World> finer;
         if (k > 0) finer.emplace(world.rounds, world.rounds->polygons(shares[k], false), false);
         World& here = finer ? *finer : world;
-        if (k == 0)
+        if (k == 0) {
             if (auto way = searched(here, start, goal, few_guesses)) return std::move(*way);
+            if (!world.by_cells) world.by_cells = RoundCells::of(*world.rounds);
+            if (world.by_cells) cells = world.by_cells->are_joined(start.pose, goal.pose) ? Cells::joined : Cells::apart;
+            if (cells == Cells::apart)
+                if (auto proof = world.by_cells->proof(start.pose, goal.pose)) {
+                    world.proved = std::move(proof->smaller);
+                    return std::move(proof->separation);
+                }
+        }
         try {
             const auto known = KnownScene::of(here.shapes);
             const auto effort = known->patches() <= few_patches ? Planner::Effort::all : Planner::Effort::few_surfaces;
@@ -242,17 +254,17 @@ Decided decided(World& world, const End& start, const End& goal) {
             if (const auto* way = std::get_if<Poses>(&answer))
                 if (auto better = mended(here, *way)) return std::move(*better);
         } catch (const OutOfWork&) {
-            return {};
+            return cells;
         }
         if (k == 0)
             if (auto way = searched(here, start, goal, many_guesses)) return std::move(*way);
     }
-    return {};
+    return cells;
 }
 
 }  // namespace
 
-void ask_pose(const World& world, const RationalPose& pose, Reply& reply) {
+void ask_pose(const World& world, const World& drawn, const RationalPose& pose, Reply& reply) {
     const auto pair = overlap(world, pose);
     reply.add("free", pair ? 0.0 : 1.0);
     const Place at = pose.place();
@@ -265,16 +277,16 @@ void ask_pose(const World& world, const RationalPose& pose, Reply& reply) {
             const auto& [x0, y0, x1, y1] = *bounds;
             if (pose.x == x0 || pose.x == x1 || pose.y == y0 || pose.y == y1) touched.push_back(bounds_owner);
         }
-        return reply.add("touched", touched);
+        reply.add("touched", touched);
     }
-    if (!world.space) return;
-    const ExactPose exact = pose.exact(*world.scene);
-    reply.add("cells", world.space->cells_at(exact));
-    std::set<Index> patches;
+    if (!drawn.space || !drawn.is_exact()) return;
+    const ExactPose exact = pose.exact(*drawn.scene);
+    reply.add("cells", drawn.space->cells_at(exact));
+    std::set<std::array<Index, 3>> contacts;
     Named touching;
-    for (const Index trapezoid : world.space->points().nearby(exact).on) {
-        const Index patch = world.boundary->trapezoids.patch[static_cast<std::size_t>(trapezoid)];
-        if (patches.insert(patch).second) touching.add(world, world.boundary->patches.contact(patch));
+    for (const Index trapezoid : drawn.space->points().nearby(exact).on) {
+        const Feature contact = drawn.boundary->patches.contact(drawn.boundary->trapezoids.patch[static_cast<std::size_t>(trapezoid)]);
+        if (contacts.insert({static_cast<Index>(contact.kind), contact.robot, contact.obstacle}).second) touching.add(drawn, contact);
     }
     touching.put("touching", reply);
 }
@@ -319,7 +331,10 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
         world.answer = {start, goal, *proof, {}, {}};
         return show_proof(world, *proof, reply);
     }
-    if (!std::holds_alternative<Poses>(answer)) return reply.text("verdict", world.rounds ? "round" : "unclear");
+    if (const auto* cells = std::get_if<Cells>(&answer)) {
+        if (!world.rounds) return reply.text("verdict", "unclear");
+        return reply.text("verdict", *cells == Cells::joined ? "round joined" : *cells == Cells::apart ? "round apart" : "round");
+    }
     const Poses& found = std::get<Poses>(answer);
     if (vehicle) {
         std::optional<World> finer;  // a vehicle keeps more than the error of polygons

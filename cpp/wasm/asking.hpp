@@ -6,8 +6,8 @@
 
 namespace cfree {
 
-// Free or not; if free its cells and the contacts that touch, else what overlaps.
-void ask_pose(const World& world, const RationalPose& pose, Reply& reply);
+// Free or not; if free the cells and the contacts that touch, as the drawn boundary has them, else what overlaps.
+void ask_pose(const World& world, const World& drawn, const RationalPose& pose, Reply& reply);
 // A path, or the closed surface that separates the two. Without a vehicle the robot moves in any direction;
 // the path of a vehicle is shortened by so many attempts.
 void ask_way(World& world, const RationalPose& start, const RationalPose& goal, const std::optional<GivenVehicle>& vehicle, int attempts, Reply& reply);

@@ -17,8 +17,8 @@ namespace {
 cfree::Reply reply;
 std::string error;
 std::shared_ptr<cfree::World> world, drawn;  // one that decides, and one with the boundary: another with round shapes
-// Errors of polygons, in parts of the robot's size: those that guide, and the least and the greatest of those that are drawn, which
-// are as fine as so many patches allow.
+// Errors of polygons, in parts of the robot's size: those that guide, and the least and the greatest of those that are drawn where
+// shapes are not rounded, which are as fine as so many patches allow.
 constexpr double guides = 0x1p-6, finest = 0x1p-9, coarsest = 0x1p-6;
 constexpr std::int64_t most_patches = 6000;
 
@@ -58,14 +58,15 @@ EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
         cfree::GivenScene read = cfree::scene_of(words);  // the one before stays if this is none
         if (read.is_round()) {
             const auto rounds = std::make_shared<const cfree::Rounds>(std::move(read));
-            const auto near = [&](double share, bool is_outward) {
-                cfree::NearShapes polygons = rounds->polygons(share, is_outward);
-                cfree::refuse_range(polygons.shapes);
-                return std::make_shared<cfree::World>(rounds, std::move(polygons), is_outward);
+            const auto near = [&](double share, bool is_drawn) {
+                cfree::NearShapes shapes = is_drawn ? rounds->drawn(share) : rounds->polygons(share, false);
+                cfree::refuse_range(shapes.shapes);
+                return std::make_shared<cfree::World>(rounds, std::move(shapes), is_drawn);
             };
-            auto inside = near(guides, false), around = near(finest, true);
-            for (double share = 2 * finest; share <= coarsest && around->known->patches() > most_patches; share *= 2) around = near(share, true);
-            world = inside, drawn = around;
+            auto inside = near(guides, false), seen = near(finest, true);
+            for (double share = 2 * finest; share <= coarsest && !seen->is_exact() && seen->known->patches() > most_patches; share *= 2)
+                seen = near(share, true);
+            world = inside, drawn = seen;
         } else {
             const cfree::SceneShapes shapes = read.polygons();
             cfree::refuse_range(shapes);
@@ -90,7 +91,7 @@ EMSCRIPTEN_KEEPALIVE int slice(double theta) {
     return answer([&] { cfree::show_slice(seen(), theta, reply); });
 }
 EMSCRIPTEN_KEEPALIVE int pose(const char* words) {
-    return answer([&] { cfree::ask_pose(given(), cfree::pose_of(words), reply); });
+    return answer([&] { cfree::ask_pose(given(), seen(), cfree::pose_of(words), reply); });
 }
 EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal, const char* vehicle, int attempts) {
     return answer([&] { cfree::ask_way(given(), cfree::pose_of(start), cfree::pose_of(goal), driver(vehicle), attempts, reply); });

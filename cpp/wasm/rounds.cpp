@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cfree/forbidden/slice.hpp"
+
 namespace cfree {
 
 namespace {
@@ -326,10 +328,77 @@ SceneShapes GivenScene::polygons() const {
     return shapes;
 }
 
-void Outlines::add(const GivenShape& of, const std::vector<std::shared_ptr<const Polygon>>& around) {
-    const Outlines before = *this;
-    bool is_done = false;
-    if (of.has_arcs()) {
+namespace {
+
+// The square root of a number whose root is rational.
+std::optional<Ratio> rational_root(const Ratio& square) {
+    const Int n = sqrt(square.n), d = sqrt(square.d);
+    return n * n == square.n && d * d == square.d ? std::optional(Ratio{n, d}) : std::nullopt;
+}
+
+RatioPoint direction(const GivenCurve& curve, bool at_end) {
+    if (curve.turn == 0) return curve.end - curve.start;
+    return times(to_left((at_end ? curve.end : curve.start) - curve.center), {curve.turn, 1});
+}
+
+// A convex ring of lines and of arcs of one radius, all tangent.
+std::optional<RoundedShape> convex(const std::vector<GivenCurve>& ring) {
+    std::optional<Ratio> square;
+    int turn = 0;
+    RatioRing centers;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        const GivenCurve& curve = ring[k];
+        const RatioPoint before = direction(ring[k ? k - 1 : ring.size() - 1], true), after = direction(curve, false);
+        if (cross(before, after) != zero || dot(before, after) < zero) return {};
+        if (curve.turn == 0) continue;
+        const RatioPoint u = curve.start - curve.center;
+        if (square && (dot(u, u) != *square || curve.turn != turn)) return {};
+        square = dot(u, u), turn = curve.turn;
+        if (std::find(centers.begin(), centers.end(), curve.center) == centers.end()) centers.push_back(curve.center);
+    }
+    const auto radius = square ? rational_root(*square) : std::nullopt;
+    if (!radius) return {};
+    return RoundedShape{std::make_shared<const Polygon>(centers.size() < 3 ? Polygon::thin(centers) : Polygon({centers})), *radius};
+}
+
+// The outline of a grown polygon: around it a disc is forbidden.
+void add_union(const std::shared_ptr<const Polygon>& polygon, const Ratio& radius, Outlines& into) {
+    SceneShapes shapes;
+    shapes.robot.push_back(std::make_shared<const Polygon>(Polygon::thin({{zero, zero}})));
+    shapes.robot_rounding.push_back({radius, {}});
+    shapes.obstacles.push_back(polygon);
+    const Slicer slicer(compute_boundary(scene_features(shapes).scene, {1, false, [](double) { return Wish::go_on; }}));
+    const Slicer::Rings rings = slicer.rings(0, 0);
+    for (std::size_t r = 0; r + 1 < rings.start.size(); ++r) {
+        for (auto k = static_cast<std::size_t>(rings.start[r]); k < static_cast<std::size_t>(rings.start[r + 1]); ++k) {
+            if (rings.bend[k] == Slicer::Rings::in_arc) continue;
+            into.xy.insert(into.xy.end(), {rings.xy[2 * k], rings.xy[2 * k + 1]});
+            into.bend.push_back(rings.bend[k]);
+        }
+        into.ring.push_back(static_cast<Index>(into.bend.size()));
+    }
+}
+
+}  // namespace
+
+std::optional<RoundedShape> rounded(const GivenShape& shape) {
+    if (shape.polygon) return RoundedShape{shape.polygon, shape.grown};
+    return shape.rings.size() == 1 ? convex(shape.rings.front()) : std::nullopt;
+}
+
+void Outlines::add(const GivenShape& of) {
+    if (of.polygon) {
+        const Outlines before = *this;
+        if (of.grown != zero && !add_grown(*of.polygon, near(of.grown), *this)) {
+            *this = before;
+            add_union(of.polygon, of.grown, *this);
+        }
+        if (of.grown == zero)
+            for (const auto& lines : lines_of(*of.polygon)) {
+                for (const auto& line : lines) xy.insert(xy.end(), {near(line.start.x), near(line.start.y)}), bend.push_back(0);
+                ring.push_back(static_cast<Index>(bend.size()));
+            }
+    } else
         for (const auto& given : of.rings) {
             for (const auto& curve : given)
                 for (const auto& part : quarters_of(curve)) {
@@ -339,16 +408,6 @@ void Outlines::add(const GivenShape& of, const std::vector<std::shared_ptr<const
                 }
             ring.push_back(static_cast<Index>(bend.size()));
         }
-        is_done = true;
-    } else if (of.grown != zero) is_done = add_grown(*of.polygon, near(of.grown), *this);
-    if (!is_done) {
-        *this = before;
-        for (const auto& polygon : around)
-            for (const auto& lines : lines_of(*polygon)) {
-                for (const auto& line : lines) xy.insert(xy.end(), {near(line.start.x), near(line.start.y)}), bend.push_back(0);
-                ring.push_back(static_cast<Index>(bend.size()));
-            }
-    }
     shape.push_back(static_cast<Index>(ring.size()) - 1);
 }
 
@@ -373,36 +432,84 @@ Index Rounds::owner(Index obstacle) const {
     return static_cast<std::size_t>(obstacle) < scene.obstacles.size() ? obstacle : workspace_owner;
 }
 
-NearShapes Rounds::polygons(double share, bool is_outward) const {
-    NearShapes result;
+// Shapes that are added, with their polygons, and the greatest errors of the robot's and of the others.
+struct Rounds::Adding {
+    const Rounds& rounds;
+    double share;
+    NearShapes result = {};
     double off[2] = {0, 0};
-    const auto error_for = [&](const GivenShape& shape) { return share * std::max(size, obstacle_share * size_of(shape)); };
-    const auto made = [&](const GivenShape& shape, bool outward, int which) {
-        const double error = error_for(shape);
-        auto polygons = polygons_near(shape, error, outward);
-        if (shape.is_round) off[which] = std::max(off[which], error), result.error = std::max(result.error, error);
+
+    std::vector<std::shared_ptr<const Polygon>> around(const GivenShape& shape, bool is_outward, Index owner) {
+        const double error = share * std::max(rounds.size, obstacle_share * size_of(shape));
+        auto polygons = polygons_near(shape, error, is_outward);
+        const bool is_robot = owner == robot_owner;
+        if (shape.is_round) {
+            off[is_robot] = std::max(off[is_robot], error), result.error = std::max(result.error, error);
+            if (result.inexact.empty() || result.inexact.back() != owner) result.inexact.push_back(owner);
+        }
         return polygons;
-    };
-    for (std::size_t k = 0; k < scene.robot.size(); ++k) {
-        auto& polygons = result.robot.emplace_back(made(scene.robot[k], is_outward, 0));
-        if (polygons.empty()) throw std::invalid_argument("robot: its outline crosses itself, or is too thin for polygons");
-        for (auto& polygon : polygons) result.shapes.robot.push_back(polygon), result.part_of.push_back(static_cast<Index>(k));
     }
+    void add_part(std::shared_ptr<const Polygon> polygon, Index part) {
+        result.shapes.robot.push_back(std::move(polygon)), result.part_of.push_back(part);
+    }
+    void add_obstacle(std::shared_ptr<const Polygon> polygon, Index obstacle) {
+        result.shapes.obstacles.push_back(std::move(polygon)), result.obstacle_of.push_back(obstacle);
+    }
+    void refuse(const std::string& name) const {
+        throw std::invalid_argument(name + ": its outline crosses itself, or is too thin for polygons");
+    }
+    void add_parts(bool is_outward) {
+        for (std::size_t k = 0; k < rounds.scene.robot.size(); ++k) {
+            const auto polygons = around(rounds.scene.robot[k], is_outward, robot_owner);
+            if (polygons.empty()) refuse("robot");
+            for (const auto& polygon : polygons) add_part(polygon, static_cast<Index>(k));
+        }
+    }
+    // Obstacles without a polygon inside are left out.
+    std::size_t add_polygons(std::size_t k, bool is_outward) {
+        const auto polygons = around(rounds.scene.obstacles[k], is_outward, static_cast<Index>(k));
+        if (polygons.empty() && is_outward) refuse("obstacle " + std::to_string(k));
+        if (polygons.empty()) off[0] = HUGE_VAL;
+        for (const auto& polygon : polygons) add_obstacle(polygon, static_cast<Index>(k));
+        return polygons.size();
+    }
+    NearShapes with_limits(bool is_outward) {
+        if (rounds.scene.workspace) {
+            const auto polygons = around(*rounds.scene.workspace, !is_outward, workspace_owner);
+            if (polygons.empty()) refuse("workspace");
+            result.shapes.workspace = polygons.front();
+        }
+        result.shapes.bounds = rounds.scene.bounds;
+        result.off = (off[0] + off[1]) * (1 + 0x1p-40);
+        return std::move(result);
+    }
+};
+
+NearShapes Rounds::polygons(double share, bool is_outward) const {
+    Adding adding{*this, share};
+    adding.add_parts(is_outward);
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k) adding.add_polygons(k, is_outward);
+    return adding.with_limits(is_outward);
+}
+
+NearShapes Rounds::drawn(double share) const {
+    Adding adding{*this, share};
+    SceneShapes& shapes = adding.result.shapes;
+    std::vector<RoundedShape> parts;
+    for (const GivenShape& part : scene.robot)
+        if (auto found = rounded(part)) parts.push_back(std::move(*found));
+    const auto is_other = [&](const RoundedShape& part) { return part.radius != parts.front().radius; };
+    if (parts.size() == scene.robot.size() && std::none_of(parts.begin(), parts.end(), is_other)) {
+        for (std::size_t k = 0; k < parts.size(); ++k) adding.add_part(parts[k].core, static_cast<Index>(k));
+        shapes.robot_rounding.assign(parts.size(), {parts.front().radius, {}});
+    } else adding.add_parts(true);
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
-        auto& polygons = result.obstacles.emplace_back(made(scene.obstacles[k], is_outward, 1));
-        if (polygons.empty() && is_outward)
-            throw std::invalid_argument("obstacle " + std::to_string(k) + ": its outline crosses itself, or is too thin for polygons");
-        if (polygons.empty()) off[1] = HUGE_VAL;
-        for (auto& polygon : polygons) result.shapes.obstacles.push_back(polygon), result.obstacle_of.push_back(static_cast<Index>(k));
+        if (const auto found = rounded(scene.obstacles[k])) {
+            adding.add_obstacle(found->core, static_cast<Index>(k));
+            shapes.obstacle_rounding.push_back({found->radius, {}});
+        } else shapes.obstacle_rounding.resize(shapes.obstacle_rounding.size() + adding.add_polygons(k, true));
     }
-    if (scene.workspace) {
-        auto& polygons = result.workspace.emplace_back(made(*scene.workspace, !is_outward, 1));
-        if (polygons.empty()) throw std::invalid_argument("workspace: its outline crosses itself, or is too thin for polygons");
-        result.shapes.workspace = polygons.front();
-    }
-    result.shapes.bounds = scene.bounds;
-    result.off = (off[0] + off[1]) * (1 + 0x1p-40);
-    return result;
+    return adding.with_limits(true);
 }
 
 }  // namespace cfree

@@ -52,15 +52,25 @@ std::vector<GivenCurve> circle_about(const RatioPoint& center, const Ratio& radi
 struct Outlines {
     std::vector<double> xy, bend;
     std::vector<Index> ring{0}, shape{0};
-    void add(const GivenShape& shape, const std::vector<std::shared_ptr<const Polygon>>& around);
+    void add(const GivenShape& shape);
 };
 
-// Polygons in place of round shapes, and the numbers of the shapes that they are for.
+// A polygon, segment or point grown by a radius; docs/theory/rounded-shapes.md.
+struct RoundedShape {
+    std::shared_ptr<const Polygon> core;
+    Ratio radius;
+};
+// The same as `rounded` of src/cfree/scene/rounded.py, also for paths of lines alone; nothing for other shapes.
+std::optional<RoundedShape> rounded(const GivenShape& shape);
+
+inline constexpr Index robot_owner = -3;  // beside bounds and workspace
+
+// Polygons in place of round shapes, or rounded shapes as they are, and the numbers of the shapes that they are for.
 struct NearShapes {
     SceneShapes shapes;
     std::vector<Index> part_of, obstacle_of;
-    double error = 0, off = 0;  // the largest of a shape; distances among them differ by no more than the other
-    std::vector<std::vector<std::shared_ptr<const Polygon>>> robot, obstacles, workspace;  // by shape
+    std::vector<Index> inexact;  // shapes that have polygons: obstacles, the workspace, the robot
+    double error = 0, off = 0;   // the largest of a shape; distances among them differ by no more than the other
 };
 
 class Rounds {
@@ -75,12 +85,15 @@ public:
     // Polygons around everything forbidden, or inside of it, with an error of a part of the robot's size. Throws
     // std::invalid_argument if a shape has none; obstacles without one inside are left out, and `off` is infinite.
     NearShapes polygons(double share, bool is_outward) const;
+    // Rounded shapes as they are, and polygons around the others, and around the robot if its parts have several radii.
+    NearShapes drawn(double share) const;
     // Obstacles that the robot touches at a free pose, or the workspace. Distances below a 2^80th of its size count as 0.
     std::vector<Index> touched(const Motion& still) const;
     // The obstacle's number in collisions, or bounds or workspace.
     Index owner(Index obstacle) const;
 
 private:
+    struct Adding;
     std::vector<std::unique_ptr<const ArcMotionChecker>> apart;  // of each obstacle and the robot, grown a little
 };
 

@@ -11,6 +11,7 @@
 #include "cfree/mesh/mesh.hpp"
 #include "cfree/support/elementary.hpp"
 #include "reading.hpp"
+#include "round_mesh.hpp"
 
 namespace cfree {
 
@@ -31,34 +32,72 @@ void show_polygons(const std::string& prefix, const std::vector<std::shared_ptr<
     reply.add(prefix + ".xy", xy), reply.add(prefix + ".ring", ring), reply.add(prefix + ".polygon", polygon);
 }
 
-// Outlines with arcs; and the error of the polygons around them.
+// Outlines with arcs; and the error of polygons around shapes that are not rounded.
 void show_rounds(const World& world, Reply& reply) {
     const GivenScene& scene = world.rounds->scene;
-    const auto show = [&](const std::string& prefix, const std::vector<GivenShape>& shapes, const auto& around) {
+    const auto show = [&](const std::string& prefix, const std::vector<GivenShape>& shapes) {
         Outlines outlines;
-        for (std::size_t k = 0; k < shapes.size(); ++k) outlines.add(shapes[k], around[k]);
+        for (const GivenShape& shape : shapes) outlines.add(shape);
         reply.add(prefix + ".xy", outlines.xy), reply.add(prefix + ".ring", outlines.ring), reply.add(prefix + ".polygon", outlines.shape);
         reply.add(prefix + ".bend", outlines.bend);
     };
-    show("robot", scene.robot, world.near->robot), show("obstacles", scene.obstacles, world.near->obstacles);
-    if (scene.workspace) show("workspace", std::vector{*scene.workspace}, world.near->workspace);
-    reply.add("around", world.near->error);
+    show("robot", scene.robot), show("obstacles", scene.obstacles);
+    if (scene.workspace) show("workspace", std::vector{*scene.workspace});
+    if (!world.near->inexact.empty()) reply.add("around", world.near->error), reply.add("around.shapes", world.near->inexact);
 }
 
 Vec<double> point(const Shape& shape, Index v) { return UserUnits{}.vertex(shape, v); }
 
-// Position of a pose along the line of a contact.
-double t_at(const Scene& scene, const Feature& contact, double x, double y, double theta) {
+bool is_circle(const Feature& contact) { return contact.kind == Kind::vertex_vertex; }
+double sum_of(const Scene& scene, const Feature& contact) { return sum_of_radii(scene, contact) * scene.unit(); }
+
+// The line of a contact, moved outwards where shapes are grown.
+ContactLine<double> line_of(const Scene& scene, const Feature& contact) {
+    ContactLine<double> line(scene, contact, UserUnits{});
+    if (const double rho = sum_of(scene, contact); rho > 0) {
+        const double scale = rho / norm(line.E.x, line.E.y);
+        (line.on_edge ? line.b : line.a) = (line.on_edge ? line.b : line.a) - Vec<double>{-scale * line.E.y, scale * line.E.x};
+    }
+    return line;
+}
+
+// Center of the circle of a contact.
+Vec<double> center_of(const Scene& scene, const Feature& contact, double theta) {
     const auto [c, s] = cosine_sine(theta);
-    const ContactLine<double> line(scene, contact, UserUnits{});
+    return point(scene.obstacles, contact.obstacle) - Rotation<double>{c, s, 1}(point(scene.robot, contact.robot));
+}
+
+// Position of a pose along the line of a contact; on a circle the angle psi.
+double t_at(const Scene& scene, const Feature& contact, double x, double y, double theta) {
+    if (is_circle(contact)) {
+        const Vec<double> center = center_of(scene, contact, theta);
+        return in_a_turn(arc_tangent(y - center.y, x - center.x));
+    }
+    const auto [c, s] = cosine_sine(theta);
+    const ContactLine<double> line = line_of(scene, contact);
     const Vec<double> p = line.start({c, s, 1}), u = line.direction({c, s, 1});
     return ((x - p.x) * u.x + (y - p.y) * u.y) / (u.x * u.x + u.y * u.y);
 }
 
-LocalGeometry geometry_at(const Scene& scene, const Feature& contact, double t, double theta, double length) {
-    const ContactLine<double> of(scene, contact, UserUnits{});
+struct AtPoint {
+    std::array<double, 3> normal;
+    double K, H;
+};
+
+// On a circle by the formulas of src/cfree/geometry/arcs.py.
+AtPoint geometry_at(const Scene& scene, const Feature& contact, double t, double theta, double length) {
+    if (is_circle(contact)) {
+        const double w = length, rho = sum_of(scene, contact);
+        const auto [ux, uy] = cosine_sine(t);
+        const auto [cosine, sine] = cosine_sine(theta);
+        const Vec<double> a = Rotation<double>{cosine, sine, 1}(point(scene.robot, contact.robot));
+        const double c = a.x * ux + a.y * uy, s = ux * a.y - uy * a.x, D = norm(w, s), square = a.x * a.x + a.y * a.y + w * w;
+        return {{w * ux / D, w * uy / D, -s / D}, -w * w * c / (rho * D * D * D * D), w * (rho * c - square) / (2 * rho * D * D * D)};
+    }
+    const ContactLine<double> of = line_of(scene, contact);
     const Vec<double> still = of.on_edge ? of.E : Vec<double>{0, 0}, turning = of.on_edge ? Vec<double>{0, 0} : of.E;
-    return local_geometry({of.b.x, of.b.y, still.x, still.y, of.a.x, of.a.y, turning.x, turning.y}, t, theta, length);
+    const LocalGeometry local = local_geometry({of.b.x, of.b.y, still.x, still.y, of.a.x, of.a.y, turning.x, turning.y}, t, theta, length);
+    return {{local.frame[6], local.frame[7], local.frame[8]}, local.K, local.H};
 }
 
 Feature contact_of(const Boundary& boundary, Index trapezoid) {
@@ -75,19 +114,51 @@ std::vector<std::pair<Index, Index>> ends_of(const Scene& scene, const Feature& 
     return names;
 }
 
-enum class Line : std::uint8_t { crossing, helix, segment };
-Line line_kind(const Scene& scene, const Feature& first, const Feature& second, bool is_level) {
+enum class Line : std::uint8_t { crossing, helix, segment, joint };
+// None between two quadrants of one circle.
+std::optional<Line> line_kind(const Scene& scene, const Feature& first, const Feature& second, bool is_level) {
+    const bool are_circles[] = {is_circle(first), is_circle(second)};
+    if (are_circles[0] && are_circles[1]) {
+        const bool are_one = scene.robot.point[first.robot] == scene.robot.point[second.robot] &&
+                             scene.obstacles.point[first.obstacle] == scene.obstacles.point[second.obstacle];
+        return are_one ? std::nullopt : std::optional(Line::crossing);
+    }
+    if (are_circles[0] || are_circles[1]) {
+        const Feature &line = are_circles[0] ? second : first, &circle = are_circles[0] ? first : second;
+        for (const auto& [robot, obstacle] : ends_of(scene, line))
+            if (robot == scene.robot.point[circle.robot] && obstacle == scene.obstacles.point[circle.obstacle]) return Line::joint;
+        return Line::crossing;
+    }
     if (is_level) return Line::segment;
+    if (sum_of_radii(scene, first) > 0 || sum_of_radii(scene, second) > 0) return Line::crossing;
     for (const auto& p : ends_of(scene, first))
         for (const auto& q : ends_of(scene, second))
             if (p == q) return Line::helix;
     return Line::crossing;
 }
 
+// Radii of the vertices of a contact, or of those at the start of its edge.
+struct Radii {
+    double robot, obstacle;
+};
+Radii radii_of(const Scene& scene, const Feature& contact) {
+    if (!scene.is_round) return {0, 0};
+    const auto radius = [&](const Shape& of, Index v) { return of.radii[of.vertex_radius[v]].about.hi * scene.unit(); };
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    return {radius(A, contact.kind == Kind::edge_vertex ? A.v[contact.robot] : contact.robot),
+            radius(O, contact.kind == Kind::vertex_edge ? O.v[contact.obstacle] : contact.obstacle)};
+}
+std::uint8_t grown_of(const Scene& scene, const Feature& contact) {
+    const Radii radii = radii_of(scene, contact);
+    return static_cast<std::uint8_t>((radii.robot > 0 ? 1 : 0) + (radii.obstacle > 0 ? 2 : 0));
+}
+
+std::uint8_t kind_of(const Feature& contact) { return is_circle(contact) ? 2 : contact.kind == Kind::vertex_edge ? 0 : 1; }
+
 struct SurfaceColumns {
     std::vector<double> xyz, normal, lines, gaussian, mean;  // curvatures without units
     std::vector<Index> corners, face, cell, owner;  // owner: the obstacle, or bounds or workspace
-    std::vector<std::uint8_t> kind, line_kind;
+    std::vector<std::uint8_t> kind, line_kind, grown;  // grown: 1 for an arc of the robot, and 2 for one of an obstacle; empty among polygons
 };
 
 SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cells, const Mesh& mesh, double length,
@@ -108,11 +179,12 @@ SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cell
             if (is_new) {
                 const double* p = &mesh.xyz[3 * static_cast<std::size_t>(v[k])];
                 const double theta = p[2] / length, t_there = t_at(*features.scene, contact, p[0], p[1], theta);
-                const LocalGeometry local = geometry_at(*features.scene, contact, t_there, theta, length);
+                const AtPoint local = geometry_at(*features.scene, contact, t_there, theta, length);
                 out.xyz.insert(out.xyz.end(), {p[0], p[1], p[2] / length});
-                out.normal.insert(out.normal.end(), local.frame.begin() + 6, local.frame.end());
+                out.normal.insert(out.normal.end(), local.normal.begin(), local.normal.end());
                 out.gaussian.push_back(local.K * length * length), out.mean.push_back(local.H * length);
-                out.kind.push_back(contact.kind == Kind::vertex_edge ? 0 : 1);
+                out.kind.push_back(kind_of(contact));
+                if (features.scene->is_round) out.grown.push_back(grown_of(*features.scene, contact));
                 out.owner.push_back(owners[static_cast<std::size_t>(contact.obstacle)]);
                 out.cell.push_back(space ? space->cell_of[static_cast<std::size_t>(cells.component[static_cast<std::size_t>(face)])] : -1);
             }
@@ -127,8 +199,10 @@ SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cell
                                    owners[static_cast<std::size_t>(neighbour.obstacle)] == bounds_owner;
             if (patch(before) != patch(static_cast<Index>(t)) && !of_bounds) {
                 const double *a = &mesh.xyz[3 * static_cast<std::size_t>(p)], *b = &mesh.xyz[3 * static_cast<std::size_t>(q)];
+                const auto found = line_kind(*features.scene, contact, neighbour, a[2] == b[2]);
+                if (!found) continue;
                 for (const double* c : {a, b}) out.lines.insert(out.lines.end(), {c[0], c[1], c[2] / length});
-                out.line_kind.push_back(static_cast<std::uint8_t>(line_kind(*features.scene, contact, neighbour, a[2] == b[2])));
+                out.line_kind.push_back(static_cast<std::uint8_t>(*found));
             }
         }
         out.face.push_back(face);
@@ -136,11 +210,54 @@ SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cell
     return out;
 }
 
+// Mesh of an error, or of a larger one with about `most` triangles.
+Mesh mesh_of(const CellComplex& cells, double& error, double length, double most) {
+    if (!cells.boundary->scene->is_round) {
+        while (error < length && estimate_mesh(cells, error, length).triangles > most) error *= 2;
+        return mesh(cells, error, length);
+    }
+    for (;; error *= 2)
+        if (auto made = round_mesh(cells, error, length, error < length ? most : HUGE_VAL)) return std::move(*made);
+}
+
 void put(const SurfaceColumns& columns, Reply& reply) {
     reply.add("xyz", columns.xyz), reply.add("normal", columns.normal), reply.add("corners", columns.corners);
     reply.add("face", columns.face), reply.add("kind", columns.kind), reply.add("cell", columns.cell), reply.add("owner", columns.owner);
     reply.add("gaussian", columns.gaussian), reply.add("mean", columns.mean);
     reply.add("lines", columns.lines), reply.add("line_kind", columns.line_kind);
+    if (!columns.grown.empty()) reply.add("grown", columns.grown);
+}
+
+// A pose on a grid, exactly in contact; next to it where an edge of irrational length is moved outwards.
+RationalPose pose_in_contact(const Scene& scene, const Feature& contact, double t, double theta) {
+    const HalfAngle half = half_angle_of(theta, false);
+    const auto r = half.rotation();
+    const auto over = [](const Vec<Int>& p, const Int& d) { return RatioPoint{reduced(p.x, d), reduced(p.y, d)}; };
+    const auto on_grid = [](double share) { return Ratio{Int(std::llround(std::clamp(share, 0.0, 1.0) * 0x1p20)), Int(1) << 20}; };
+    const auto radius = [&](const Shape& s, Index v) { return scene.is_round ? s.radii[s.vertex_radius[v]].exact : Int(0); };
+    const Int whole = r.w * scene.scale;
+    const auto moved = [&](const RatioPoint& p, const RatioPoint& by, const Ratio& factor) {
+        return RationalPose{p.x + factor * by.x, p.y + factor * by.y, half};
+    };
+    if (is_circle(contact)) {
+        const CoreUnits<Int> of;
+        const Vec<Int> b = of.vertex(scene.obstacles, contact.obstacle), a = r(of.vertex(scene.robot, contact.robot));
+        const Ratio q = on_grid(tangent(0.5 * (t - 0.5 * pi * contact.branch))), one{1, 1}, square = one + q * q;
+        RatioPoint u{(one - q * q) / square, (q + q) / square};
+        for (int k = 0; k < contact.branch; ++k) u = {-u.y, u.x};
+        const Int rho = radius(scene.robot, contact.robot) + radius(scene.obstacles, contact.obstacle);
+        return moved(over({r.w * b.x - a.x, r.w * b.y - a.y}, whole), u, reduced(rho, scene.scale));
+    }
+    const ContactLine<Int> exact(scene, contact, CoreUnits<Int>{});
+    const RatioPoint start = over(exact.start(r), whole), along = over(exact.direction(r), whole);
+    const Ratio share = on_grid(t);
+    const RationalPose on = moved(start, along, share);
+    const Int rho = radius(scene.robot, exact.on_edge ? contact.robot : scene.robot.v[contact.robot]) +
+                    radius(scene.obstacles, exact.on_edge ? scene.obstacles.v[contact.obstacle] : contact.obstacle);
+    if (rho.is_zero()) return on;
+    const Int square = exact.E.x * exact.E.x + exact.E.y * exact.E.y, root = sqrt(square);
+    const Ratio length = root * root == square ? Ratio{root, 1} : ratio_of(std::sqrt(nearest(square, 1)) * (1 - 0x1p-40));
+    return moved({on.x, on.y}, {along.y, -along.x}, Ratio{rho, 1} / length);
 }
 
 // Chart and coordinate of an angle.
@@ -153,21 +270,29 @@ std::pair<int, double> chart_of(double theta) {
 }  // namespace
 
 void Named::add(const World& world, const Feature& contact) {
-    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const bool on_edge = contact.kind == Kind::vertex_edge, turns = contact.kind == Kind::edge_vertex;
     const Shape &A = world.scene->robot, &O = world.scene->obstacles;
     const auto owner = [](const Owners& of, Index v) {
         const auto k = static_cast<std::size_t>(v);
         return k < of.polygon.size() ? std::pair{of.polygon[k], of.vertex[k]} : std::pair{Index{-1}, Index{0}};
     };
-    const auto ends = [](std::vector<double>& xy, Vec<double> p, Vec<double> q) { xy.insert(xy.end(), {p.x, p.y, q.x, q.y}); };
     const Index i = contact.robot, j = contact.obstacle;
-    kind.push_back(on_edge ? 0 : 1);
+    kind.push_back(kind_of(contact));
     const auto [part, vertex] = owner(world.features.robot, i);
     robot_part.push_back(part), robot_vertex.push_back(vertex);
     const auto [polygon, corner] = owner(world.features.obstacles, j);
     obstacle.push_back(polygon), obstacle_vertex.push_back(corner);
-    ends(robot_xy, point(A, on_edge ? i : A.v[i]), point(A, on_edge ? i : A.w[i]));
-    ends(obstacle_xy, point(O, on_edge ? O.v[j] : j), point(O, on_edge ? O.w[j] : j));
+    const Radii radii = radii_of(*world.scene, contact);
+    robot_radius.push_back(radii.robot), obstacle_radius.push_back(radii.obstacle);
+    // an edge is moved outwards
+    const auto ends = [](std::vector<double>& xy, Vec<double> p, Vec<double> q, double by) {
+        const Vec<double> d = q - p;
+        const double scale = by > 0 && (d.x != 0 || d.y != 0) ? by / norm(d.x, d.y) : 0;
+        const Vec<double> out{scale * d.y, -scale * d.x};
+        xy.insert(xy.end(), {p.x + out.x, p.y + out.y, q.x + out.x, q.y + out.y});
+    };
+    ends(robot_xy, point(A, turns ? A.v[i] : i), point(A, turns ? A.w[i] : i), robot_radius.back());
+    ends(obstacle_xy, point(O, on_edge ? O.v[j] : j), point(O, on_edge ? O.w[j] : j), obstacle_radius.back());
 }
 
 void Named::put(const std::string& prefix, Reply& reply) const {
@@ -175,6 +300,7 @@ void Named::put(const std::string& prefix, Reply& reply) const {
     reply.add(prefix + ".robot_part", robot_part), reply.add(prefix + ".robot_vertex", robot_vertex);
     reply.add(prefix + ".obstacle", obstacle), reply.add(prefix + ".obstacle_vertex", obstacle_vertex);
     reply.add(prefix + ".robot_xy", robot_xy), reply.add(prefix + ".obstacle_xy", obstacle_xy);
+    reply.add(prefix + ".robot_radius", robot_radius), reply.add(prefix + ".obstacle_radius", obstacle_radius);
 }
 
 void show_scene(const World& world, Reply& reply) {
@@ -223,28 +349,32 @@ void show_columns(const World& world, Reply& reply) {
 
 void show_mesh(const World& world, double error, double most, Reply& reply) {
     world.need_space();
-    while (error < world.radius && estimate_mesh(*world.cells, error, world.radius).triangles > most) error *= 2;
-    put(surface_of(world.features, *world.cells, mesh(*world.cells, error, world.radius), world.radius, world.space.get()), reply);
+    const Mesh made = mesh_of(*world.cells, error, world.radius, most);
+    put(surface_of(world.features, *world.cells, made, world.radius, world.space.get()), reply);
     reply.add("error", error);
 }
 
 void show_surface(const SceneFeatures& features, const CellComplex& cells, double length, Reply& reply) {
-    put(surface_of(features, cells, mesh(cells, length / 20, length), length, nullptr), reply);
+    double error = length / 20;
+    put(surface_of(features, cells, mesh_of(cells, error, length, HUGE_VAL), length, nullptr), reply);
 }
 
 void show_slice(const World& world, double theta, Reply& reply) {
     world.need_space();
     const auto [chart, tau] = chart_of(theta);
     const auto rings = world.slicer->rings(chart, tau);
-    reply.add("xy", rings.xy), reply.add("start", rings.start), reply.add("shell", rings.shell);
+    reply.add("xy", rings.xy), reply.add("start", rings.start), reply.add("shell", rings.shell), reply.add("bend", rings.bend);
     const auto segments = world.slicer->segments(chart, tau);
     std::vector<std::uint8_t> kind;
-    for (const Index k : segments.trapezoid) {  // v-e, e-v, bounds
+    for (const Index k : segments.trapezoid) {  // v-e, e-v, arcs, bounds
         const Feature contact = contact_of(*world.boundary, k);
         const bool of_bounds = world.features.obstacles.polygon[static_cast<std::size_t>(contact.obstacle)] == bounds_owner;
-        kind.push_back(of_bounds ? 2 : contact.kind == Kind::vertex_edge ? 0 : 1);
+        kind.push_back(of_bounds ? 3 : kind_of(contact));
     }
+    std::vector<double> bend;
+    for (const auto& arc : segments.arcs) bend.push_back(arc.radius);
     reply.add("segments", segments.xy), reply.add("kind", kind), reply.add("trapezoid", segments.trapezoid);
+    reply.add("segments.bend", bend);
 }
 
 void show_contact(const World& world, Index trapezoid, const Place& at, Reply& reply) {
@@ -256,21 +386,16 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
     named.add(world, contact);
     named.put("contact", reply);
     const double t = t_at(*world.scene, contact, at.x, at.y, at.theta);
-    const LocalGeometry local = geometry_at(*world.scene, contact, t, at.theta, 1);
+    const AtPoint local = geometry_at(*world.scene, contact, t, at.theta, 1);
     reply.add("t", t), reply.add("phi", at.theta), reply.add("K", local.K), reply.add("H", local.H);
-    // the same on a grid, exactly in contact
-    const HalfAngle half = half_angle_of(at.theta, false);
-    const auto r = half.rotation();
-    const ContactLine<Int> exact(*world.scene, contact, CoreUnits<Int>{});
-    const Vec<Int> start = exact.start(r), along = exact.direction(r);
-    const Int share(std::llround(std::clamp(t, 0.0, 1.0) * 0x1p20)), whole = Int(r.w * world.scene->scale) << 20;
-    const auto place = [&](const Int& from, const Int& by) { return reduced(Int((from << 20) + share * by), whole); };
-    reply.text("pose", words_of({place(start.x, along.x), place(start.y, along.y), half}));
-    // all of the patch that is left: from and to in angles
+    reply.text("pose", words_of(pose_in_contact(*world.scene, contact, t, at.theta)));
+    // all of the contact that is left, from and to in angles: one patch, or some quadrants of a circle
+    const auto named_by = [](const Feature& f) { return std::array{static_cast<Index>(f.kind), f.robot, f.obstacle}; };
+    const auto of_patch = [&](Index k) { return named_by(contact_of(*world.boundary, k)); };
     std::vector<double> range;
     std::vector<Index> same;
     for (std::size_t k = 0; k < table.size(); ++k) {
-        if (table.patch[k] != table.patch[static_cast<std::size_t>(trapezoid)]) continue;
+        if (of_patch(static_cast<Index>(k)) != named_by(contact)) continue;
         const Index which = static_cast<Index>(k);
         same.push_back(which);
         range.push_back(theta_of(table.chart[k], table.tau_from(which)));
@@ -279,14 +404,14 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
     reply.add("same", same), reply.add("range", range);
     // parts of its sides in common with other patches
     const CellComplex& c = *world.cells;
-    const Index patch = table.patch[static_cast<std::size_t>(trapezoid)];
     std::set<Index> others;
+    std::set<std::array<Index, 3>> seen{named_by(contact)};
     for (std::size_t side = 0; side < c.face.size(); ++side) {
         const Index twin = c.twin[side];
-        if (twin >= 0 && table.patch[static_cast<std::size_t>(c.face[side])] == patch)
-            others.insert(table.patch[static_cast<std::size_t>(c.face[static_cast<std::size_t>(twin)])]);
+        if (twin < 0 || of_patch(c.face[side]) != named_by(contact)) continue;
+        const Index other = c.face[static_cast<std::size_t>(twin)];
+        if (seen.insert(of_patch(other)).second) others.insert(table.patch[static_cast<std::size_t>(other)]);
     }
-    others.erase(patch);
     Named trims;
     for (const Index other : others) trims.add(world, world.boundary->patches.contact(other));
     trims.put("trims", reply);

@@ -19,11 +19,13 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
 // Size of a cell; is it bounded, by obstacles alone; can the robot turn round in it.
 void show_cell(World& world, Index cell, Reply& reply);
 
-// Names of features in the user's polygons: robot part and vertex, obstacle and vertex. -1: bounds, -2: workspace.
+// Names of features in the user's polygons, or cores: robot part and vertex, obstacle and vertex. -1: bounds, -2: workspace. A
+// kind is 0 for v-e, 1 for e-v, 2 for two arcs, or an arc and a vertex.
 struct Named {
     std::vector<std::uint8_t> kind;
     std::vector<Index> robot_part, robot_vertex, obstacle, obstacle_vertex;
-    std::vector<double> robot_xy, obstacle_xy;  // each feature's first point and its last, the robot at rest
+    std::vector<double> robot_xy, obstacle_xy;  // each feature's first point and its last, the robot at rest; an arc's center
+    std::vector<double> robot_radius, obstacle_radius;  // above 0: a vertex stands for an arc
     void add(const World& world, const Feature& contact);
     void put(const std::string& prefix, Reply& reply) const;
 };

@@ -15,10 +15,10 @@ double radius_of(const SceneShapes& shapes) {
     for (const auto& part : shapes.robot)
         for (Index k = 0; k < part->vertices.size(); ++k)
             most = std::max(most, norm(nearest(part->vertices.X[k], part->denominator), nearest(part->vertices.Y[k], part->denominator)));
-    return most;
+    return most + nearest(shapes.robot_radius.n, shapes.robot_radius.d);
 }
 
-// The scene of polygons whose features are those of the user's shapes.
+// The scene of shapes whose features are those of the user's shapes.
 std::shared_ptr<KnownScene> drawn(const NearShapes& near) {
     auto features = std::make_shared<SceneFeatures>(scene_features(near.shapes));
     for (const auto& [owners, numbers] : {std::pair{&features->robot, &near.part_of}, {&features->obstacles, &near.obstacle_of}})
@@ -37,8 +37,8 @@ std::shared_ptr<KnownScene> decided(const Rounds& rounds, const NearShapes& near
 
 }  // namespace
 
-World::World(std::shared_ptr<const Rounds> given, NearShapes polygons, bool is_outward)
-    : shapes(polygons.shapes), rounds(std::move(given)), near(std::move(polygons)), known(is_outward ? drawn(*near) : decided(*rounds, *near)),
+World::World(std::shared_ptr<const Rounds> given, NearShapes made, bool is_drawn)
+    : shapes(made.shapes), rounds(std::move(given)), near(std::move(made)), known(is_drawn ? drawn(*near) : decided(*rounds, *near)),
       features(*known->features), scene(features.scene), checker(known->checker), radius(radius_of(shapes)),
       planner(std::make_unique<Planner>(known, radius)) {}
 

@@ -11,6 +11,7 @@
 #include "cfree/planning/driving.hpp"
 #include "cfree/planning/planner.hpp"
 #include "cfree/scene/features.hpp"
+#include "round_cells.hpp"
 #include "rounds.hpp"
 
 namespace cfree {
@@ -18,14 +19,14 @@ namespace cfree {
 class World {
 public:
     explicit World(SceneShapes given);
-    // Polygons around round shapes, for the eye, or polygons inside of them: then the shapes themselves decide.
-    World(std::shared_ptr<const Rounds> given, NearShapes polygons, bool is_outward);
+    // Rounded shapes and polygons around others, for the eye, or polygons inside of shapes: then the shapes themselves decide.
+    World(std::shared_ptr<const Rounds> given, NearShapes shapes, bool is_drawn);
     // Boundary, closed surfaces, cells.
     void compute(const std::function<void(double)>& share);
 
     const SceneShapes shapes;
     const std::shared_ptr<const Rounds> rounds;  // null without round shapes
-    const std::optional<NearShapes> near;        // the polygons in place of these
+    const std::optional<NearShapes> near;        // the cores or polygons in place of these
     const std::shared_ptr<KnownScene> known;
     const SceneFeatures& features;
     const std::shared_ptr<const Scene> scene;
@@ -44,10 +45,13 @@ public:
         std::optional<GivenVehicle> vehicle;  // that drives the path
     };
     std::optional<Answer> answer;  // the last one
-    std::optional<NearShapes> proved;  // the polygons of the last proof among round shapes
+    std::optional<NearShapes> proved;  // the polygons of the last proof among round shapes, or smaller rounded shapes
+    std::unique_ptr<RoundCells> by_cells;  // among rounded shapes, once they are needed
     std::vector<double> volumes;  // volumes of cells, once they are needed
 
     void need_space() const;
+    // False if there are polygons in place of round shapes.
+    bool is_exact() const { return !near || near->inexact.empty(); }
     // The user's number of an obstacle among the polygons of the last proof.
     Index obstacle(Index polygon) const { return near && polygon >= 0 ? (proved ? *proved : *near).obstacle_of[static_cast<std::size_t>(polygon)] : polygon; }
     // Distance of the robot from obstacles, about: 0 where it touches them; infinite without any.

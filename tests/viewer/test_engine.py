@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-import shutil
-import subprocess
 from fractions import Fraction
-from importlib.resources import files
 from itertools import pairwise, permutations
 from pathlib import Path
 from typing import Any
@@ -23,38 +20,11 @@ from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
 from cfree.geometry.local import local_geometry
 from examples import POLYGONS
+from page_core import NODE, asked, columns_of, said
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 QUICK = ("degenerate_island", "sofa_corner")
-NODE = shutil.which("node")
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed: the page's core was not run")
-
-
-def asked(*calls: list[Any]) -> list[dict[str, Any]]:
-    """Answers of the page's core to calls, one after the other."""
-    page = files("cfree.viewer").joinpath("page.html")
-    command = [str(NODE), str(Path(__file__).with_name("engine.mjs")), str(page)]
-    lines = "".join(json.dumps(call) + "\n" for call in calls)
-    done = subprocess.run(command, input=lines, capture_output=True, text=True, check=True, timeout=300)
-    return [json.loads(line) for line in done.stdout.splitlines()]
-
-
-def columns_of(scene: cfree.Scene) -> dict[str, np.ndarray[Any, Any]]:
-    """The same columns as in `show_columns`, from Python."""
-    boundary = cfree.boundary(scene, threads=1)
-    space = cfree.free_space(boundary)
-    core, cells, surfaces = boundary._handle, boundary._complex_handle, space._handle.surfaces
-    tables = (
-        (core.trapezoids, "patch chart lower upper from_first from_second to_first to_second"),
-        (core.trapezoids, "from_lo from_hi to_lo to_hi from_place to_place"),
-        (cells, "face twin edge vertex side first component xy theta"),
-        (surfaces, "parent free_inside turns lift"),
-    )
-    return (
-        {f"patches.{name}": getattr(core.patches, name) for name in ("kind", "robot", "obstacle")}
-        | {name: getattr(table, name) for table, names in tables for name in names.split()}
-        | {"trimmed": core.trimmed, "cell_of": space._handle.cell_of, "depth": space._handle.depth}
-    )
 
 
 @pytest.mark.slow
@@ -88,10 +58,6 @@ def test_paths_of_the_page_are_free(name: str) -> None:
         motions = [cfree.motion_between(a, b) for a, b in pairwise(poses)]
         path = cfree.Path(poses[0], motions)
         assert (path.start, path.goal) == (scene.start, scene.goal) and path.is_free(cfree.MotionChecker(scene))
-
-
-def said(pose: Pose) -> str:
-    return f"{pose.x} {pose.y} {'inf' if pose.tau is None else pose.tau}"
 
 
 @pytest.mark.slow
@@ -247,13 +213,17 @@ def test_round_contact_is_exact_and_reached_exactly() -> None:
     assert 0 <= (x - 3) ** 2 + y**2 - Fraction(9, 4) < Fraction(1, 2**50)
 
 
-def test_neither_path_nor_proof_among_round_shapes_is_said() -> None:
+FAR = cfree.Curved([(20, 0), (22, 0), Arc((20, 0), center=(21, 0))])  # not rounded: it has corners
+
+
+@pytest.mark.parametrize(("more", "verdict"), [([], "round apart"), ([FAR], "round")], ids=["rounded", "others"])
+def test_neither_path_nor_proof_among_round_shapes_is_said(more: list[cfree.Curved], verdict: str) -> None:
     barely = [
         [(x, Fraction(y) + side * Fraction("1e-9")) for x, y in wall] for wall, side in zip(WALL, (-1, 1), strict=True)
     ]
-    scene = cfree.Scene(DISC, barely, bounds=ROOM)
+    scene = cfree.Scene(DISC, [*barely, *more], bounds=ROOM)
     _, answer = asked(["open", scene_text(scene)], ["plan", "-4 0 0", "4 0 0", "", 0])
-    assert answer["verdict"] == "round"
+    assert answer["verdict"] == verdict
 
 
 @pytest.mark.parametrize(

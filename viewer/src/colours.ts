@@ -5,6 +5,7 @@ import { type Columns, bytes, doubles, integers } from "./engine";
 export interface Palette {
   vertex_edge: string;
   edge_vertex: string;
+  arc_arc: string;
   helix: string;
   segment: string;
   ink: string;
@@ -40,29 +41,32 @@ export function on_scale(share: number): Color {
   return SCALE[k]!.clone().lerp(SCALE[k + 1]!, at - k);
 }
 
-export const LEGENDS: Record<ColourBy, string> = {
+// Round shapes have patches of an arc on an arc, which are bent to either side.
+export const LEGENDS = (is_round: boolean): Record<ColourBy, string> => ({
   contact: "",
   cell: "a colour for each cell",
   obstacle: "a colour for each obstacle",
-  gaussian: "K r², the robot's radius r for a radian: -1 (dark) to 0, flat (bright)",
-  mean: "H: hollow (dark), 0, bulging (bright)",
-};
+  gaussian: is_round
+    ? "K r², the robot's radius r for a radian: -1 or less (dark), 0, 1 or more (bright)"
+    : "K r², the robot's radius r for a radian: -1 (dark) to 0, flat (bright)",
+  mean: "H: bulging (dark), 0, hollow (bright)",
+});
 
 // Three numbers for each vertex of a mesh.
 export function vertex_colours(mesh: Columns, by: ColourBy, palette: Palette): Float32Array {
   const kind = bytes(mesh, "kind");
   const colours = new Float32Array(3 * kind.length);
-  const [ve, ev] = [new Color(palette.vertex_edge), new Color(palette.edge_vertex)];
+  const of_kind = [palette.vertex_edge, palette.edge_vertex, palette.arc_arc].map((of) => new Color(of));
   const many = MANY.map((of) => new Color(of));
   const of_number = (numbers: Int32Array) => (k: number) => many[(numbers[k]! + 8 * MANY.length) % MANY.length]!;
   const most = doubles(mesh, "mean").reduce((a, b) => Math.max(a, Math.abs(b)), 1e-30);
   const of_value = (values: Float64Array, low: number, high: number) => (k: number) =>
     on_scale((values[k]! - low) / (high - low));
   const colour = {
-    contact: (k: number) => (kind[k] ? ev : ve),
+    contact: (k: number) => of_kind[kind[k]!]!,
     cell: of_number(integers(mesh, "cell")),
     obstacle: of_number(integers(mesh, "owner")),
-    gaussian: of_value(doubles(mesh, "gaussian"), -1, 0),
+    gaussian: of_value(doubles(mesh, "gaussian"), -1, kind.includes(2) ? 1 : 0),
     mean: of_value(doubles(mesh, "mean"), -most, most),
   }[by];
   for (let k = 0; k < kind.length; ++k) colour(k).toArray(colours, 3 * k);

@@ -1,7 +1,8 @@
 // Obstacles and the robot's outline changed by dragging, or by keys: handles over the left view, new texts of the scene.
 import { FINGER } from "./pointers";
 import { Shapes, moved, number, same, snapped, type Point, type Rings, type Which } from "./shapes";
-import { made, outline, type Workspace } from "./workspace";
+import { outline } from "./outlines";
+import { made, type Workspace } from "./workspace";
 
 interface Spot {
   ring: number;

@@ -135,13 +135,17 @@ $<HTMLInputElement>("file").addEventListener("change", (event) => {
   input.value = ""; // else the same file, changed, is not opened again
   void open_file(file);
 });
-$("colour").addEventListener("change", () => {
-  const by = $<HTMLSelectElement>("colour").value;
-  const patches = by === "clearance" ? "contact" : (by as ColourBy);
-  space?.colour(patches);
-  session.show_path();
+const coloured = (): ColourBy | "clearance" => $<HTMLSelectElement>("colour").value as ColourBy | "clearance";
+session.on_built = () => {
+  const by = coloured();
   $("scale").textContent =
-    by === "clearance" ? "path: near obstacles (dark) to far from them (bright)" : LEGENDS[patches];
+    by === "clearance" ? "path: near obstacles (dark) to far from them (bright)" : LEGENDS(session.has_arcs)[by];
+};
+$("colour").addEventListener("change", () => {
+  const by = coloured();
+  space?.colour(by === "clearance" ? "contact" : by);
+  session.show_path();
+  session.on_built();
 });
 $("palette").addEventListener("change", () => {
   document.documentElement.dataset.palette = $<HTMLSelectElement>("palette").value;

@@ -11,6 +11,7 @@ export const palette = (): Palette => {
   return {
     vertex_edge: of("ve"),
     edge_vertex: of("ev"),
+    arc_arc: of("aa"),
     helix: of("helix"),
     segment: of("segment"),
     ink: of("ink"),

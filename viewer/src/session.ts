@@ -1,6 +1,7 @@
 // Questions to the core when something moves, and where its answers go.
-import { Cancelled, Engine, type Columns, doubles, integers, string, value } from "./engine";
+import { Cancelled, Engine, type Columns, bytes, doubles, integers, string, value } from "./engine";
 import type { Editor } from "./editor";
+import { entries, show_legend } from "./legend";
 import { $, fault, say, working } from "./page";
 import { digits, number } from "./shapes";
 import { wrapped, type Space } from "./space";
@@ -10,7 +11,9 @@ import { frame_of, track_of, usual, words_of, type Gear, type Vehicle, type Whee
 import type { FilePose, SceneText } from "./words";
 import type { Drag, Seen, Who, Workspace } from "./workspace";
 
-const PATIENCE = 300; // ms that a boundary may take before the next edit ends it
+// ms that a boundary may take before the next edit ends it: half as long again as the last one, within these
+const PATIENCE = 300;
+const MOST_PATIENCE = 1500;
 const COARSE = 9000;
 const FINE = 60_000; // triangles
 const QUICK = 300;
@@ -65,6 +68,8 @@ export class Session {
   on_opened = () => {};
   on_seen = () => {};
   on_vehicle = () => {};
+  has_arcs = false; // the boundary, patches of an arc on an arc
+  on_built = () => {};
 
   constructor(
     readonly workspace: Workspace,
@@ -164,10 +169,12 @@ export class Session {
   // Build the boundary of the scene as it is now; of several requests the newest succeeds.
   private wanted?: { is_fine: boolean };
   private building_since = 0;
+  private last_took = 0;
   async build(is_fine: boolean): Promise<void> {
     this.wanted = { is_fine };
     if (this.building_since) {
-      if (is_fine || performance.now() - this.building_since > PATIENCE) this.builder.end();
+      const patience = Math.min(MOST_PATIENCE, Math.max(PATIENCE, 1.5 * this.last_took));
+      if (is_fine || performance.now() - this.building_since > patience) this.builder.end();
       return;
     }
     const slow = setTimeout(() => working(true), 250);
@@ -176,6 +183,7 @@ export class Session {
       this.building_since = performance.now();
       try {
         await this.build_once(wish.is_fine);
+        this.last_took = performance.now() - this.building_since;
       } catch (error) {
         if (!(error instanceof Cancelled)) fault("pose", error);
         else if (!this.wanted) $("facts").textContent = "stopped: no boundary";
@@ -199,10 +207,13 @@ export class Session {
     const is_now = source === this.now.source;
     const cells = value(counts, "cells");
     $("facts").textContent =
-      `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s${around_words(read, this.file.units)}`;
+      `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s${around_words(read, this.file.names, this.file.units)}`;
     if (this.space) {
       this.space.show_scene(box, radius, false);
       this.space.show_mesh(mesh!);
+      show_legend(entries(mesh!));
+      this.has_arcs = bytes(mesh!, "kind").includes(2);
+      this.on_built();
       for (const who of ["start", "goal"] as const) this.place(who);
     }
     if (!is_now) return;

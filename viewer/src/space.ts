@@ -32,6 +32,7 @@ import { type ColourBy, type Palette, on_scale, vertex_colours } from "./colours
 import { type Columns, bytes, doubles, integers } from "./engine";
 import type { Shown } from "./model";
 import { DepthOrder } from "./depth";
+import { along_arc } from "./outlines";
 import { FRAGMENT, VERTEX } from "./shaders";
 import type { Gear } from "./vehicle";
 
@@ -370,11 +371,12 @@ export class Space {
   private edges(mesh: Columns, opacity: number): LineSegments[] {
     const lines = doubles(mesh, "lines");
     const kind = bytes(mesh, "line_kind");
-    const points: number[][] = [[], [], []];
+    const points: number[][] = [[], [], [], []];
     for (let k = 0; k < kind.length; ++k)
       for (const at of [6 * k, 6 * k + 3])
         points[kind[k]!]!.push(...this.put(lines[at]!, lines[at + 1]!, lines[at + 2]!).toArray());
-    return [this.palette.ink, this.palette.helix, this.palette.segment].map((colour, k) => {
+    const { ink, helix, segment } = this.palette;
+    return [ink, helix, segment, helix].map((colour, k) => {
       const made = this.lines(points[k]!, colour, k === 0 ? 0.6 * opacity : opacity);
       made.renderOrder = 4;
       (made.material as LineBasicMaterial).clippingPlanes = [this.under];
@@ -457,19 +459,14 @@ export class Space {
     fill.renderOrder = this.is_cut ? 5 : 1;
     const segments = doubles(slice, "segments");
     const kind = bytes(slice, "kind");
-    const points: number[][] = [[], [], []];
+    const bend = doubles(slice, "segments.bend");
+    const points: number[][] = [[], [], [], []];
     for (let k = 0; k < kind.length; ++k) {
-      const of = points[kind[k]!]!;
-      of.push(
-        segments[4 * k]! - this.view.x,
-        segments[4 * k + 1]! - this.view.y,
-        0,
-        segments[4 * k + 2]! - this.view.x,
-        segments[4 * k + 3]! - this.view.y,
-        0,
-      );
+      const ends = [...segments.subarray(4 * k, 4 * k + 4)] as [number, number, number, number];
+      const along = along_arc(ends, bend[k] ?? 0).map(([x, y]) => [x - this.view.x, y - this.view.y, 0]);
+      for (let j = 1; j < along.length; ++j) points[kind[k]!]!.push(...along[j - 1]!, ...along[j]!);
     }
-    const outlines = points.map((of, k) => this.lines(of, k < 2 ? this.palette.accent : this.palette.faint));
+    const outlines = points.map((of, k) => this.lines(of, k < 3 ? this.palette.accent : this.palette.faint));
     for (const each of outlines) each.renderOrder = 5;
     const [x0, y0, x1, y1] = this.box;
     const floor = new Mesh(

@@ -16,7 +16,7 @@ export function obstacle_name(names: string[], k: number): string {
   return name === `obstacle ${k}` ? name : `obstacle ${k} (${name})`;
 }
 
-// "robot vertex 2 on edge 4 of obstacle 3 (kite)"
+// "robot vertex 2 on edge 4 of obstacle 3 (kite)"; where shapes are grown "robot arc 2 on arc 1 of obstacle 4".
 export function contact_words(columns: Columns, prefix: string, k: number, names: string[]): string {
   const of = (name: string) => integers(columns, `${prefix}.${name}`)[k]!;
   const owner = of("obstacle");
@@ -24,9 +24,10 @@ export function contact_words(columns: Columns, prefix: string, k: number, names
   const corner = of("obstacle_vertex");
   const where = obstacle_name(names, owner);
   if (owner === -1) return "the reference point on the bounds";
-  return bytes(columns, `${prefix}.kind`)[k] === 0
-    ? `robot vertex ${robot} on edge ${corner} of ${where}`
-    : `robot edge ${robot} on vertex ${corner} of ${where}`;
+  const kind = bytes(columns, `${prefix}.kind`)[k]!;
+  const corner_of = (side: string) => ((doubles(columns, `${prefix}.${side}_radius`)[k] ?? 0) > 0 ? "arc" : "vertex");
+  const [first, second] = [kind === 1 ? "edge" : corner_of("robot"), kind === 0 ? "edge" : corner_of("obstacle")];
+  return `robot ${first} ${robot} on ${second} ${corner} of ${where}`;
 }
 
 const joined = (some: string[]): string =>
@@ -41,25 +42,27 @@ export function pose_verdict(columns: Columns, names: string[]): Verdict {
       text: `Forbidden: the robot overlaps ${owner! < 0 ? "the outside of " : ""}${obstacle_name(names, owner!)}.`,
     };
   }
+  const touching = bytes(columns, "touching.kind").length;
   const touched = [...integers(columns, "touched")]; // among round shapes
-  if (touched.length) {
+  if (touched.length && touching === 0) {
     const some = touched.slice(0, 2).map((k) => obstacle_name(names, k));
     if (touched.length > 2) some.push(`${touched.length - 2} more`);
     return { tone: "touch", text: `Touching ${joined(some)}. Allowed.` };
   }
-  const touching = bytes(columns, "touching.kind").length;
   if (touching === 0) return { tone: "good", text: "Free." };
   const said = Array.from({ length: Math.min(touching, 2) }, (_, k) => contact_words(columns, "touching", k, names));
   const rest = touching > 2 ? ` and ${touching - 2} more` : "";
   return { tone: "touch", text: `Touching: ${said.join("; ")}${rest}. Allowed.` };
 }
 
-// The boundary at the right is that of polygons around round shapes.
-export function around_words(scene: Columns, units: string): string {
-  const off = value(scene, "around");
-  return off >= 0
-    ? ` · round shapes are drawn as polygons around them, within ${off.toPrecision(2)}${units && ` ${units}`}`
-    : "";
+// The boundary at the right is that of polygons around shapes that are not rounded.
+export function around_words(scene: Columns, names: string[], units: string): string {
+  const owners = [...integers(scene, "around.shapes")];
+  if (!owners.length) return "";
+  const some = owners.slice(0, 2).map((k) => (k === -3 ? "the robot" : obstacle_name(names, k)));
+  if (owners.length > 2) some.push(`${owners.length - 2} more`);
+  const within = `${value(scene, "around").toPrecision(2)}${units && ` ${units}`}`;
+  return ` · ${joined(some)}: drawn as ${owners.length > 1 ? "polygons" : "a polygon"} around the arcs, within ${within}`;
 }
 
 function blocking(owners: number[], names: string[]): string {
@@ -98,6 +101,10 @@ function open_words(verdict: string, columns: Columns, vehicle: Vehicle | undefi
   if (verdict === "contacts")
     return `A motion exists, but along contacts only. The page does not decide this for ${it}; use \`cfree plan\`.`;
   if (verdict === "round") return "Undecided here for the round shapes: `cfree plan` decides more.";
+  if (verdict === "round joined")
+    return "A motion exists: start and goal are in one cell. The page has found none to show; `cfree plan` searches longer.";
+  if (verdict === "round apart")
+    return "No motion with clearance: start and goal are in different cells. The page does not decide whether one exists that touches.";
   if (verdict === "narrow") return `A way of ${it} exists; the page cannot write it down: its passages are too narrow.`;
   if (verdict === "forward")
     return "A way exists with a reverse gear; none without one was found here: `cfree plan` may decide it.";
@@ -158,9 +165,13 @@ export function patch_words(found: Columns, names: string[]): string {
   );
   const more = trims.length > 4 ? ` and ${trims.length - 4} more` : "";
   const digits = (name: string) => value(found, name).toPrecision(4);
+  const place =
+    bytes(found, "contact.kind")[0] === 2
+      ? `S(ψ, φ) at ψ = ${degrees(value(found, "t"))}`
+      : `S(t, φ) at t = ${value(found, "t").toFixed(3)}`;
   return [
     contact_words(found, "contact", 0, names),
-    `S(t, φ) at t = ${value(found, "t").toFixed(3)}, φ = ${degrees(value(found, "phi"))}`,
+    `${place}, φ = ${degrees(value(found, "phi"))}`,
     `K = ${digits("K")}, H = ${digits("H")}`,
     `left of it: φ from ${degrees(low)} to ${degrees(high)}`,
     trims.length ? `trimmed by: ${trims.slice(0, 4).join("; ")}${more}` : "trimmed by nothing",

@@ -1,6 +1,7 @@
 // The left view: robot, obstacles, start and goal as SVG; handles that are dragged, or moved by keys.
 import { type Columns, bytes, doubles, integers } from "./engine";
 import type { Track, Wheels } from "./vehicle";
+import { corners_of, outline, to_point } from "./outlines";
 import { FINGER, Pointers, type Pinch, type Place } from "./pointers";
 
 export type Who = "robot" | "start" | "goal";
@@ -30,27 +31,6 @@ export function made<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
-// Rings as the data of a path. `bend` has the radius of the arc from each vertex to the next, below 0 if it is clockwise.
-export function outline(
-  xy: ArrayLike<number>,
-  ring: ArrayLike<number>,
-  first = 0,
-  last = ring.length - 1,
-  bend: ArrayLike<number> = [],
-): string {
-  let d = "";
-  for (let r = first; r < last; ++r) {
-    const begin = ring[r]!;
-    const end = ring[r + 1]!;
-    const to = (k: number) => `${xy[2 * k]} ${xy[2 * k + 1]}`;
-    const next = (k: number, radius: number) =>
-      radius ? `A${Math.abs(radius)} ${Math.abs(radius)} 0 0 ${radius > 0 ? 1 : 0} ${to(k)}` : `L${to(k)}`;
-    for (let k = begin; k < end; ++k) d += k === begin ? `M${to(k)}` : next(k, bend[k - 1] ?? 0);
-    if (bend[end - 1]) d += next(begin, bend[end - 1]!);
-    d += "Z";
-  }
-  return d;
-}
 const outline_of = (scene: Columns, of: string, first?: number, last?: number) =>
   outline(doubles(scene, `${of}.xy`), integers(scene, `${of}.ring`), first, last, doubles(scene, `${of}.bend`));
 
@@ -264,13 +244,17 @@ export class Workspace {
     const { x, y, w, h } = this.whole;
     const far = 50 * Math.max(w, h);
     const outside = shell.includes(-1) ? `M${x - far} ${y - far}h${w + 2 * far}v${h + 2 * far}h${-w - 2 * far}Z` : "";
-    made("path", layer, { d: outside + outline(xy, start), class: "forbidden" });
+    const rings = corners_of(xy, start, doubles(slice, "bend"));
+    made("path", layer, { d: outside + outline(rings.xy, rings.ring, 0, undefined, rings.bend), class: "forbidden" });
     const segments = doubles(slice, "segments");
     const kind = bytes(slice, "kind");
-    const d = ["", "", ""];
+    const bend = doubles(slice, "segments.bend");
+    const d = ["", "", "", ""];
     for (let k = 0; k < kind.length; ++k)
-      d[kind[k]!] += `M${segments[4 * k]} ${segments[4 * k + 1]}L${segments[4 * k + 2]} ${segments[4 * k + 3]}`;
-    d.forEach((of, k) => made("path", layer, { d: of, class: ["vertex-edge", "edge-vertex", "at-bounds"][k]! }));
+      d[kind[k]!] += `M${segments[4 * k]} ${segments[4 * k + 1]}${to_point(segments, 2 * k + 1, bend[k] ?? 0)}`;
+    d.forEach((of, k) =>
+      made("path", layer, { d: of, class: ["vertex-edge", "edge-vertex", "arc-arc", "at-bounds"][k]! }),
+    );
   }
 
   // Show the robot along a path, and the track of its reference point, or that of a vehicle's axle.
@@ -331,15 +315,17 @@ export class Workspace {
     if (!columns) return;
     const robot = doubles(columns, `${prefix}.robot_xy`);
     const obstacle = doubles(columns, `${prefix}.obstacle_xy`);
-    const mark = (parent: Element, of: ArrayLike<number>, k: number) => {
+    const mark = (parent: Element, of: ArrayLike<number>, k: number, radius: number) => {
       const [x0, y0, x1, y1] = [of[4 * k]!, of[4 * k + 1]!, of[4 * k + 2]!, of[4 * k + 3]!];
-      if (x0 === x1 && y0 === y1) made("circle", parent, { cx: x0, cy: y0, r: 5 * this.pixel });
-      else made("line", parent, { x1: x0, y1: y0, x2: x1, y2: y1 });
+      if (x0 !== x1 || y0 !== y1) made("line", parent, { x1: x0, y1: y0, x2: x1, y2: y1 });
+      else if (radius > 0) made("circle", parent, { cx: x0, cy: y0, r: radius, class: "arc" });
+      else made("circle", parent, { cx: x0, cy: y0, r: 5 * this.pixel });
     };
     const moved = made("g", this.layers.marks, { transform: frame(at) });
+    const [of_robot, of_obstacle] = ["robot", "obstacle"].map((of) => doubles(columns, `${prefix}.${of}_radius`));
     for (let k = 0; 4 * k < robot.length; ++k) {
-      mark(this.layers.marks, obstacle, k);
-      mark(moved, robot, k);
+      mark(this.layers.marks, obstacle, k, of_obstacle![k] ?? 0);
+      mark(moved, robot, k, of_robot![k] ?? 0);
     }
   }
 

@@ -139,9 +139,50 @@ test("among round shapes contact names the obstacle, and neither path nor proof 
     way_verdict({ verdict: "round" }, NAMES, "").text,
     "Undecided here for the round shapes: `cfree plan` decides more.",
   );
-  assert.equal(
-    around_words(numbers({ around: 0.25 }), "m"),
-    " · round shapes are drawn as polygons around them, within 0.25 m",
+  assert.match(
+    way_verdict({ verdict: "round joined" }, NAMES, "").text,
+    /^A motion exists: start and goal are in one cell\. The page has found none/,
   );
-  assert.equal(around_words({}, "m"), "");
+  assert.match(
+    way_verdict({ verdict: "round apart" }, NAMES, "").text,
+    /^No motion with clearance: .* different cells\. The page does not decide whether one exists that touches\.$/,
+  );
+  const around = (...shapes) =>
+    around_words({ ...numbers({ around: 0.25 }), "around.shapes": Int32Array.from(shapes) }, NAMES, "m");
+  assert.equal(around(0), " · obstacle 0 (kite): drawn as a polygon around the arcs, within 0.25 m");
+  assert.equal(
+    around(-3, 1, -2),
+    " · the robot, obstacle 1 and 1 more: drawn as polygons around the arcs, within 0.25 m",
+  );
+  assert.equal(around_words({}, NAMES, "m"), "");
+});
+
+test("arcs in contact are told from vertices, and contacts come before what touches", () => {
+  const radii = (robot, obstacle) => ({
+    "c.robot_radius": Float64Array.from(robot),
+    "c.obstacle_radius": Float64Array.from(obstacle),
+  });
+  const columns = {
+    ...contacts("c", [0, 1, 2, 2, 2], [2, 3, 0, 1, 4], [4, 5, 6, 0, 0], [0, 0, 0, 1, 1]),
+    ...radii([1, 0, 1, 0, 1], [0, 1, 0, 1, 1]),
+  };
+  assert.deepEqual(
+    [0, 1, 2, 3, 4].map((k) => contact_words(columns, "c", k, NAMES)),
+    [
+      "robot arc 2 on edge 4 of obstacle 0 (kite)",
+      "robot edge 3 on arc 5 of obstacle 0 (kite)",
+      "robot arc 0 on vertex 6 of obstacle 0 (kite)",
+      "robot vertex 1 on arc 0 of obstacle 1",
+      "robot arc 4 on arc 0 of obstacle 1",
+    ],
+  );
+  const touching = { ...numbers({ free: 1 }), touched: Int32Array.of(1), ...contacts("touching", [2], [0], [0], [1]) };
+  assert.match(pose_verdict(touching, NAMES).text, /^Touching: robot vertex 0 on vertex 0 of obstacle 1\. Allowed\.$/);
+  const found = {
+    ...numbers({ t: Math.PI, phi: 0, K: 1, H: -1 }),
+    range: Float64Array.of(0, 1),
+    ...contacts("contact", [2], [2], [4], [0]),
+    ...contacts("trims", [], [], [], []),
+  };
+  assert.equal(patch_words(found, NAMES).split("\n")[1], "S(ψ, φ) at ψ = 180°, φ = 0°");
 });

@@ -160,17 +160,19 @@ std::vector<double> Slicer::trace(const Segments& s, const std::vector<Index>& n
         for (auto x = static_cast<Index>(k); x >= 0 && !used[x]; x = next[x]) {
             used[x] = 1;
             result.xy.insert(result.xy.end(), {s.xy[4 * x], s.xy[4 * x + 1]});
-            if (s.arcs.empty() || s.arcs[x].radius == 0) continue;
+            result.bend.push_back(s.arcs.empty() ? 0 : s.arcs[x].radius);
+            if (result.bend.back() == 0) continue;
             const auto& [centre, radius, from, to] = s.arcs[x];
             const int chords = std::max(2, static_cast<int>(std::ceil((to - from) / chord)));
             for (int m = 1; m < chords; ++m) {
                 const auto [c, n] = cosine_sine(from + (to - from) * m / chords);
                 result.xy.insert(result.xy.end(), {centre.x + radius * c, centre.y + radius * n});
+                result.bend.push_back(Rings::in_arc);
             }
         }
         const std::size_t count = (result.xy.size() - first) / 2;
         if (count < 3) {
-            result.xy.resize(first);
+            result.xy.resize(first), result.bend.resize(first / 2);
             continue;
         }
         double twice = 0;

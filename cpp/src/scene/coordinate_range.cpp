@@ -56,7 +56,7 @@ std::optional<RangeFault> radius_fault(const SceneShapes& shapes) {
             return RangeFault{kind, -1, std::to_string(roundings->size()) + " radii for " + std::to_string(polygons->size()) +
                                             " polygons; give one for each, or none"};
         for (std::size_t k = 0; k < polygons->size(); ++k)
-            if (auto wrong = fault(kind, static_cast<Index>(k), *(*polygons)[k], roundings->empty() ? Ratio{} : (*roundings)[k].radius))
+            if (auto wrong = fault(kind, static_cast<Index>(k), *(*polygons)[k], rounding_of(*roundings, k).radius))
                 return wrong;
     }
     return shapes.workspace ? fault("workspace", -1, *shapes.workspace, {}) : std::nullopt;

@@ -522,12 +522,12 @@ void for_each_number(const Rounding& rounding, Use use) {
     }
 }
 
-const Rounding& of_polygon(const std::vector<Rounding>& all, std::size_t k) {
+}  // namespace
+
+const Rounding& rounding_of(const std::vector<Rounding>& all, std::size_t k) {
     static const Rounding none;
     return all.empty() ? none : all.at(k);
 }
-
-}  // namespace
 
 Ratio SceneShapes::robot_radius() const {
     Ratio most{0, 1};
@@ -588,9 +588,9 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     const bool is_round = whole.is_round || robot.is_round() || obstacles.is_round();
     const auto own = [](std::size_t, Index k) { return k; };
     for (std::size_t k = 0; k < shapes.robot.size(); ++k)
-        robot.add_polygon(*shapes.robot[k], of_polygon(shapes.robot_rounding, k), static_cast<Index>(k), true, own);
+        robot.add_polygon(*shapes.robot[k], rounding_of(shapes.robot_rounding, k), static_cast<Index>(k), true, own);
     for (std::size_t k = 0; k < shapes.obstacles.size(); ++k)
-        obstacles.add_polygon(*shapes.obstacles[k], of_polygon(shapes.obstacle_rounding, k), static_cast<Index>(k), true, own);
+        obstacles.add_polygon(*shapes.obstacles[k], rounding_of(shapes.obstacle_rounding, k), static_cast<Index>(k), true, own);
     const Int robot_radius = scaled(shapes.robot_radius(), scale);
     std::optional<Box> given;  // box around all obstacles of the whole, with their radii, and bounds
     const auto give = [&](const Int& x, const Int& y) { given ? given->add(x, y) : void(given = Box{x, y, x, y}); };

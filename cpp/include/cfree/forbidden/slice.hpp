@@ -31,6 +31,9 @@ public:
         std::vector<double> xy;
         std::vector<Index> start;  // first point of each ring, and the end
         std::vector<Index> shell;  // a hole's ring around it, -1 if none; a part's own number
+        // Radius of the arc from each point to the next that is no point of a chord; 0: a segment, `in_arc`: a point of a chord.
+        std::vector<double> bend;
+        static constexpr double in_arc = -1;
     };
     Rings rings(int chart, double tau) const;
 

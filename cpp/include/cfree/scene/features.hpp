@@ -32,6 +32,9 @@ struct Rounding {
     std::vector<Arc> arcs = {};
 };
 
+// Rounding of polygon k; if the list is empty, none.
+const Rounding& rounding_of(const std::vector<Rounding>& all, std::size_t k);
+
 // Shapes of a scene.
 struct SceneShapes {
     std::vector<std::shared_ptr<const Polygon>> robot, obstacles;
