@@ -20,6 +20,9 @@ class Shape:
     def radius(self) -> list[int]: ...
 
     @property
+    def makes_surfaces(self) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), writable=False)]: ...
+
+    @property
     def convex(self) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), writable=False)]: ...
 
     @property

@@ -110,7 +110,7 @@ void CoincidentSurfaces::add_opposite(const Feature& contact, std::vector<Featur
 namespace {
 
 bool is_point_core(const Shape& s, Index v) { return s.previous[v] == v; }
-const Int& radius_of(const Shape& s, Index v) { return s.radii[s.vertex_radius[v]].exact; }
+const Int& exact_radius(const Shape& s, Index v) { return s.radii[s.vertex_radius[v]].exact; }
 bool is_one_place(const Shape& s, Index v, Index w) { return s.X[v] == s.X[w] && s.Y[v] == s.Y[w]; }
 
 // Offset of a line from the origin, to the left of the least integer vector D along its direction, times |D|; the line is moved
@@ -166,10 +166,10 @@ RoundSlits::RoundSlits(const Scene& s) : scene(s) {
         if (!moved_by(all, further)) all.push_back(std::make_unique<const Lines>(shape, body_layer, further));
     };
     for (const Index i : bodies)
-        if (is_point_core(A, i) || !at(i).empty()) add(walls, O, radius_of(A, i));
+        if (is_point_core(A, i) || !at(i).empty()) add(walls, O, exact_radius(A, i));
     if (!references.empty()) bounds = std::make_unique<const Lines>(O, reference_layer, 0);
     for (Index j = 0; j < O.ring_vertices; ++j)
-        if (is_point_core(O, j) && O.layer[j] == body_layer) add(prongs, A, radius_of(O, j));
+        if (is_point_core(O, j) && O.layer[j] == body_layer) add(prongs, A, exact_radius(O, j));
 }
 
 const RoundSlits::Lines* RoundSlits::moved_by(const std::vector<std::unique_ptr<const Lines>>& all, const Int& further) {
@@ -193,16 +193,16 @@ void RoundSlits::add_opposite(const Feature& contact, std::vector<Feature>& out)
     const Index i = contact.robot, j = contact.obstacle;
     if (contact.kind == Kind::vertex_edge) {
         const bool is_reference = A.layer[i] == reference_layer;
-        const Int by = is_reference ? Int(0) : radius_of(A, i);
+        const Int by = is_reference ? Int(0) : exact_radius(A, i);
         for (const Index i2 : at(i)) {
-            const Lines* others = is_reference ? moved_by(walls, radius_of(A, i2)) : bounds.get();
+            const Lines* others = is_reference ? moved_by(walls, exact_radius(A, i2)) : bounds.get();
             if (!A.convex[i2]) continue;
             for (const Index e : others->opposite(j, by)) out.push_back({Kind::vertex_edge, i2, e});
         }
         if (!is_reference && is_point_core(A, i))
             for (const Index e : moved_by(walls, by)->opposite(j, by)) out.push_back({Kind::vertex_edge, i, e});
     } else if (contact.kind == Kind::edge_vertex && is_point_core(O, j) && O.layer[j] == body_layer) {
-        const Int& by = radius_of(O, j);
+        const Int& by = exact_radius(O, j);
         for (const Index e : moved_by(prongs, by)->opposite(i, by)) out.push_back({Kind::edge_vertex, e, j});
     }
 }

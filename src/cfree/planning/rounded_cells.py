@@ -93,8 +93,8 @@ def round_cells(scene: Scene, options: Options, most: int = WORK) -> RoundCells 
     Returns
     -------
     RoundCells, or None
-        None if shapes are not polygons, segments and points grown by discs, the robot's parts by one radius, if neither the
-        robot nor all obstacles have discs, or if that would take longer.
+        None if shapes are not polygons, segments and points grown by discs, the robot's parts by one radius, if
+        neither the robot nor all obstacles have discs, or if that would take longer.
     """
     clearance = options.clearance
     shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
