@@ -66,9 +66,9 @@ void bind_scene(nb::module_& m) {
                      })
         .def_prop_ro("makes_surfaces",
                      [](const cfree::Shape& s) {  // of the edges of rings: false for stubs, and for a point
-                         std::vector<char> makes;
+                         std::vector<std::int8_t> makes;
                          for (cfree::Index e = 0; e < s.ring_vertices; ++e) makes.push_back(s.makes_surfaces(e));
-                         return flags(makes);
+                         return array_of(std::move(makes));
                      })
         .def_prop_ro("convex", [](const cfree::Shape& s) { return flags(s.convex); })
         .def_prop_ro("emit", [](const cfree::Shape& s) { return flags(s.emit); });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cfree/scene/lengths.hpp"
 #include "cfree/support/elementary.hpp"
@@ -12,7 +13,7 @@ namespace cfree {
 
 namespace {
 
-constexpr double root_of_two = 1.4142135623730951, eighth_turn = 0.41421356237309515;  // tangent of half of it
+constexpr double root_of_two = std::numbers::sqrt2, eighth_turn = std::numbers::sqrt2 - 1;  // tangent of half of it
 
 double radius_of(const Shape& s, Index v) { return s.radii[s.vertex_radius[v]].about.hi; }
 

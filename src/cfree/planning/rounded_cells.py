@@ -157,11 +157,11 @@ def work_for(features: SceneFeatures) -> int:
     size = np.ptp(robot.near, axis=0) + 2 * robot.radius.max()
     rings = len(others.previous)
     ends = np.stack([others.near[others.v[:rings]], others.near[others.w[:rings]]])
-    radius = others.radius[:, None]
+    radius = others.radius[:rings, None]
     low, high = ends.min(axis=0) - radius, ends.max(axis=0) + radius
     starts = others.core.piece[:-1]
     corners = others.core.piece_vertex
-    grown = np.append(others.radius, np.zeros(len(others.near) - rings))[corners, None]
+    grown = others.radius[corners, None]
     first = np.minimum.reduceat(others.near[corners] - grown, starts)
     last = np.maximum.reduceat(others.near[corners] + grown, starts)
     boxes = zip(low, high, strict=True)
