@@ -278,7 +278,7 @@ def test_what_is_not_made_of_round_boundaries_is_refused() -> None:
     result = boundary(DISCS)
     assert not len(result.isolated)
     for refused in (
-        lambda: cfree.geometry.gauss_bonnet(result),
+        lambda: cfree.geometry.gauss_map(result),
         lambda: result.checker,
         lambda: cfree.fits(disc(0, 0, 1), SQUARE),
     ):
