@@ -13,7 +13,9 @@ Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, con
     const SurdPoly p = RoundOrders(scene, surface).exactly(first, second);
     result.all_zero = is_zero(p);
     if (result.all_zero) return result;
-    for (const SurdRoot& root : roots_between(p, Dyadic::from(std::nextafter(lo, -2)), Dyadic::from(std::nextafter(hi, 2)))) {
+    constexpr unsigned all_digits = 56;  // of a double: an isolating interval may be as wide as the chart
+    for (SurdRoot& root : roots_between(p, Dyadic::from(std::nextafter(lo, -2)), Dyadic::from(std::nextafter(hi, 2)))) {
+        while (!root.at.is_dyadic() && root.at.digits() < all_digits) root.at.narrow();
         const double below = root.at.lo.rounded_down(), above = root.at.hi.rounded_up();
         Event x{first, second, below, above, static_cast<Index>(fine.size()), !root.changes_sign};
         fine.push_back({root.at.lo, root.at.hi});
