@@ -51,6 +51,7 @@ COMPUTED = (
     "mesh",
     "mesh_face",
     "quadrature",
+    "round_curve",
     "round_face",
     "rows",
     "slice",

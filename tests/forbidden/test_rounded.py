@@ -83,6 +83,14 @@ def test_boundary_has_the_same_bytes_for_any_number_of_threads() -> None:
     )
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [400, 402, 6, 12])
+def test_critical_angles_are_as_narrow_as_doubles_allow(seed: int) -> None:
+    """In the scene of seed 400 exact roots decide, whose isolating intervals are a quarter of a chart wide."""
+    table = boundary(random_scene(seed)).trapezoids
+    assert max((table.to_hi - table.to_lo).max(), (table.from_hi - table.from_lo).max()) < 1e-12
+
+
 def test_boundary_is_pickled() -> None:
     result = boundary(MIXED)
     again = pickle.loads(pickle.dumps(result))
@@ -280,7 +288,7 @@ def test_what_is_not_made_of_round_boundaries_is_refused() -> None:
     result = boundary(DISCS)
     assert not len(result.isolated)
     for refused in (
-        lambda: cfree.geometry.gauss_bonnet(result),
+        lambda: cfree.geometry.gauss_map(result),
         lambda: result.checker,
         lambda: cfree.fits(disc(0, 0, 1), SQUARE),
     ):

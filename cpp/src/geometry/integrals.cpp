@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "cfree/contact/contact_curve.hpp"
+#include "cfree/contact/round_curve.hpp"
 #include "cfree/geometry/local_geometry.hpp"
 #include "cfree/support/elementary.hpp"
 
@@ -118,10 +118,18 @@ public:
         const auto k = static_cast<std::size_t>(f);
         std::tie(from, to) = std::tuple_cat(angles_of(boundary, f));
         const Places places{*boundary.scene};
-        const auto parts = places.parts(on);
-        turns = on.kind == Kind::edge_vertex;
-        a = parts.a, b = parts.b, edge = parts.edge;
-        curves = {ContactCurve(places, on, unpacked(table.lower[k]), from, to), ContactCurve(places, on, unpacked(table.upper[k]), from, to)};
+        is_round = boundary.scene->is_round, is_circle = on.kind == Kind::vertex_vertex;
+        const Feature lower = unpacked(table.lower[k]), upper = unpacked(table.upper[k]);
+        if (is_circle) {
+            a = places.a(on.robot), b = places.b(on.obstacle);
+            radius = sum_of_radii(*boundary.scene, on) * boundary.scene->unit(), begin = 0.5 * pi * on.branch;
+        } else {
+            const auto parts = places.parts(on);
+            turns = on.kind == Kind::edge_vertex;
+            a = parts.a, b = parts.b, edge = parts.edge;
+        }
+        if (is_round) round_curves = {RoundCurve(places, on, lower, from, to), RoundCurve(places, on, upper, from, to)};
+        else curves = {ContactCurve(places, on, lower, from, to), ContactCurve(places, on, upper, from, to)};
         first = in.first[k], last = in.first[k + 1];
     }
 
@@ -131,12 +139,18 @@ public:
             const Index before = h == first ? last - 1 : h - 1, after = h + 1 == last ? first : h + 1;
             out.turn[k] = side(before) == side(h) ? 0 : turn(tangent_of(before, angle(h)), tangent_of(h, angle(h)));
             put_start(h, before, &out.start[3 * k]);
-            if (is_wall(h)) continue;  // straight lines
-            const ContactCurve& curve = curves[side(h) == Side::upper];
-            const auto f = [&](double at) { return curvature(curve, at); };
+            const auto put = [&](const Integral& found) { out.total[k] = found.value, out.error[k] = std::abs(found.error); };
+            if (is_wall(h)) {
+                if (is_circle) put(along_arc(angle(h), position_at(h), position_at(after)));
+                continue;  // lines are straight
+            }
+            const bool upper = side(h) == Side::upper;
+            const auto f = [&](double at) { return curvature(upper, at); };
             const double start = angle(h), stop = angle(after);
-            const Integral found = integral(f, start, stop, over_nodes(f, start, stop), 1);
-            out.total[k] = found.value, out.error[k] = std::abs(found.error);
+            if (is_round) {
+                const auto g = over_roots(f, start, stop);
+                put(integral(g, 0, 1, over_nodes(g, 0, 1), 1));
+            } else put(integral(f, start, stop, over_nodes(f, start, stop), 1));
         }
     }
 
@@ -144,7 +158,7 @@ private:
     void put_start(Index h, Index before, double* out) const {
         const double phi = angle(h);
         const bool within_wall = is_wall(h) && side(before) == side(h), upper = side(is_wall(h) ? before : h) == Side::upper;
-        const Complex x = within_wall ? Complex{unknown, unknown} : curves[upper].at(phi);
+        const Complex x = within_wall ? Complex{unknown, unknown} : motion(upper, phi).x;
         out[0] = x.real(), out[1] = x.imag(), out[2] = w * phi;
     }
     bool is_wall(Index h) const { return side(h) == Side::first || side(h) == Side::last; }
@@ -157,9 +171,54 @@ private:
         if (side(before) != side(h)) return side(h) == Side::upper ? from : to;
         return std::clamp(cells.theta[static_cast<std::size_t>(cells.vertex[static_cast<std::size_t>(h)])], from, to);
     }
-    Complex ruling(double phi) const { return turns ? -std::polar(1.0, phi) * edge : edge; }
+    struct Motion {
+        Complex x, velocity, acceleration;
+    };
+    Motion motion(bool upper, double phi) const {
+        if (!is_round) return {curves[upper].at(phi), curves[upper].velocity(phi), curves[upper].acceleration(phi)};
+        const auto [s, v, acceleration] = round_curves[upper].motion(phi);
+        const Complex z = std::polar(1.0, phi), za = z * a;
+        if (is_circle) {
+            const Complex u = std::polar(1.0, begin + s), tangent = i_unit * u;
+            return {b - za + radius * u, radius * v * tangent - i_unit * za, za + radius * (acceleration * tangent - v * v * u)};
+        }
+        const Complex normal = -i_unit * edge;
+        if (!turns) {
+            const double off = dot(normal, b - za), off_1 = -dot(normal, i_unit * za), off_2 = dot(normal, za);
+            return {s * edge + off * normal, v * edge + off_1 * normal, acceleration * edge + off_2 * normal};
+        }
+        const Complex y = dot(normal, a) * normal + s * edge;
+        return {b - z * y, -z * (i_unit * y + v * edge), -z * (2.0 * i_unit * v * edge + acceleration * edge - y)};
+    }
+    // Direction of growing t, and a half-edge's start as an angle on a circle.
+    Complex ruling(Complex x, double phi) const {
+        if (is_circle) {
+            const Complex u = x - (b - std::polar(1.0, phi) * a);
+            return i_unit * u / std::abs(u);
+        }
+        return turns ? -std::polar(1.0, phi) * edge : edge;
+    }
+    double position_at(Index h) const {
+        const auto v = static_cast<std::size_t>(cells.vertex[static_cast<std::size_t>(h)]);
+        const auto [c, s] = cosine_sine(cells.theta[v]);
+        const Scene& scene = *cells.boundary->scene;
+        const Complex x{cells.xy[2 * v] + (0 - (c * scene.frame[2] - s * scene.frame[3])),
+                        cells.xy[2 * v + 1] + (0 - (s * scene.frame[2] + c * scene.frame[3]))};
+        const Complex u = x - (b - Complex{c, s} * a);
+        return 0.25 * pi + std::remainder(std::arg(u) - begin - 0.25 * pi, 2 * pi);
+    }
+    // Geodesic curvature along an arc at one orientation.
+    Integral along_arc(double phi, double start, double stop) const {
+        const Complex turned = i_unit * std::polar(1.0, phi) * a;
+        const auto f = [&](double psi) {
+            const double s = dot(turned, std::polar(1.0, begin + psi));
+            return s / norm(w, s);
+        };
+        return integral(f, start, stop, over_nodes(f, start, stop), 1);
+    }
     // V across the ruling
     double across(Complex x, double phi) const {
+        if (is_circle) return dot(i_unit * std::polar(1.0, phi) * a, -i_unit * ruling(x, phi));
         return turns ? -dot(x - b, std::polar(1.0, phi) * edge) : -dot(edge, std::polar(1.0, phi) * a);
     }
     // Tangent in the frame, in the direction of the loop.
@@ -167,8 +226,8 @@ private:
         if (side(h) == Side::first) return 1;
         if (side(h) == Side::last) return -1;
         const bool upper = side(h) == Side::upper;
-        const ContactCurve& curve = curves[upper];
-        const Complex along{dot(curve.velocity(phi), ruling(phi)), norm(w, across(curve.at(phi), phi))};
+        const Motion at = motion(upper, phi);
+        const Complex along{dot(at.velocity, ruling(at.x, phi)), norm(w, across(at.x, phi))};
         return upper ? along : -along;
     }
     // Turn from 0 to pi, up to rounding.
@@ -177,18 +236,21 @@ private:
         return by < -0.5 * pi ? by + 2 * pi : by;
     }
     // Geodesic curvature per step of theta.
-    double curvature(const ContactCurve& curve, double phi) const {
-        const Complex u = ruling(phi), acceleration = curve.acceleration(phi);
-        const double s = across(curve.at(phi), phi), R = norm(w, s), along = dot(curve.velocity(phi), u);
+    double curvature(bool upper, double phi) const {
+        const auto [x, velocity, acceleration] = motion(upper, phi);
+        const Complex u = ruling(x, phi);
+        const double s = across(x, phi), R = norm(w, s), along = dot(velocity, u);
         return (along * (s / R) * cross(u, acceleration) - R * dot(u, acceleration)) / (along * along + R * R);
     }
 
     const CellComplex& cells;
     double w, from, to;
     Feature on;
-    bool turns;
+    bool turns = false, is_round, is_circle;
     Complex a, b, edge;
+    double radius = 0, begin = 0;  // of a circle
     std::array<ContactCurve, 2> curves;
+    std::array<RoundCurve, 2> round_curves;
     Index first, last;
 };
 

@@ -6,49 +6,13 @@
 #include <array>
 #include <optional>
 
+#include "cfree/contact/round_curve.hpp"
 #include "cfree/mesh/mesh_face.hpp"
 
 namespace cfree {
 
 // Shares of the error that the rim may take: its chords in the plane of (s, phi), and the sheet over one of its chords.
 inline constexpr double on_rim = 0.25, over_chord = 0.35;
-
-// a + b cos + c sin
-struct Harmonic {
-    double a = 0, b = 0, c = 0;
-    double at(double phi) const;
-};
-
-// Curve of a face: its position at an angle, and bounds between two.
-class RoundCurve {
-public:
-    RoundCurve() = default;
-    RoundCurve(const Places& places, const Feature& on, const Feature& other, double from, double to);
-    double position(double phi) const;
-    // Bound of the difference in position of the curve and its chord between two angles.
-    double bow(double from, double to) const;
-
-private:
-    enum class Form { still, turning, line, on_line, on_circle };
-    double bow_of_line(double from, double to) const;
-    void meet_on_line(const Places& places, const Feature& on, const Feature& other);
-    void meet_on_circle(const Places& places, const Feature& on, const Feature& other, double from, double to);
-
-    Form form = Form::still;
-    double start = 0;             // position, at phi = 0 if it is turning
-    int branch = 0;
-    // on a line: its middle and the height of the circle's centre; on a circle: delta, |n|^2, and n x n' if n is of a circle
-    Harmonic middle, height, delta, square, turn;
-    double radius = 0;            // on a line: of the other circle; on a circle: its own
-    Complex still = 0, moving = 0;  // n = still + exp(i phi) moving
-    double begin = 0;             // direction from which psi counts
-    bool is_equal = false;        // circles of one radius that coincide at the angle `meeting`
-    double meeting = 0;
-    // two lines
-    ContactCurve curve;
-    Complex origin = 0, direction = 0;
-    bool is_saddle = false;
-};
 
 class RoundFace {
 public:
