@@ -99,7 +99,7 @@ def round_cells(scene: Scene, options: Options, most: int = WORK) -> RoundCells 
     shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
     if shapes is None:
         return None
-    has_discs = all(other.radius for other in shapes.obstacles) and (shapes.obstacles or scene.bounds)
+    has_discs = bool(shapes.obstacles) and all(other.radius for other in shapes.obstacles)
     if not shapes.robot[0].radius and (scene.workspace or not has_discs):
         return None
     by = Fraction(1, 2 ** max(SMALLER, 2 * _digits(scene, shapes)))
