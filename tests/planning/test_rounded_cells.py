@@ -189,6 +189,23 @@ def test_a_fault_of_the_core_leaves_other_ways(monkeypatch: pytest.MonkeyPatch) 
         cfree.plan(scene, start, goal)
 
 
+def test_shapes_that_cannot_be_smaller_have_no_cells() -> None:
+    from cfree.planning.rounded_cells import round_cells
+
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    disc = Curved.circle((4, 0), 1)
+    for scene in (
+        Scene(square, [], bounds=(-9, -9, 9, 9)),
+        Scene(square, [square]),
+        Scene(square, [disc, square]),
+        Scene(square, [disc], workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)]),
+        Scene(square, [Curved.ellipse((4, 0), (1, 2))]),
+    ):
+        assert round_cells(scene, Options()) is None
+    assert round_cells(Scene(square, [disc], bounds=(-9, -9, 9, 9)), Options()) is not None
+    assert round_cells(Scene(disc, [], bounds=(-9, -9, 9, 9)), Options()) is not None
+
+
 def test_cells_are_not_computed_where_they_take_long() -> None:
     from cfree.planning.rounded_cells import WORK, round_cells, work_for
     from cfree.scene.features import grown_features

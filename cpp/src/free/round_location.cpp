@@ -120,34 +120,6 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
             std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(passed));
             if (before.size() + passed.size() != after.size()) continue;
             if (passed == std::vector{k}) return Ray{q, k, rises, std::move(before)};
-            if (passed.size() != 2 || (passed[0] != k && passed[1] != k)) continue;
-            const Index other = passed[0] == k ? passed[1] : passed[0];
-            if (!points.are_slit(surface.contact, surface_of(patches, trapezoids, other).contact, tau)) continue;
-            if (rises) return {};  // the other one has the slit on its left
-            before.push_back(other);
-            return Ray{q, k, false, std::move(before)};
-        }
-        return {};
-    };
-    // A surface of level lines alone is a slit. Space just above it is forbidden, and left of its upper line.
-    const auto above_slit = [&](const std::vector<Index>& faces) -> std::optional<Ray> {
-        for (const Index k : faces) {
-            const Surface surface = surface_of(patches, trapezoids, k);
-            Predicates predicates(scene, surface);
-            const Event from = angle_from(patches, trapezoids, k).event(predicates), to = angle_to(patches, trapezoids, k).event(predicates);
-            const Dyadic tau = predicates.between(from, to).exact();
-            const RoundPoints points(scene, surface.chart);
-            const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
-            const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
-            const bool is_slit = std::any_of(faces.begin(), faces.end(), [&](Index other) {
-                return points.are_slit(surface.contact, surface_of(patches, trapezoids, other).contact, tau);
-            });
-            if (!is_slit || !(high.x.hi < low.x.hi)) continue;
-            const double length = (low.x - high.x).hi;
-            const Ball x = high.x + Ball(0.5 * length), y = low.y + Ball(length * 0x1p-60);
-            const ExactPose q = exact_pose(x, y, scene.shift, surface.chart, tau);
-            Nearby seen = look_among_grown(q);
-            if (seen.generic && seen.on.empty()) return Ray{q, k, true, std::move(seen.crossed)};
         }
         return {};
     };
@@ -158,7 +130,6 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         std::optional<Ray> ray;
         for (int attempt = 0; attempt < Predicates::most_attempts && !ray; ++attempt)
             for (std::size_t k = 0; k < faces.size() && !ray; ++k) ray = try_one(faces[k], attempt);
-        if (!ray) ray = above_slit(faces);
         if (!ray) throw std::logic_error("no ray in general position");
         result.push_back(std::move(*ray));
     }

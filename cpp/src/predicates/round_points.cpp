@@ -62,14 +62,6 @@ Ball RoundPoints::crossing(const Feature& f, const Vec<Ball>& low, const Vec<Bal
     return f.branch == 0 || f.branch == 3 ? coordinate(0) + run : coordinate(0) - run;
 }
 
-bool RoundPoints::are_slit(const Feature& x, const Feature& y, const Dyadic& tau) const {
-    if (!is_line(x) || !is_line(y)) return false;
-    const RoundSurfaces<RootSum> of(scene);
-    const auto sign = [&](const Trig<RootSum>& f) { return sign_at(AsSurdPoly{kappa}(f), tau); };
-    return sign(cross(of.along(x), of.along(y))) == 0 && sign(dot(of.along(x), of.along(y))) < 0 &&
-           sign(of.offset(x, y) + of.rho(y) * of.length(x)) == 0;
-}
-
 bool RoundPoints::may_be_one(const CurveOf& c, const CurveOf& d, const Dyadic& tau) const {
     const Between at{tau.rounded_down(), tau.rounded_up(), kappa};
     const auto near = [&](const CurveOf& curve) { return point<Approx>(scene, curve, at); };

@@ -100,7 +100,7 @@ def round_cells(scene: Scene, options: Options, most: int = WORK) -> RoundCells 
     shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
     if shapes is None or shapes.has_arcs or (radius := shapes.robot_radius) is None:
         return None
-    has_discs = all(other.radius for other in shapes.obstacles) and (shapes.obstacles or scene.bounds)
+    has_discs = bool(shapes.obstacles) and all(other.radius for other in shapes.obstacles)
     if not radius and (scene.workspace or not has_discs):
         return None
     by = Fraction(1, 2 ** max(SMALLER, 2 * _digits(scene, shapes)))

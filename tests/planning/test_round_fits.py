@@ -1,0 +1,107 @@
+"""Exact fits among rounded shapes, level and slanted: found, and not passed if the robot is wider by a hair."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction as F
+
+import pytest
+
+import cfree
+import cfree.verify
+from cfree import Curved, Pose, Scene
+from cfree.curves import Arc
+
+Point = tuple[F, F]
+Turn = Callable[[object, object], Point]
+Corners = tuple[object, object, object, object]
+HAIR = F(1, 2**60)
+TURNS = {"level": (F(1), F(0), F(0)), "3-4-5": (F(3, 5), F(4, 5), F(1, 2))}  # cosine, sine, half-angle tangent
+
+
+def turned_by(name: str) -> Turn:
+    c, s, _ = TURNS[name]
+    return lambda x, y: (c * F(x) - s * F(y), s * F(x) + c * F(y))  # type: ignore[arg-type]
+
+
+def box(turn: Turn, x0: object, y0: object, x1: object, y1: object) -> list[Point]:
+    return [turn(x0, y0), turn(x1, y0), turn(x1, y1), turn(x0, y1)]
+
+
+def room(turn: Turn) -> list[list[Point]]:
+    return [box(turn, *sides) for sides in ((-9, 8, 9, 9), (-9, -9, 9, -8), (-9, -9, -8, 9), (8, -9, 9, 9))]
+
+
+def disc(excess: F) -> Curved:
+    return Curved.circle((0, 0), F(1, 2) + excess)
+
+
+def stadium(excess: F) -> Curved:
+    return Curved([(-1, "-1/4"), (1, "-1/4"), (1, "1/4"), (-1, "1/4")], grown=F(1, 4) + excess)
+
+
+L_CORRIDOR: list[Corners] = [
+    (-4, "1/2", "-1/2", 4),
+    (-4, -8, 4, "-1/2"),
+    ("1/2", "-1/2", 4, 4),
+    (-8, 4, "-1/2", "9/2"),
+    (4, "7/2", 8, 4),
+]
+Z_CORRIDOR: list[Corners] = [
+    (-4, "1/2", "-1/2", 4),
+    (-4, -8, "1/2", "-1/2"),
+    ("1/2", -8, 4, "3/2"),
+    ("-1/2", "5/2", 4, 8),
+    (-4, 4, 0, 8),
+]
+STRAIGHT: list[Corners] = [(-3, "1/2", 3, 8), (-3, -8, 3, "-1/2")]
+
+
+def pocket(turn: Turn) -> Curved:
+    """Return a block with a hole of half a disc at its end."""
+    corners = [(0, -3), (6, -3), (6, 3), (0, 3), (0, "1/2"), (3, "1/2")]
+    return Curved([*(turn(x, y) for x, y in corners), Arc(turn(3, "-1/2"), through=turn("7/2", 0)), turn(0, "-1/2")])
+
+
+def among(boxes: list[Corners]) -> Callable[[Turn], list[object]]:
+    """Return the obstacles of a turned room with these boxes."""
+    return lambda turn: [*room(turn), *(box(turn, *corners) for corners in boxes)]
+
+
+# robot, obstacles and places of start and goal; the robot lies along the x axis that is turned
+Place = tuple[object, object]
+FITS: dict[str, tuple[Callable[[F], Curved], Callable[[Turn], list[object]], Place, Place]] = {
+    "a disc around a corner": (disc, among(L_CORRIDOR), (-6, 0), (0, 6)),
+    "a disc around two corners": (disc, among(Z_CORRIDOR), (-6, 0), (6, 2)),
+    "a peg along a corridor": (stadium, among(STRAIGHT), (-6, 0), (6, 0)),
+    "a disc into a round pocket": (disc, lambda turn: [pocket(turn)], (-5, 2), (3, 0)),
+    "between two discs": (
+        disc,
+        lambda turn: [
+            *room(turn),
+            *(Curved.circle(turn(0, y), 1) for y in ("3/2", "-3/2")),
+            box(turn, "-1/2", "3/2", "1/2", 8),
+            box(turn, "-1/2", -8, "1/2", "-3/2"),
+        ],
+        (-6, 0),
+        (6, 0),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("turn", TURNS)
+@pytest.mark.parametrize("name", FITS)
+def test_an_exact_fit_is_passed_and_one_too_narrow_by_a_hair_is_not(name: str, turn: str) -> None:
+    robot, obstacles, start, goal = FITS[name]
+    place, tau = turned_by(turn), TURNS[turn][2]
+    begin, end = (Pose(*place(*at), {"tau": tau}) for at in (start, goal))
+    scene = Scene(robot(F(0)), obstacles(place))  # type: ignore[arg-type]
+    path = cfree.plan(scene, begin, end)
+    assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+    if "pocket" in name:  # the goal is free no more
+        return
+    wider = Scene(robot(HAIR), obstacles(place))  # type: ignore[arg-type]
+    proof = cfree.plan(wider, begin, end)
+    assert isinstance(proof, cfree.Separated) and proof.of == "closed"
+    assert cfree.verify.answer(wider, proof).verified
