@@ -23,7 +23,7 @@ def drawn(view: Any) -> float:
 
 def test_every_scene_of_the_gallery_is_drawn(tried: Tried) -> None:
     names = tried.page.locator("#scenes option").evaluate_all("options => options.map(of => of.value)")
-    assert len(names) == len(set(names)) == 11 and names[-1] == ""
+    assert len(names) == len(set(names)) == 12 and names[-1] == ""
     views = [tried.page.locator(view) for view in ("#workspace", "#space")]
     for name in names[:-1]:
         tried.page.select_option("#scenes", name)
