@@ -8,7 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fuzz_rounded import Draw, Truth, all_faults, built, counts, euler_numbers, location_faults, surface_faults
+from fuzz_rounded import (
+    Draw,
+    Truth,
+    all_faults,
+    built,
+    counts,
+    euler_numbers,
+    location_faults,
+    signed_area,
+    slice_rings,
+    surface_faults,
+)
 from rounded_scenes import FAMILIES, TURNS, RoundScene, Shape, all_mapped, core, mirrored, scene, swapped
 
 TRIANGLE = [(0, 0), (2, 0), (0, 1)]
@@ -104,3 +115,15 @@ def test_a_touch_at_every_angle_parts_cells_in_any_direction(name: str) -> None:
         assert np.allclose(other.volumes, first.volumes, rtol=1e-12, atol=0)
     if (exchanged := swapped(plain)) is not None:
         assert counts(built(exchanged)).surfaces == first.surfaces
+
+
+@pytest.mark.parametrize(
+    ("x", "radius"), [(Fraction(1, 2**65), 1), (Fraction(1, 2**65), 1 + Fraction(1, 2**66)), (Fraction(1, 2**40), 1)]
+)
+def test_slices_of_circles_that_are_almost_one(x: Fraction, radius: Any) -> None:
+    """The curve in which two circles meet depends on differences that doubles of their centres and radii do not have."""
+    plain = among(shape([(1, 0), (2, 0)], "1/4"), shape([(0, 0)], 1), shape([(x, 0)], radius))
+    space, rho = built(plain), 1.25
+    assert not list(surface_faults(space))
+    area = sum(signed_area(ring) for ring in slice_rings(space, 0, 0.3))
+    assert np.isclose(area, np.pi * rho**2 + 2 * rho, rtol=1e-3)

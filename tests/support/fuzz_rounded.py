@@ -354,12 +354,17 @@ def slice_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
         if len(found) > 1 or -1 in found:
             yield f"cells {sorted(found)} of one region of the slice at tau {tau}, chart {chart}: {region}"
     expected, _ = forbidden_slice(truth, rotation(tau, chart), 0.0)
-    xy, start, _ = _core.Slicer(space.boundary).rings(chart, float(tau))
-    points = xy.reshape(-1, 2)
-    area = sum(signed_area(points[i:j] - points[i]) for i, j in pairwise(start.tolist()))
+    area = sum(signed_area(ring) for ring in slice_rings(space, chart, float(tau)))
     radius = max(float(rho) for _, rho in truth.others)
     if abs(area - expected.area) > 1e-3 * radius * expected.length + 1e-6 * truth.size**2:
         yield f"area {area} of the slice at tau {tau}, chart {chart}; it is {expected.area}"
+
+
+def slice_rings(space: Built, chart: int, tau: float) -> list[Any]:
+    """Rings of chords around the forbidden positions at an orientation, each from one of its points."""
+    xy, start, _ = _core.Slicer(space.boundary).rings(chart, tau)
+    points = xy.reshape(-1, 2)
+    return [points[i:j] - points[i] for i, j in pairwise(start.tolist())]
 
 
 def signed_area(points: Any) -> float:
