@@ -121,7 +121,7 @@ def test_a_touch_at_every_angle_parts_cells_in_any_direction(name: str) -> None:
     ("x", "radius"), [(Fraction(1, 2**65), 1), (Fraction(1, 2**65), 1 + Fraction(1, 2**66)), (Fraction(1, 2**40), 1)]
 )
 def test_slices_of_circles_that_are_almost_one(x: Fraction, radius: Any) -> None:
-    """The curve in which two circles meet depends on differences that doubles of their centres and radii do not have."""
+    """The curve of two circles depends on differences that doubles of their centres and radii do not have."""
     plain = among(shape([(1, 0), (2, 0)], "1/4"), shape([(0, 0)], 1), shape([(x, 0)], radius))
     space, rho = built(plain), 1.25
     assert not list(surface_faults(space))
