@@ -103,12 +103,12 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         const RoundPoints points(scene, surface.chart);
         const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
         const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
-        const double y = low.y.hi + (0.5 + (attempt % 5 - 2) * 0.125) * (high.y - low.y).hi;
-        if (!(std::min(low.y.hi, high.y.hi) < y && y < std::max(low.y.hi, high.y.hi))) return {};
+        const Ball y = low.y + Ball(0.5 + (attempt % 5 - 2) * 0.125) * (high.y - low.y);
+        if (!((high.y - low.y).hi != 0)) return {};
         const Ball x = points.crossing(surface.contact, low, high, y, tau);
-        const bool rises = high.y.hi > low.y.hi;
+        const bool rises = (high.y - low.y).hi > 0;
         const auto pose_at = [&](double by) {
-            return exact_pose(x + Ball(by), Ball(y), scene.shift, surface.chart, tau);
+            return exact_pose(x + Ball(by), y, scene.shift, surface.chart, tau);
         };
         double step = (std::abs((high.x - low.x).hi) + std::abs((high.y - low.y).hi)) * 0.25;
         for (int smaller = 0; smaller < 50; ++smaller, step *= 0.25) {
@@ -130,12 +130,12 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         return {};
     };
     // A surface of level lines alone is a slit. Space just above it is forbidden, and left of its upper line.
-    const auto above_slit = [&](const std::vector<Index>& faces) -> std::optional<Ray> {
+    const auto above_slit = [&](const std::vector<Index>& faces, int attempt) -> std::optional<Ray> {
         for (const Index k : faces) {
             const Surface surface = surface_of(patches, trapezoids, k);
             Predicates predicates(scene, surface);
             const Event from = angle_from(patches, trapezoids, k).event(predicates), to = angle_to(patches, trapezoids, k).event(predicates);
-            const Dyadic tau = predicates.between(from, to).exact();
+            const Dyadic tau = predicates.between(from, to, attempt).exact();
             const RoundPoints points(scene, surface.chart);
             const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
             const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
@@ -158,7 +158,7 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         std::optional<Ray> ray;
         for (int attempt = 0; attempt < Predicates::most_attempts && !ray; ++attempt)
             for (std::size_t k = 0; k < faces.size() && !ray; ++k) ray = try_one(faces[k], attempt);
-        if (!ray) ray = above_slit(faces);
+        for (int attempt = 0; attempt < Predicates::most_attempts && !ray; ++attempt) ray = above_slit(faces, attempt);
         if (!ray) throw std::logic_error("no ray in general position");
         result.push_back(std::move(*ray));
     }

@@ -22,7 +22,7 @@ public:
     Reach reach(const CurveOf& c, double lo, double hi) const;
     // Point of the curve, and x of a surface between two of its points at a height, nearly: the balls' radii mean nothing.
     Vec<Ball> near(const CurveOf& c, const Dyadic& tau) const;
-    Ball crossing(const Feature& surface, const Vec<Ball>& low, const Vec<Ball>& high, double y, const Dyadic& tau) const;
+    Ball crossing(const Feature& surface, const Vec<Ball>& low, const Vec<Ball>& high, const Ball& y, const Dyadic& tau) const;
     // True if two lines, of surfaces whose free sides face each other, are one at an angle.
     bool are_slit(const Feature& x, const Feature& y, const Dyadic& tau) const;
     // False only if the points of two curves are certainly different at an angle.
