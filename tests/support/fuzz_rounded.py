@@ -432,7 +432,7 @@ def counts(space: Built) -> Counts:
 
 def difference(one: Counts, other: Counts, unit: float, has_slits: bool) -> str | None:
     """A difference of two counts, volumes of the second times a unit; of full cells only where slits may be cut."""
-    least = 1e-9 * (1 + max(one.volumes, default=0.0))
+    least = 1e-7 * (1 + max(one.volumes, default=0.0))
     volumes = [
         [v for v in (w * f for w in c.volumes) if not has_slits or v > least] for c, f in ((one, 1.0), (other, unit))
     ]
@@ -496,7 +496,7 @@ def faults(plain: RoundScene, name: str, all_laws: bool = False) -> Iterator[str
             theirs = built(other)
             yield from (f"{law}: {fault}" for fault in surface_faults(theirs))
             volume = ours.volumes[:1] + counts(theirs).volumes[:1]
-            is_cut = cuts and any(v < 1e-9 for v in volume)
+            is_cut = cuts and any(v < 1e-7 for v in volume)
             if text := difference(ours, counts(theirs), unit, is_cut):
                 yield f"{law}: {text}"
         except Exception as error:

@@ -320,7 +320,11 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
     if (count > 0)
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
     if (!reaches(side) || (count == 0 && !reaches(-side))) {
-        if (side > 0 && sign_of(with_branch(circle, side), {}, at) == 0) touch(circle, at, out);
+        if (side > 0 && sign_of(with_branch(circle, side), {}, at) == 0) {
+            touch(circle, at, out);
+            for (const int k : {far - 1, far})  // an edge on the line: a slit, between both ends
+                if (count > 0 && cross_with_line(pillar.edge(k).line, at) == 0) touch(pillar.circle(k < far ? k + count : k + 1), at, out);
+        }
         if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
         return out;
     }
