@@ -310,17 +310,18 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
         watch_arc(pillar, far, out);
         return out;
     }
-    const auto reaches = [&](int to) {  // strictly to this side of the line
+    const auto reach = [&](int to) {  // 1 strictly to this side of the line, 0 if it touches this
         const Feature tangent = with_branch(circle, to);
-        const bool does = sign_of(tangent, {}, at) == to;
-        out.watched.push_back({tangent, {}, does ? to : -to, !does});
-        return does;
+        const int ahead = sign_of(tangent, {}, at) * to;
+        out.watched.push_back({tangent, {}, ahead > 0 ? to : -to, ahead <= 0});
+        return ahead;
     };
     watch_arc(pillar, far, out);
     if (count > 0)
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
-    if (!reaches(side) || (count == 0 && !reaches(-side))) {
-        if (side > 0 && sign_of(with_branch(circle, side), {}, at) == 0) {
+    const int beyond = reach(side);
+    if (beyond <= 0 || (count == 0 && reach(-side) <= 0)) {
+        if (side > 0 && beyond == 0) {
             touch(circle, at, out);
             for (const int k : {far - 1, far})  // an edge on the line: a slit, between both ends
                 if (count > 0 && cross_with_line(pillar.edge(k).line, at) == 0) touch(pillar.circle(k < far ? k + count : k + 1), at, out);
