@@ -8,8 +8,32 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fuzz_rounded import Draw, Truth, all_faults, built, counts, euler_numbers, location_faults, surface_faults
-from rounded_families import FAMILIES, TURNS, RoundScene, Shape, all_mapped, core, mirrored, scene, swapped
+from fuzz_rounded import (
+    Draw,
+    Truth,
+    all_faults,
+    built,
+    counts,
+    euler_numbers,
+    location_faults,
+    signed_area,
+    slice_rings,
+    surface_faults,
+)
+from rounded_families import (
+    FAMILIES,
+    HALF,
+    SQUARE,
+    TURNS,
+    RoundScene,
+    Shape,
+    all_mapped,
+    core,
+    mapped,
+    mirrored,
+    scene,
+    swapped,
+)
 
 TRIANGLE = [(0, 0), (2, 0), (0, 1)]
 
@@ -104,3 +128,50 @@ def test_a_touch_at_every_angle_parts_cells_in_any_direction(name: str) -> None:
         assert np.allclose(other.volumes, first.volumes, rtol=1e-12, atol=0)
     if (exchanged := swapped(plain)) is not None:
         assert counts(built(exchanged)).surfaces == first.surfaces
+
+
+@pytest.mark.parametrize(
+    ("x", "radius"), [(Fraction(1, 2**65), 1), (Fraction(1, 2**65), 1 + Fraction(1, 2**66)), (Fraction(1, 2**40), 1)]
+)
+def test_slices_of_circles_that_are_almost_one(x: Fraction, radius: Any) -> None:
+    """The curve of two circles depends on differences that doubles of their centres and radii do not have."""
+    plain = among(shape([(1, 0), (2, 0)], "1/4"), shape([(0, 0)], 1), shape([(x, 0)], radius))
+    space, rho = built(plain), 1.25
+    assert not list(surface_faults(space))
+    area = sum(signed_area(ring) for ring in slice_rings(space, 0, 0.3))
+    assert np.isclose(area, np.pi * rho**2 + 2 * rho, rtol=1e-3)
+
+
+def block(x: Any, y: Any) -> Shape:
+    return Shape(mapped(SQUARE, Fraction(x) + HALF, Fraction(y) + HALF), Fraction(0))
+
+
+HALL = [shape([(x, -2), (x, 2)], "1/4") for x in (-1, 4)] + [shape([(-1, y), (4, y)], "1/4") for y in (-2, 2)]
+BEAMS = shape([("1/2", 1), ("1/2", 2)], "1/8"), shape([(2, -2), (2, 0)], "1/8")
+# a slit as wide as the disc, between blocks of which one is higher: surfaces and cells; each half turn has its own slit
+SLITS = {
+    "alone": (among(shape([(0, 0)], "1/4"), block(0, 0), block("3/2", "1/3")), 3, 3),
+    "in a hall": (among(shape([(0, 0)], "1/4"), block(0, 0), block("3/2", "1/3"), *HALL, *BEAMS), 6, 6),
+    "of a corner": (among(shape([(1, 0)], "1/4"), block(0, 0), block("3/2", "1/3")), 3, 3),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SLITS)
+def test_slits_end_where_either_of_their_lines_does(name: str) -> None:
+    plain, surfaces, cells = SLITS[name]
+    for turn in TURNS[:3]:
+        found = counts(built(all_mapped(plain, turn=turn)))
+        assert (len(found.surfaces), found.cells) == (surfaces, cells), turn
+
+
+def test_surfaces_around_little_have_a_ray() -> None:
+    """A slit of which some samples are at critical angles, and a pocket as small as the last digit of its height."""
+    stone = shape([(2, 0), (4, 0), (4, 1), (3, 1), (3, 2), (2, 2)], 1)
+    ell = shape([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 0)
+    slit = among(ell, stone, shape([(3, 3), (3, 5)], "1/2"), bounds=(-1, -1, 6, 8))
+    assert counts(built(slit)).cells == counts(built(mirrored(slit))).cells == 3
+    x = Fraction(-15, 2) + Fraction(1, 2**53)
+    pocket = among(shape([(0, 0), (1, 0), (0, 2)], "1/2"), shape([(0, 0), (3, 0), (0, 4)], 2))
+    walls = core([(x, "-1/2"), (x + 12, "-1/2"), (x + 12, 6), (x, 6)])
+    assert counts(built(pocket._replace(workspace=walls))).cells == 3

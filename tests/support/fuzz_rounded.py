@@ -354,12 +354,17 @@ def slice_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
         if len(found) > 1 or -1 in found:
             yield f"cells {sorted(found)} of one region of the slice at tau {tau}, chart {chart}: {region}"
     expected, _ = forbidden_slice(truth, rotation(tau, chart), 0.0)
-    xy, start, _ = _core.Slicer(space.boundary).rings(chart, float(tau))
-    points = xy.reshape(-1, 2)
-    area = sum(signed_area(points[i:j] - points[i]) for i, j in pairwise(start.tolist()))
+    area = sum(signed_area(ring) for ring in slice_rings(space, chart, float(tau)))
     radius = max(float(rho) for _, rho in truth.others)
     if abs(area - expected.area) > 1e-3 * radius * expected.length + 1e-6 * truth.size**2:
         yield f"area {area} of the slice at tau {tau}, chart {chart}; it is {expected.area}"
+
+
+def slice_rings(space: Built, chart: int, tau: float) -> list[Any]:
+    """Rings of chords around the forbidden positions at an orientation, each from one of its points."""
+    xy, start, _ = _core.Slicer(space.boundary).rings(chart, tau)
+    points = xy.reshape(-1, 2)
+    return [points[i:j] - points[i] for i, j in pairwise(start.tolist())]
 
 
 def signed_area(points: Any) -> float:
@@ -427,7 +432,7 @@ def counts(space: Built) -> Counts:
 
 def difference(one: Counts, other: Counts, unit: float, has_slits: bool) -> str | None:
     """A difference of two counts, volumes of the second times a unit; of full cells only where slits may be cut."""
-    least = 1e-9 * (1 + max(one.volumes, default=0.0))
+    least = 1e-7 * (1 + max(one.volumes, default=0.0))
     volumes = [
         [v for v in (w * f for w in c.volumes) if not has_slits or v > least] for c, f in ((one, 1.0), (other, unit))
     ]
@@ -491,7 +496,7 @@ def faults(plain: RoundScene, name: str, all_laws: bool = False) -> Iterator[str
             theirs = built(other)
             yield from (f"{law}: {fault}" for fault in surface_faults(theirs))
             volume = ours.volumes[:1] + counts(theirs).volumes[:1]
-            is_cut = cuts and any(v < 1e-9 for v in volume)
+            is_cut = cuts and any(v < 1e-7 for v in volume)
             if text := difference(ours, counts(theirs), unit, is_cut):
                 yield f"{law}: {text}"
         except Exception as error:

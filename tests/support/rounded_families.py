@@ -401,8 +401,19 @@ def is_defined(scene: RoundScene) -> bool:
     return own > 0 or not thin or all(s > 0 for s in radii)
 
 
+def almost(r: Draw, made: RoundScene) -> RoundScene:
+    """The scene with one obstacle a little off, in place or in radius: ties become near ties."""
+    k, by = r.randrange(len(made.obstacles)), Fraction(r.choice([-1, 1]), 2 ** r.randint(10, 90))
+    one = made.obstacles[k]
+    if one.radius > 0 and r.random() < 0.5:
+        other = Shape(one.core, one.radius + by)
+    else:
+        other = Shape(mapped(one.core, *r.choice([(by, 0), (0, by), (by, by)])), one.radius)
+    return made._replace(obstacles=(*made.obstacles[:k], other, *made.obstacles[k + 1 :]))
+
+
 def scene(family: str, seed: int) -> RoundScene:
-    """A scene of a family, half of them changed: turned by long rationals, far, in a workspace or bounds."""
+    """A scene of a family, half of them changed: almost, far, turned by long rationals, walled in."""
     r = Draw(f"{family} {seed}")
     while True:
         made = FAMILIES[family](r)
@@ -410,7 +421,9 @@ def scene(family: str, seed: int) -> RoundScene:
             break
     x0, x1, y0, y1 = (f(p[k] for c, _ in made.obstacles for p in c) for k in (0, 1) for f in (min, max))
     by = r.on(HALF, 4)
-    change = r.choice(["none"] * 6 + ["far", "long", "turned", "bounds", "workspace", "reference"])
+    change = r.choice(["none"] * 6 + ["almost"] * 2 + ["far", "long", "turned", "bounds", "workspace", "reference"])
+    if change == "almost":
+        return almost(r, made)
     if change == "far":
         return all_mapped(made, 10**9, Fraction(-(10**9), 3))
     if change == "reference":

@@ -97,7 +97,17 @@ Limits::Meeting Limits::meets_round(const Feature& contact, const Line& l, const
         return within(dot_of(d, l.u) / (length * length) + f.branch * root / length, other.radius > 0 ? root / other.radius : 1);
     }
     Vec<double> outwards, d = other.p - l.p;
-    double sine = 1;
+    double sine = 1, more = other.radius - l.radius;
+    if (is_circle(f)) {  // circles that are almost one: differences of exact numbers
+        const auto from = [&](const Shape& shape, Index v, Index w) {
+            const auto by = difference<Ball>(shape, w, v);
+            return Vec<double>{unit * by.x.hi, unit * by.y.hi};
+        };
+        d = from(scene.obstacles, contact.obstacle, f.obstacle) - r(from(scene.robot, contact.robot, f.robot));
+        const auto radius = [](const Shape& shape, Index v) { return shape.radii[shape.vertex_radius[v]].about; };
+        more = unit * (radius(scene.obstacles, f.obstacle) - radius(scene.obstacles, contact.obstacle) +
+                       (radius(scene.robot, f.robot) - radius(scene.robot, contact.robot))).hi;
+    }
     if (is_smooth(scene, f, contact)) {
         const double length = norm(other.u.x, other.u.y);
         outwards = {other.u.y / length, -other.u.x / length};
@@ -107,7 +117,7 @@ Limits::Meeting Limits::meets_round(const Feature& contact, const Line& l, const
         const double length = norm(n.x, n.y);
         n = {n.x / length, n.y / length};
         const double delta = is_line(f) ? cross_of(other.u, d) / length
-                                        : 0.5 * (length + (l.radius - other.radius) * (l.radius + other.radius) / length);
+                                        : 0.5 * (length - more * (l.radius + other.radius) / length);
         const double cosine = delta / l.radius, root = root_of(1, cosine);
         outwards = {cosine * n.x - f.branch * root * n.y, cosine * n.y + f.branch * root * n.x};
         sine = is_line(f) ? root : other.radius > 0 ? std::min(1.0, std::abs(cross_of(outwards, d)) / other.radius) : 1;

@@ -345,16 +345,16 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
         watch_arc(pillar, far, out);
         return out;
     }
-    const auto reaches = [&](int to) {  // strictly to this side of the line
+    const auto reach = [&](int to) {  // 1 strictly to this side of the line, 0 if it touches this
         const Feature tangent = with_branch(circle, to);
-        const bool does = sign_of(tangent, {}, at) == to;
-        out.watched.push_back({tangent, {}, does ? to : -to, !does});
-        return does;
+        const int ahead = sign_of(tangent, {}, at) * to;
+        out.watched.push_back({tangent, {}, ahead > 0 ? to : -to, ahead <= 0});
+        return ahead;
     };
     watch_arc(pillar, far, out);
     if (count > 0)
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
-    if (!reaches(side) || (count == 0 && !reaches(-side))) {
+    if (reach(side) <= 0 || (count == 0 && reach(-side) <= 0)) {
         if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
         return out;
     }

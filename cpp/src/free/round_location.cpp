@@ -103,12 +103,12 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         const RoundPoints points(scene, surface.chart);
         const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
         const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
-        const double y = low.y.hi + (0.5 + (attempt % 5 - 2) * 0.125) * (high.y - low.y).hi;
-        if (!(std::min(low.y.hi, high.y.hi) < y && y < std::max(low.y.hi, high.y.hi))) return {};
+        const Ball y = low.y + Ball(0.5 + (attempt % 5 - 2) * 0.125) * (high.y - low.y);
+        if (!((high.y - low.y).hi != 0)) return {};
         const Ball x = points.crossing(surface.contact, low, high, y, tau);
-        const bool rises = high.y.hi > low.y.hi;
+        const bool rises = (high.y - low.y).hi > 0;
         const auto pose_at = [&](double by) {
-            return exact_pose(x + Ball(by), Ball(y), scene.shift, surface.chart, tau);
+            return exact_pose(x + Ball(by), y, scene.shift, surface.chart, tau);
         };
         double step = (std::abs((high.x - low.x).hi) + std::abs((high.y - low.y).hi)) * 0.25;
         for (int smaller = 0; smaller < 50; ++smaller, step *= 0.25) {

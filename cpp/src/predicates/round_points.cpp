@@ -52,13 +52,13 @@ Vec<Ball> RoundPoints::near(const CurveOf& c, const Dyadic& tau) const {
     return {value(p.x), value(p.y)};
 }
 
-Ball RoundPoints::crossing(const Feature& f, const Vec<Ball>& low, const Vec<Ball>& high, double y, const Dyadic& tau) const {
-    if (is_line(f)) return low.x + quotient(Ball(y) - low.y, high.y - low.y) * (high.x - low.x);
+Ball RoundPoints::crossing(const Feature& f, const Vec<Ball>& low, const Vec<Ball>& high, const Ball& y, const Dyadic& tau) const {
+    if (is_line(f)) return low.x + quotient(y - low.y, high.y - low.y) * (high.x - low.x);
     const InBalls in(ball(tau.n, static_cast<int>(tau.k)), kappa);
     const RoundSurfaces<Ball> of(scene);
     const MovingVector<Ball> centre = position<Ball>(scene, of.site(f));
     const auto coordinate = [&](int axis) { return quotient(in(dot(centre, of.axis(axis))), in.w); };
-    const Ball rho = of.rho(f), rise = Ball(y) - coordinate(1), run = sqrt((rho - rise) * (rho + rise));
+    const Ball rho = of.rho(f), rise = y - coordinate(1), run = sqrt((rho - rise) * (rho + rise));
     return f.branch == 0 || f.branch == 3 ? coordinate(0) + run : coordinate(0) - run;
 }
 

@@ -22,7 +22,7 @@ public:
     Reach reach(const CurveOf& c, double lo, double hi) const;
     // Point of the curve, and x of a surface between two of its points at a height, nearly: the balls' radii mean nothing.
     Vec<Ball> near(const CurveOf& c, const Dyadic& tau) const;
-    Ball crossing(const Feature& surface, const Vec<Ball>& low, const Vec<Ball>& high, double y, const Dyadic& tau) const;
+    Ball crossing(const Feature& surface, const Vec<Ball>& low, const Vec<Ball>& high, const Ball& y, const Dyadic& tau) const;
     // False only if the points of two curves are certainly different at an angle.
     bool may_be_one(const CurveOf& c, const CurveOf& d, const Dyadic& tau) const;
     bool are_one(const CurveOf& c, const CurveOf& d, const Dyadic& tau) const;
