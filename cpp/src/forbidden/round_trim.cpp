@@ -30,14 +30,16 @@ std::array<Feature, 2> RoundTrimmer::quadrant() const {
 }
 
 // The same, or the joints that are in them at every angle.
-std::array<Feature, 2> RoundTrimmer::ends_of_quadrant(const Sample& at) const {
+std::array<Feature, 2> RoundTrimmer::ends_of_quadrant() const {
+    const Sample any{events[0].lo, {}};  // these do not turn
     const auto seams = quadrant();
+    const RoundOrders::Direction first[] = {orders.direction(seams[0], any), orders.direction(seams[1], any)};
     auto limits = seams;
-    for (const int end : {0, 1})
-        for (const Index e : edges_at_centre) {
-            const Feature joint{Kind::vertex_edge, surface.contact.robot, e};
-            if (orders.turn(seams[end], joint, at) == 0 && orders.turn(seams[1 - end], joint, at) == (end ? 1 : -1)) limits[end] = joint;
-        }
+    for (const Index e : edges_at_centre) {
+        const auto joint = orders.direction({Kind::vertex_edge, surface.contact.robot, e}, any);
+        for (const int end : {0, 1})
+            if (orders.turn(first[end], joint, any) == 0 && orders.turn(first[1 - end], joint, any) == (end ? 1 : -1)) limits[end] = joint.to;
+    }
     return limits;
 }
 
@@ -52,12 +54,13 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     if (O.has_extent(j)) cones.push_back({Feature{Kind::vertex_edge, i, O.previous[j]}, Feature{Kind::vertex_edge, i, j}});
     if (A.has_extent(i)) cones.push_back({Feature{Kind::edge_vertex, A.previous[i], j}, Feature{Kind::edge_vertex, i, j}});
     if (O.has_extent(j)) {  // a cone that does not turn
-        const auto& [first, last] = cones[0];
         const Sample any{events[0].lo, {}};
-        const auto is_between = [&](const Feature& from, const Feature& at, const Feature& to) {
+        const auto of = [&](const Feature& f) { return orders.direction(f, any); };
+        const auto first = of(cones[0][0]), last = of(cones[0][1]), begin = of(seams[0]), end = of(seams[1]);
+        const auto is_between = [&](const auto& from, const auto& at, const auto& to) {
             return orders.turn(from, at, any) >= 0 && orders.turn(at, to, any) >= 0;
         };
-        if (!is_between(seams[0], first, seams[1]) && !is_between(first, seams[0], last)) return areas;
+        if (!is_between(begin, first, end) && !is_between(first, begin, last)) return areas;
     }
     std::vector<Event> cuts;
     const auto add = [&](const Predicates::Roots& roots) { cuts.insert(cuts.end(), roots.at.begin(), roots.at.end()); };
@@ -71,24 +74,29 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
         }
     std::sort(cuts.begin(), cuts.end(), [&](const Event& p, const Event& q) { return decide.order(p, q) < 0; });
     cuts.push_back(events[1]);
+    const auto ends_here = ends_of_quadrant();
     for (Index from = 0; const Event& cut : cuts) {
         if (decide.order(events[from], cut) == 0) continue;
         const Index to = intern(cut);
         const Sample at = decide.between(events[from], events[to]);
-        const auto is_inside = [&](const Feature& line) {
-            if (orders.turn(seams[0], line, at) < 0 || orders.turn(line, seams[1], at) < 0) return false;
-            return std::all_of(cones.begin(), cones.end(), [&](const auto& cone) {
+        using Direction = RoundOrders::Direction;
+        const auto both = [&](const std::array<Feature, 2>& f) { return std::array{orders.direction(f[0], at), orders.direction(f[1], at)}; };
+        const std::array<Direction, 2> ends_of = both(seams);
+        std::array<std::array<Direction, 2>, 2> of_cones;
+        for (std::size_t k = 0; k < cones.size(); ++k) of_cones[k] = both(cones[k]);
+        const auto is_inside = [&](const Direction& line) {
+            if (orders.turn(ends_of[0], line, at) < 0 || orders.turn(line, ends_of[1], at) < 0) return false;
+            return std::all_of(of_cones.begin(), of_cones.begin() + static_cast<std::ptrdiff_t>(cones.size()), [&](const auto& cone) {
                 return orders.turn(cone[0], line, at) >= 0 && orders.turn(line, cone[1], at) >= 0;
             });
         };
         std::optional<Feature> limits[2];
-        const auto ends_here = ends_of_quadrant(at);
         for (const int end : {0, 1}) {  // a joint in an end of the quadrant bounds
-            if (is_inside(seams[end])) limits[end] = ends_here[end];
-            for (const auto& cone : cones)
-                if (is_inside(cone[end])) limits[end] = cone[end];
+            if (is_inside(ends_of[end])) limits[end] = ends_here[end];
+            for (std::size_t k = 0; k < cones.size(); ++k)
+                if (is_inside(of_cones[k][end])) limits[end] = cones[k][end];
         }
-        if (limits[0] && limits[1] && orders.turn(*limits[0], *limits[1], at) > 0)
+        if (limits[0] && limits[1] && orders.turn(orders.direction(*limits[0], at), orders.direction(*limits[1], at), at) > 0)
             areas.push_back({from, to, curve_of(*limits[0], false), curve_of(*limits[1], false), 0, 1});
         from = to;
     }
@@ -114,6 +122,7 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
     while (first <= last && slices.at[last] > hi) --last;
     if (first > last) return;
     todo.assign(1, {limit(first), limit(last + 1)});
+    Pillar pillar;
     while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();
@@ -122,7 +131,7 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
         for (int attempt = 0;; ++attempt) {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no sample decides a pillar's state");
             const Sample at = decide.between(events[whole.from], events[whole.to], attempt);
-            Pillar pillar;
+            pillar.arcs.clear(), pillar.edges.clear();
             span = whole;
             is_critical = false;
             if (!shape(p, k, at, pillar)) continue;
@@ -208,7 +217,8 @@ int RoundTrimmer::joint_sign(const Pillar& pillar, int k, const Sample& at) {
     const Feature& x = surface.contact;
     if (is_smooth(scene, x, circle))  // two tangents of one circle, or two lines through a point
         return code(scene, x) != code(scene, line) && has_extent(circle) ? 1 : 0;
-    return sign_of(line, circle, at);
+    const int sign = at.fine ? 0 : orders.joint_sign(line, circle, at.tau);
+    return sign != 0 ? ++decide.counters.filter, sign : sign_of(line, circle, at);
 }
 
 void RoundTrimmer::watch_joint(const Pillar& pillar, int k, int sign, Cover& out) const {
@@ -277,6 +287,7 @@ int RoundTrimmer::cross_with_line(const Feature& line, const Sample& at) {
 
 std::vector<int> RoundTrimmer::joint_signs(const Pillar& pillar, const Sample& at) {
     std::vector<int> signs;
+    signs.reserve(static_cast<std::size_t>(2 * pillar.count()));
     for (int k = 0; k < 2 * pillar.count(); ++k) signs.push_back(joint_sign(pillar, k, at));
     return signs;
 }
@@ -296,7 +307,8 @@ std::optional<std::array<Feature, 2>> RoundTrimmer::crossed_once(const Pillar& p
         while (of(k + 1) != -side) ++k;
         curves_of_band[branch < 0 ? 0 : 1] = feature_after(pillar, k, branch);
         watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
-        watch_edge(pillar.edge(joint(pillar, k).edge), out), watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
+        watch_edge(pillar.edge(joint(pillar, k).edge), out);
+        if (joint(pillar, k).edge != joint(pillar, k + 1).edge) watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
     }
     return curves_of_band;
 }
@@ -305,6 +317,7 @@ std::optional<std::array<Feature, 2>> RoundTrimmer::crossed_once(const Pillar& p
 // where they come back. If no joint is on one side, an arc may still be.
 RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at) {
     Cover out;
+    out.watched.reserve(16);
     const Feature& x = surface.contact;
     const std::vector<int> sign = joint_signs(pillar, at);
     if (const auto curves_of_band = crossed_once(pillar, sign, 1, out)) {
@@ -354,6 +367,7 @@ int RoundTrimmer::foot_sign(const Pillar& pillar, int edge, int arc, const Sampl
 // No joint may be inside though the rim cuts the circle in one feature; else the centre's nearest feature decides.
 RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& at) {
     Cover out;
+    out.watched.reserve(16);
     const Feature& x = surface.contact;
     const int count = pillar.count();
     for (int k = 0; k < count; ++k)  // the circle is one of its own: all but that arc is inside
@@ -415,6 +429,7 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
 // on the circle at every angle counts as outside: the rim crosses there in either of its features.
 RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at) {
     Cover out;
+    out.watched.reserve(16);
     std::vector<Crossing> crossings;
     const int count = pillar.count(), n = 2 * count;
     const auto watch = [&](const Feature& first, const Feature& second, int wanted) {  // true if it has this sign
@@ -512,10 +527,18 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
     if (is_covered) out.bands.push_back({from, seams[1]});
 }
 
+static bool is_same(const Feature& f, const Feature& g) {
+    return f.kind == g.kind && f.branch == g.branch && f.robot == g.robot && f.obstacle == g.obstacle;
+}
+
 // Narrow a span to the angles at which a state holds; false if the sample is critical.
 bool RoundTrimmer::narrow(Cover& cover, const Sample& sample, Span& span) {
     for (const Watch& w : cover.watched) {
-        if (decide.event_sign_on(w.first, w.second, events[span.from].lo, events[span.to].hi) == w.sign) continue;
+        // an end of the span that is its own root has no other root beside it
+        const auto is_own = [&](const Event& x) { return x.fine < 0 && is_same(x.first, w.first) && is_same(x.second, w.second); };
+        const Event &from = events[span.from], &to = events[span.to];
+        const double lo = is_own(from) ? from.hi : from.lo, hi = is_own(to) ? to.lo : to.hi;
+        if (lo < hi && decide.event_sign_on(w.first, w.second, lo, hi) == w.sign) continue;
         const auto roots = decide.event_roots(w.first, w.second, events[span.from], events[span.to]);
         if (roots.all_zero) {
             if (!w.may_vanish) throw std::logic_error("a sign of a pillar's state is zero at every angle");
