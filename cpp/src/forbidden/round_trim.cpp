@@ -585,11 +585,22 @@ int RoundTrimmer::order_at(Index event, Index p, Index q) {
     const Curve &x = curves[p], &y = curves[q];
     if (x.code == y.code) return 0;
     const Event& e = events[event];
-    if (e.first.kind != Kind::none && e.second.kind != Kind::none) {
-        const Code first = code(scene, e.first), second = code(scene, e.second);
-        if ((first == x.code && second == y.code) || (first == y.code && second == x.code)) return 0;
+    const auto bare = [&](const Feature& f) { return code(scene, f.kind == Kind::seam ? f : with_branch(f, 0)); };
+    const Code first = bare(e.first), second = bare(e.second), p_code = bare(x.feature), q_code = bare(y.feature);
+    if (e.second.kind == Kind::none) {
+        if (first == p_code && first == q_code) return 0;  // both branches, where the surface is touched
+    } else if (!(is_circle(e.second) && e.second.branch == 2) &&
+               ((first == p_code && second == q_code) || (first == q_code && second == p_code))) {
+        const auto is_pair = [&](const Feature& f, const Feature& g) { return code(scene, f) == x.code && code(scene, g) == y.code; };
+        if (is_pair(e.first, e.second) || is_pair(e.second, e.first)) return 0;
+        if (e.fine < 0 && orders.do_meet(x.feature, y.feature, e.lo, e.hi)) return 0;
     }
     if (const int sign = orders.order_on(x.feature, y.feature, e.lo, e.hi); sign != 0) return sign;
+    if (const auto& near = decide.narrowed(e)) {
+        Ball tau = ((*near)[0] + (*near)[1]) * Ball(0.5);
+        tau.radius = (std::abs((((*near)[1] - (*near)[0]) * Ball(0.5)).hi) + tau.radius) * (1 + 0x1p-40) + least_radius;
+        if (const auto sign = orders.order_in_balls(x.feature, y.feature, tau); sign && *sign != 0) return *sign;
+    }
     LongRoot root = decide.long_root_of(e);
     return orders.order_at(x.feature, y.feature, root);
 }

@@ -156,6 +156,23 @@ int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Sample& a
     return sign_at(Radicals{x.a, x.b, x.d, {}, {}, {}}, tau) * sign_at(x.c, tau);
 }
 
+bool RoundOrders::do_meet(const Feature& p, const Feature& q, double lo, double hi) const {
+    const Feature &line = is_line(p) ? p : q, &circle = is_line(p) ? q : p;
+    if (is_smooth(scene, line, circle)) {
+        const auto branch = joint_branch(line, circle, lo, hi);
+        return branch && circle.branch == *branch && (is_line(surface.contact) || line.branch == *branch);
+    }
+    for (const Feature* f : {&p, &q}) {
+        const auto x = place<Approx>(*f, 0, Between{lo, hi, kappa});
+        if (!(x.c.lo > 0 || x.c.hi < 0) || (x.has_root && !(x.d.lo > 0))) return false;
+    }
+    const auto order = [&](double tau) {
+        const int sign = order_on(p, q, tau, tau);
+        return sign != 0 ? sign : order_in_balls(p, q, tau).value_or(0);
+    };
+    return order(lo) * order(hi) < 0;
+}
+
 bool RoundOrders::meet_at(const Feature& p, const Feature& q, LongRoot& root) const {
     return sign_at(difference(p, q).value, root) == 0;
 }

@@ -21,6 +21,9 @@ public:
     // Sign of p - q at an angle, in balls if that is certain; and at a sample.
     std::optional<int> order_in_balls(const Feature& p, const Feature& q, const Ball& tau) const;
     int order_at(const Feature& p, const Feature& q, const Sample& at) const;
+    // True if the two curves certainly meet between two angles: they go through one another; or, if one is smooth with the other, their
+    // joint is on the surface there, and they are on its branch.
+    bool do_meet(const Feature& p, const Feature& q, double lo, double hi) const;
     // True if the two curves meet at a root of the polynomial of their surfaces.
     bool meet_at(const Feature& p, const Feature& q, LongRoot& root) const;
     // Branch on which a line and a circle that is smooth with it go through their joint where that is on the surface, if it
