@@ -153,7 +153,84 @@ static void angles_are_ordered() {
     }
 }
 
+static Surface random_surface(const Scene& s) {
+    Feature x = random_feature(s);
+    x.branch = is_circle(x) ? static_cast<std::int8_t>(random_between(0, 3)) : std::int8_t(0);
+    return {x, static_cast<int>(random_between(0, 1))};
+}
+
+// Signs in doubles at an angle, and everywhere between two, are those of the exact polynomials.
+static void certain_signs_in_doubles_are_exact() {
+    int certain = 0, everywhere = 0, joints = 0, turns = 0;
+    for (int k = 0; k < 3000; ++k) {
+        const SceneFeatures made = random_scene();
+        const Scene& s = *made.scene;
+        const Surface on = random_surface(s);
+        const RoundOrders orders(s, on);
+        const Feature p = random_feature(s), q = random_between(0, 2) == 0 ? Feature{} : random_feature(s);
+        const auto bare = [&](const Feature& f) { return code(s, {f.kind, f.robot, f.obstacle}); };
+        if (bare(p) == bare(q) || bare(p) == bare(on.contact) || bare(q) == bare(on.contact)) continue;
+        const RoundForm form = orders.form(p, q);
+        const SurdPoly exact = orders.exactly(p, q);
+        const double lo = std::ldexp(double(random_between(-1024, 1000)), -10), width = std::ldexp(1.0, -static_cast<int>(random_between(2, 40)));
+        const double hi = std::min(1.0, lo + width);
+        const int common = form.sign_on(lo, hi);
+        for (const double tau : {lo, 0.5 * (lo + hi), hi}) {
+            const int sign = sign_at(exact, Dyadic::from(tau)), quick = form.sign(tau);
+            if (quick != 0) CHECK(quick == sign);
+            if (common != 0) CHECK(common == sign);
+            certain += quick != 0, everywhere += common != 0;
+        }
+        const Feature circle = neighbour(s, p);
+        if (is_line(p) && is_smooth(s, p, circle) && !is_smooth(s, on.contact, circle)) {
+            const int quick = orders.joint_sign(p, circle, lo);
+            if (quick != 0) CHECK(quick == sign_at(orders.exactly(p, circle), Dyadic::from(lo)));
+            joints += quick != 0;
+        }
+        if (!is_line(p)) continue;
+        for (int quadrant = 0; quadrant < 4; ++quadrant) {  // the outward normal of a line against an axis
+            const Sample at{lo, {}};
+            const int found = orders.turn(orders.direction({Kind::seam, 0, 0, quadrant}, at), orders.direction(p, at), at);
+            const Place line = placed(s, p, 2 * std::atan(Real(lo)) + on.chart * std::acos(Real(-1)));
+            const Point normal{line.along.y, -line.along.x}, axis{Real(quadrant == 0) - (quadrant == 2), Real(quadrant == 1) - (quadrant == 3)};
+            const Real value = cross(axis, normal);
+            if (!(std::abs(value) > 1e-12L)) continue;
+            CHECK(found == (value > 0 ? 1 : -1));
+            ++turns;
+        }
+    }
+    CHECK(certain > 3000 && everywhere > 1000 && joints > 300 && turns > 3000);
+}
+
+// A joint of a line that is parallel to the surface's is on it where its circle touches it: one angle by two names.
+static void proportional_quadratics_are_one_angle() {
+    const SceneFeatures made = scene_of(polygon({{0, 0}, {7, 1}, {3, 9}}), {1, 2}, {polygon({{0, 0}, {4, 0}, {4, 3}}), polygon({{5, 6}, {9, 7}})}, {{1, 3}, {1, 3}});
+    const Scene& s = *made.scene;
+    int equal = 0;
+    for (const int chart : {0, 1})
+        for (Index v = 0; v < s.obstacles.ring_vertices; ++v)
+            for (Index w = 0; w < s.obstacles.ring_vertices; ++w)
+                for (Index g = 0; g < 3 && v != w; ++g) {
+                    const Surface on{{Kind::edge_vertex, g, v}, chart};
+                    Predicates decide(s, on);
+                    const Feature circle{Kind::vertex_vertex, s.robot.v[g], w, 0};
+                    for (const int side : {-1, 1}) {
+                        const auto touches = decide.event_roots({circle.kind, circle.robot, circle.obstacle, side}, {}, chart_begin, chart_end);
+                        const auto joints = decide.event_roots({Kind::edge_vertex, g, w}, circle, chart_begin, chart_end);
+                        for (const Event& x : touches.at)
+                            for (const Event& y : joints.at) {
+                                const bool overlap = x.lo <= y.hi && y.lo <= x.hi;
+                                CHECK((decide.order(x, y) == 0) == overlap);
+                                equal += overlap;
+                            }
+                    }
+                }
+    CHECK(equal > 20);
+}
+
 int main() {
+    certain_signs_in_doubles_are_exact();
+    proportional_quadratics_are_one_angle();
     orders_agree_with_long_doubles();
     circles_that_always_meet_in_a_point_are_tied();
     smooth_neighbours_touch_in_their_joint();

@@ -47,8 +47,10 @@ static void check_patch(const Scene& s, const Feature& x, int chart, const Event
     const Shape &A = s.robot, &O = s.obstacles;
     const std::vector<Index> edges = CoincidentSurfaces(s, false).edges_at(x.obstacle);
     RoundTrimmer trimmer(s, {x, chart}, from, to, edges);
+    Slices slices;
+    slices.cut(from.lo, to.hi, chart);
     for (Index p = 0; p < A.pieces(); ++p)
-        for (Index k = 0; k < O.pieces(); ++k) trimmer.cover(p, k);
+        for (Index k = 0; k < O.pieces(); ++k) trimmer.cover(p, k, slices, {0, slices.count - 1, false});
     std::vector<Trapezoid> live, thin;
     trimmer.finish(0, live, thin);
     counts.trapezoids += static_cast<int>(live.size());

@@ -30,14 +30,16 @@ std::array<Feature, 2> RoundTrimmer::quadrant() const {
 }
 
 // The same, or the joints that are in them at every angle.
-std::array<Feature, 2> RoundTrimmer::ends_of_quadrant(const Sample& at) const {
+std::array<Feature, 2> RoundTrimmer::ends_of_quadrant() const {
+    const Sample any{events[0].lo, {}};  // these do not turn
     const auto seams = quadrant();
+    const RoundOrders::Direction first[] = {orders.direction(seams[0], any), orders.direction(seams[1], any)};
     auto limits = seams;
-    for (const int end : {0, 1})
-        for (const Index e : edges_at_centre) {
-            const Feature joint{Kind::vertex_edge, surface.contact.robot, e};
-            if (orders.turn(seams[end], joint, at) == 0 && orders.turn(seams[1 - end], joint, at) == (end ? 1 : -1)) limits[end] = joint;
-        }
+    for (const Index e : edges_at_centre) {
+        const auto joint = orders.direction({Kind::vertex_edge, surface.contact.robot, e}, any);
+        for (const int end : {0, 1})
+            if (orders.turn(first[end], joint, any) == 0 && orders.turn(first[1 - end], joint, any) == (end ? 1 : -1)) limits[end] = joint.to;
+    }
     return limits;
 }
 
@@ -52,12 +54,13 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     if (O.has_extent(j)) cones.push_back({Feature{Kind::vertex_edge, i, O.previous[j]}, Feature{Kind::vertex_edge, i, j}});
     if (A.has_extent(i)) cones.push_back({Feature{Kind::edge_vertex, A.previous[i], j}, Feature{Kind::edge_vertex, i, j}});
     if (O.has_extent(j)) {  // a cone that does not turn
-        const auto& [first, last] = cones[0];
         const Sample any{events[0].lo, {}};
-        const auto is_between = [&](const Feature& from, const Feature& at, const Feature& to) {
+        const auto of = [&](const Feature& f) { return orders.direction(f, any); };
+        const auto first = of(cones[0][0]), last = of(cones[0][1]), begin = of(seams[0]), end = of(seams[1]);
+        const auto is_between = [&](const auto& from, const auto& at, const auto& to) {
             return orders.turn(from, at, any) >= 0 && orders.turn(at, to, any) >= 0;
         };
-        if (!is_between(seams[0], first, seams[1]) && !is_between(first, seams[0], last)) return areas;
+        if (!is_between(begin, first, end) && !is_between(first, begin, last)) return areas;
     }
     std::vector<Event> cuts;
     const auto add = [&](const Predicates::Roots& roots) { cuts.insert(cuts.end(), roots.at.begin(), roots.at.end()); };
@@ -71,24 +74,29 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
         }
     std::sort(cuts.begin(), cuts.end(), [&](const Event& p, const Event& q) { return decide.order(p, q) < 0; });
     cuts.push_back(events[1]);
+    const auto ends_here = ends_of_quadrant();
     for (Index from = 0; const Event& cut : cuts) {
         if (decide.order(events[from], cut) == 0) continue;
         const Index to = intern(cut);
         const Sample at = decide.between(events[from], events[to]);
-        const auto is_inside = [&](const Feature& line) {
-            if (orders.turn(seams[0], line, at) < 0 || orders.turn(line, seams[1], at) < 0) return false;
-            return std::all_of(cones.begin(), cones.end(), [&](const auto& cone) {
+        using Direction = RoundOrders::Direction;
+        const auto both = [&](const std::array<Feature, 2>& f) { return std::array{orders.direction(f[0], at), orders.direction(f[1], at)}; };
+        const std::array<Direction, 2> ends_of = both(seams);
+        std::array<std::array<Direction, 2>, 2> of_cones;
+        for (std::size_t k = 0; k < cones.size(); ++k) of_cones[k] = both(cones[k]);
+        const auto is_inside = [&](const Direction& line) {
+            if (orders.turn(ends_of[0], line, at) < 0 || orders.turn(line, ends_of[1], at) < 0) return false;
+            return std::all_of(of_cones.begin(), of_cones.begin() + static_cast<std::ptrdiff_t>(cones.size()), [&](const auto& cone) {
                 return orders.turn(cone[0], line, at) >= 0 && orders.turn(line, cone[1], at) >= 0;
             });
         };
         std::optional<Feature> limits[2];
-        const auto ends_here = ends_of_quadrant(at);
         for (const int end : {0, 1}) {  // a joint in an end of the quadrant bounds
-            if (is_inside(seams[end])) limits[end] = ends_here[end];
-            for (const auto& cone : cones)
-                if (is_inside(cone[end])) limits[end] = cone[end];
+            if (is_inside(ends_of[end])) limits[end] = ends_here[end];
+            for (std::size_t k = 0; k < cones.size(); ++k)
+                if (is_inside(of_cones[k][end])) limits[end] = cones[k][end];
         }
-        if (limits[0] && limits[1] && orders.turn(*limits[0], *limits[1], at) > 0)
+        if (limits[0] && limits[1] && orders.turn(orders.direction(*limits[0], at), orders.direction(*limits[1], at), at) > 0)
             areas.push_back({from, to, curve_of(*limits[0], false), curve_of(*limits[1], false), 0, 1});
         from = to;
     }
@@ -114,6 +122,7 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
     while (first <= last && slices.at[last] > hi) --last;
     if (first > last) return;
     todo.assign(1, {limit(first), limit(last + 1)});
+    Pillar pillar;
     while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();
@@ -122,7 +131,7 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
         for (int attempt = 0;; ++attempt) {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no sample decides a pillar's state");
             const Sample at = decide.between(events[whole.from], events[whole.to], attempt);
-            Pillar pillar;
+            pillar.arcs.clear(), pillar.edges.clear();
             span = whole;
             is_critical = false;
             if (!shape(p, k, at, pillar)) continue;
@@ -228,7 +237,8 @@ int RoundTrimmer::joint_sign(const Pillar& pillar, int k, const Sample& at) {
     const Joint j = joint(pillar, k);
     const Feature line = pillar.edge(j.edge).line, circle = circle_of(pillar, j);
     if (const auto sign = known_sign(line, circle)) return *sign;
-    return sign_of(line, circle, at);
+    const int sign = at.fine ? 0 : orders.joint_sign(line, circle, at.tau);
+    return sign != 0 ? ++decide.counters.filter, sign : sign_of(line, circle, at);
 }
 
 bool RoundTrimmer::is_stub(const Feature& line) const {
@@ -298,6 +308,7 @@ int RoundTrimmer::cross_with_line(const Feature& line, const Sample& at) {
 
 std::vector<int> RoundTrimmer::joint_signs(const Pillar& pillar, const Sample& at) {
     std::vector<int> signs;
+    signs.reserve(static_cast<std::size_t>(2 * pillar.count()));
     for (int k = 0; k < 2 * pillar.count(); ++k) signs.push_back(joint_sign(pillar, k, at));
     return signs;
 }
@@ -317,7 +328,8 @@ std::optional<std::array<Feature, 2>> RoundTrimmer::crossed_once(const Pillar& p
         while (of(k + 1) != -side) ++k;
         curves_of_band[branch < 0 ? 0 : 1] = feature_after(pillar, k, branch);
         watch_joint(pillar, k, side, out), watch_joint(pillar, k + 1, -side, out);
-        watch_edge(pillar.edge(joint(pillar, k).edge), out), watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
+        watch_edge(pillar.edge(joint(pillar, k).edge), out);
+        if (joint(pillar, k).edge != joint(pillar, k + 1).edge) watch_edge(pillar.edge(joint(pillar, k + 1).edge), out);
     }
     return curves_of_band;
 }
@@ -326,6 +338,7 @@ std::optional<std::array<Feature, 2>> RoundTrimmer::crossed_once(const Pillar& p
 // where they come back. If no joint is on one side, an arc may still be.
 RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at) {
     Cover out;
+    out.watched.reserve(16);
     const Feature& x = surface.contact;
     const std::vector<int> sign = joint_signs(pillar, at);
     if (const auto curves_of_band = crossed_once(pillar, sign, 1, out)) {
@@ -384,6 +397,7 @@ void RoundTrimmer::watch_cone(const Pillar& pillar, int k, Cover& out) const {
 // No joint may be inside though the rim cuts the circle in one feature; else the centre's nearest feature decides.
 RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& at) {
     Cover out;
+    out.watched.reserve(16);
     const Feature& x = surface.contact;
     const int count = pillar.count();
     if (pillar.has_arcs) return on_any_circle(pillar, joint_signs(pillar, at), at);
@@ -443,6 +457,7 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
 // both on the pillar's side of a line, the joint counts as inside: it is, for a pillar a little smaller.
 RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at) {
     Cover out;
+    out.watched.reserve(16);
     std::vector<Crossing> crossings;
     const int count = pillar.count(), n = 2 * count;
     const auto watch = [&](const Feature& first, const Feature& second, int wanted) {  // true if it has this sign
@@ -562,10 +577,18 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
     if (is_covered) out.bands.push_back({from, seams[1]});
 }
 
+static bool is_same(const Feature& f, const Feature& g) {
+    return f.kind == g.kind && f.branch == g.branch && f.robot == g.robot && f.obstacle == g.obstacle;
+}
+
 // Narrow a span to the angles at which a state holds; false if the sample is critical.
 bool RoundTrimmer::narrow(Cover& cover, const Sample& sample, Span& span) {
     for (const Watch& w : cover.watched) {
-        if (decide.event_sign_on(w.first, w.second, events[span.from].lo, events[span.to].hi) == w.sign) continue;
+        // an end of the span that is its own root has no other root beside it
+        const auto is_own = [&](const Event& x) { return x.fine < 0 && is_same(x.first, w.first) && is_same(x.second, w.second); };
+        const Event &from = events[span.from], &to = events[span.to];
+        const double lo = is_own(from) ? from.hi : from.lo, hi = is_own(to) ? to.lo : to.hi;
+        if (lo < hi && decide.event_sign_on(w.first, w.second, lo, hi) == w.sign) continue;
         const auto roots = decide.event_roots(w.first, w.second, events[span.from], events[span.to]);
         if (roots.all_zero) {
             if (!w.may_vanish) throw std::logic_error("a sign of a pillar's state is zero at every angle");
@@ -628,11 +651,22 @@ int RoundTrimmer::order_at(Index event, Index p, Index q) {
     const Curve &x = curves[p], &y = curves[q];
     if (x.code == y.code) return 0;
     const Event& e = events[event];
-    if (e.first.kind != Kind::none && e.second.kind != Kind::none) {
-        const Code first = code(scene, e.first), second = code(scene, e.second);
-        if ((first == x.code && second == y.code) || (first == y.code && second == x.code)) return 0;
+    const auto bare = [&](const Feature& f) { return code(scene, f.kind == Kind::seam ? f : with_branch(f, 0)); };
+    const Code first = bare(e.first), second = bare(e.second), p_code = bare(x.feature), q_code = bare(y.feature);
+    if (e.second.kind == Kind::none) {
+        if (first == p_code && first == q_code) return 0;  // both branches, where the surface is touched
+    } else if (!(is_circle(e.second) && e.second.branch == 2) &&
+               ((first == p_code && second == q_code) || (first == q_code && second == p_code))) {
+        const auto is_pair = [&](const Feature& f, const Feature& g) { return code(scene, f) == x.code && code(scene, g) == y.code; };
+        if (is_pair(e.first, e.second) || is_pair(e.second, e.first)) return 0;
+        if (e.fine < 0 && orders.do_meet(x.feature, y.feature, e.lo, e.hi)) return 0;
     }
     if (const int sign = orders.order_on(x.feature, y.feature, e.lo, e.hi); sign != 0) return sign;
+    if (const auto& near = decide.narrowed(e)) {
+        Ball tau = ((*near)[0] + (*near)[1]) * Ball(0.5);
+        tau.radius = (std::abs((((*near)[1] - (*near)[0]) * Ball(0.5)).hi) + tau.radius) * (1 + 0x1p-40) + least_radius;
+        if (const auto sign = orders.order_in_balls(x.feature, y.feature, tau); sign && *sign != 0) return *sign;
+    }
     LongRoot root = decide.long_root_of(e);
     return orders.order_at(x.feature, y.feature, root);
 }

@@ -84,7 +84,7 @@ private:
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);
     std::array<Feature, 2> quadrant() const;
-    std::array<Feature, 2> ends_of_quadrant(const Sample& at) const;
+    std::array<Feature, 2> ends_of_quadrant() const;
     std::vector<Area> in_cones(const Feature& contact);
     bool crosses_at(const Band& band, Index event) override;
     int order_at(Index event, Index p, Index q) override;

@@ -133,7 +133,7 @@ Event Predicates::restored(const Event& x, int place) {
 
 bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
     if (scene.is_round) {
-        const RoundForm f = RoundOrders(scene, surface).form(x.first, x.second);
+        const RoundForm f = round_orders().form(x.first, x.second);
         if (f.sign(lo) * f.sign(hi) < 0) return true;
         const auto p = coefficients<Ball>(x.first, x.second);
         return cfree::sign_at(p, lo).value_or(0) * cfree::sign_at(p, hi).value_or(0) < 0;

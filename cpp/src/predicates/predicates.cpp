@@ -94,7 +94,7 @@ Coefficients<T> Predicates::coefficients(const Trig<T>& f) const {
 template <class T>
 Coefficients<T> Predicates::coefficients(const Feature& first, const Feature& second) const {
     if constexpr (std::is_same_v<T, Ball>)
-        if (scene.is_round) return RoundOrders(scene, surface).in_balls(first, second);
+        if (scene.is_round) return round_orders().in_balls(first, second);
     if (second.kind == Kind::none) {
         if (first.kind == Kind::edge_edge) return coefficients(parallel_trig<T>(first.robot, first.obstacle));
         return coefficients(offset_trig<T>(first.robot, first.obstacle));

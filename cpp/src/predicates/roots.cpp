@@ -180,7 +180,7 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
                                     const Event& to) {
     Candidates all;
     Brackets found;
-    const bool is_isolated = scene.is_round ? isolate_around(RoundOrders(scene, surface).form(first, second), from.lo, to.hi, found)
+    const bool is_isolated = scene.is_round ? isolate_around(round_orders().form(first, second), from.lo, to.hi, found)
                                             : isolate_around(f, from.lo, to.hi, found) || double_only;
     if (is_isolated) {
         ++counters.filter;

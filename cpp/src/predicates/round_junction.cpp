@@ -47,32 +47,14 @@ static bool have_one_edge(const Feature& x, const Feature& y) {
     return x.kind == y.kind && x.robot == y.robot && x.obstacle == y.obstacle;
 }
 
-// Order of two curves of a surface near this angle, if it is certain, else 0.
-static int order_near(const RoundOrders& orders, const Feature& p, const Feature& q, double tau) {
-    const int sign = orders.order_on(p, q, tau, tau);
-    return sign != 0 ? sign : orders.order_in_balls(p, q, tau).value_or(0);
-}
-
-// True if three surfaces meet here, and so do these two curves: between two angles they go through one another, which they can do
-// only where the three meet; or, if one is smooth with the other, as they do on this branch.
+// True if three surfaces are known to meet here, and so do these two curves: between two angles they meet, which they can do only
+// where the three do.
 bool RoundJunction::do_cross(const Spot& p, const Spot& q) const {
     const Feature& on = p.on;
     if (!have_one_edge(on, q.on) || on.branch != q.on.branch || p.is_limit || q.is_limit) return false;
     const auto name = bare_name(scene, {on, p.curve, q.curve});
     const auto meeting = std::find_if(meetings.begin(), meetings.end(), [&](const Meeting& m) { return m.name == name; });
-    if (meeting == meetings.end()) return false;
-    const double from = meeting->lo, to = meeting->hi;
-    const RoundOrders orders(scene, {on, chart});
-    const Feature &line = is_line(p.curve) ? p.curve : q.curve, &circle = is_line(p.curve) ? q.curve : p.curve;
-    if (is_smooth(scene, line, circle)) {
-        const auto branch = orders.joint_branch(line, circle, from, to);
-        return branch && circle.branch == *branch && (is_line(on) || line.branch == *branch);
-    }
-    for (const Spot* s : {&p, &q}) {
-        const auto x = place_of_curve<Approx>(scene, on, s->curve, 0, Between{from, to, kappa});
-        if (!(x.c.lo > 0 || x.c.hi < 0) || (x.has_root && !(x.d.lo > 0))) return false;
-    }
-    return order_near(orders, p.curve, q.curve, from) * order_near(orders, p.curve, q.curve, to) < 0;
+    return meeting != meetings.end() && RoundOrders(scene, {on, chart}).do_meet(p.curve, q.curve, meeting->lo, meeting->hi);
 }
 
 // True if two lines are one here, because edges known to be parallel join their contacts.

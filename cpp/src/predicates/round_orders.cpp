@@ -64,10 +64,20 @@ std::array<double, 2> RoundOrders::range(const Feature& f, double lo, double hi)
     return found ? std::array{found->lo, found->hi} : std::array{-infinity, infinity};
 }
 
+const std::optional<Bounds>& RoundOrders::kept_range(const Feature& f, int axis, const Between& in) const {
+    for (const Kept& k : kept)
+        if (k.axis == axis && k.lo == in.lo && k.hi == in.hi && k.curve.kind == f.kind && k.curve.branch == f.branch &&
+            k.curve.robot == f.robot && k.curve.obstacle == f.obstacle)
+            return k.range;
+    Kept& result = kept[next++ % kept.size()];
+    result = {f, axis, in.lo, in.hi, range_of(place<Approx>(f, axis, in))};
+    return result.range;
+}
+
 int RoundOrders::order_on(const Feature& p, const Feature& q, double lo, double hi) const {
     const Between in{lo, hi, kappa};
     for (int axis = 0; axis < (is_line(surface.contact) ? 1 : 2); ++axis) {
-        const auto first = range_of(place<Approx>(p, axis, in)), second = range_of(place<Approx>(q, axis, in));
+        const auto &first = kept_range(p, axis, in), &second = kept_range(q, axis, in);
         if (first && second && first->hi < second->lo) return -1;
         if (first && second && second->hi < first->lo) return 1;
     }
@@ -106,25 +116,26 @@ int RoundOrders::order_at(const Feature& p, const Feature& q, LongRoot& root) co
     return sign_at(d.value, root) * sign_at(d.first, root) * sign_at(d.second, root);
 }
 
-int RoundOrders::turn(const Feature& f, const Feature& g, const Sample& at) const {
+RoundOrders::Direction RoundOrders::direction(const Feature& to, const Sample& at) const {
+    constexpr double unit[] = {1, 0, -1, 0};
+    if (to.kind == Kind::seam) return {to, -unit[(to.branch + 3) & 3], unit[to.branch & 3], 1};
+    if (to.kind == Kind::vertex_edge) {
+        const auto E = edge<Approx>(scene.obstacles, to.obstacle);
+        return {to, E.x.v, E.y.v, E.x.m + E.y.m};
+    }
+    const double cosine = kappa * (1 - at.tau * at.tau), sine = 2 * kappa * at.tau;  // times 1 + tau^2 <= 2
+    const auto E = edge<Approx>(scene.robot, to.robot);
+    return {to, sine * E.y.v - cosine * E.x.v, -sine * E.x.v - cosine * E.y.v, 4 * (E.x.m + E.y.m)};
+}
+
+int RoundOrders::turn(const Direction& d, const Direction& e, const Sample& at) const {
+    const Feature &f = d.to, &g = e.to;
+    if (f.kind == Kind::seam && g.kind == Kind::seam) {
+        const int quarters = (g.branch - f.branch) & 3;
+        return quarters % 2 == 0 ? 0 : 2 - quarters;
+    }
     if (f.kind == g.kind && (f.kind == Kind::vertex_edge ? f.obstacle == g.obstacle : f.kind == Kind::edge_vertex && f.robot == g.robot))
         return 0;
-    // Directions times w = 1 + tau^2 <= 2: with magnitudes m of both coordinates together they are within 8 u m of the truth.
-    struct Direction {
-        double x, y, m;
-    };
-    const double cosine = kappa * (1 - at.tau * at.tau), sine = 2 * kappa * at.tau;
-    const auto direction = [&](const Feature& to) -> Direction {
-        constexpr double unit[] = {1, 0, -1, 0};
-        if (to.kind == Kind::seam) return {-unit[(to.branch + 3) & 3], unit[to.branch & 3], 1};
-        if (to.kind == Kind::vertex_edge) {
-            const auto E = edge<Approx>(scene.obstacles, to.obstacle);
-            return {E.x.v, E.y.v, E.x.m + E.y.m};
-        }
-        const auto E = edge<Approx>(scene.robot, to.robot);
-        return {sine * E.y.v - cosine * E.x.v, -sine * E.x.v - cosine * E.y.v, 4 * (E.x.m + E.y.m)};
-    };
-    const Direction d = direction(f), e = direction(g);
     if (const double value = d.x * e.y - d.y * e.x; std::abs(value) > 0x1p-46 * (d.m * e.m) + tiny) return value > 0 ? 1 : -1;
     const auto form = [&]<class K>(const RoundSurfaces<K>& of) {  // of both, a quarter turn on
         const auto along = [&](const Feature& to) { return to.kind == Kind::seam ? quarter_turn(of.axis(to.branch)) : of.along(to); };
@@ -143,6 +154,23 @@ int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Sample& a
     const auto x = place<RootSum>(curve, axis, AsSurdPoly{kappa});
     const Dyadic tau = at.exact();
     return sign_at(Radicals{x.a, x.b, x.d, {}, {}, {}}, tau) * sign_at(x.c, tau);
+}
+
+bool RoundOrders::do_meet(const Feature& p, const Feature& q, double lo, double hi) const {
+    const Feature &line = is_line(p) ? p : q, &circle = is_line(p) ? q : p;
+    if (is_smooth(scene, line, circle)) {
+        const auto branch = joint_branch(line, circle, lo, hi);
+        return branch && circle.branch == *branch && (is_line(surface.contact) || line.branch == *branch);
+    }
+    for (const Feature* f : {&p, &q}) {
+        const auto x = place<Approx>(*f, 0, Between{lo, hi, kappa});
+        if (!(x.c.lo > 0 || x.c.hi < 0) || (x.has_root && !(x.d.lo > 0))) return false;
+    }
+    const auto order = [&](double tau) {
+        const int sign = order_on(p, q, tau, tau);
+        return sign != 0 ? sign : order_in_balls(p, q, tau).value_or(0);
+    };
+    return order(lo) * order(hi) < 0;
 }
 
 bool RoundOrders::meet_at(const Feature& p, const Feature& q, LongRoot& root) const {
@@ -200,6 +228,42 @@ bool RoundOrders::are_proportional(const Event& x, const Event& y) const {
     if (by_doubles) return *by_doubles;
     if (const auto by_balls = answer.template operator()<Ball>([](const Ball& v) { return certain_sign(v); })) return *by_balls;
     return *answer.template operator()<RootSum>([](const RootSum& v) { return std::optional(v.sign()); });
+}
+
+// The joint is d + r nu from the surface's site: less than 30 roundings in a row, and magnitudes of vectors as sums of coordinates.
+int RoundOrders::joint_sign(const Feature& line, const Feature& circle, double tau) const {
+    const Feature& x = surface.contact;
+    const RoundSurfaces<Approx> of(scene);
+    const double w = 1 + tau * tau, cosine = kappa * (1 - tau * tau) / w, sine = kappa * 2 * tau / w;
+    struct Vector {
+        double x, y, m;
+    };
+    const auto turned = [&](const Vec<Approx>& v) -> Vector {
+        return {cosine * v.x.v - sine * v.y.v, sine * v.x.v + cosine * v.y.v, 2 * (v.x.m + v.y.m)};
+    };
+    const auto along = [&](const Feature& f) -> Vector {
+        if (f.kind == Kind::vertex_edge) {
+            const auto E = edge<Approx>(scene.obstacles, f.obstacle);
+            return {E.x.v, E.y.v, E.x.m + E.y.m};
+        }
+        const Vector E = turned(edge<Approx>(scene.robot, f.robot));
+        return {-E.x, -E.y, E.m};
+    };
+    const Site to = of.site(circle), from = of.site(x);
+    const auto fixed = cfree::difference<Approx>(scene.obstacles, to.obstacle, from.obstacle);
+    const Vector turning = turned(cfree::difference<Approx>(scene.robot, to.robot, from.robot)), V = along(line);
+    const double r = of.rho(circle).v / of.length(line).v, rho = of.rho(x).v;
+    const Vector joint{fixed.x.v - turning.x + r * V.y, fixed.y.v - turning.y - r * V.x, fixed.x.m + fixed.y.m + turning.m + r * V.m};
+    double value, most;
+    if (is_line(x)) {
+        const Vector U = along(x);
+        const double offset = rho * of.length(x).v;
+        value = U.x * joint.y - U.y * joint.x + offset, most = U.m * joint.m + offset;
+    } else {
+        value = joint.x * joint.x + joint.y * joint.y - rho * rho, most = joint.m * joint.m + rho * rho;
+    }
+    const double err = round_error * most + tiny;
+    return value > err ? 1 : value < -err ? -1 : 0;
 }
 
 RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {

@@ -21,6 +21,9 @@ public:
     // Sign of p - q at an angle, in balls if that is certain; and at a sample.
     std::optional<int> order_in_balls(const Feature& p, const Feature& q, const Ball& tau) const;
     int order_at(const Feature& p, const Feature& q, const Sample& at) const;
+    // True if the two curves certainly meet between two angles: they go through one another; or, if one is smooth with the other, their
+    // joint is on the surface there, and they are on its branch.
+    bool do_meet(const Feature& p, const Feature& q, double lo, double hi) const;
     // True if the two curves meet at a root of the polynomial of their surfaces.
     bool meet_at(const Feature& p, const Feature& q, LongRoot& root) const;
     // Branch on which a line and a circle that is smooth with it go through their joint where that is on the surface, if it
@@ -30,14 +33,23 @@ public:
 
     // Sign at a root of p - q, places at which no denominator is zero there.
     int order_at(const Feature& p, const Feature& q, LongRoot& root) const;
-    // Sign of u x v for two unit vectors to joints or to ends of quadrants.
-    int turn(const Feature& f, const Feature& g, const Sample& at) const;
+    // Unit vector to a joint of a circle with a line, or to an end of a quadrant, times a positive number, nearly: within 8 u m of the
+    // truth, m the magnitude of both coordinates together.
+    struct Direction {
+        Feature to;
+        double x, y, m;
+    };
+    Direction direction(const Feature& to, const Sample& at) const;
+    // Sign of u x v for two of them.
+    int turn(const Direction& u, const Direction& v, const Sample& at) const;
     // Sign at a sample of a coordinate of a curve on a circle, see `place`.
     int coordinate_sign(const Feature& curve, int axis, const Sample& at) const;
 
     // Polynomial of an event's features, times a power of 1 + tau^2.
     // True if the polynomials of two events are quadratics, and equal up to a factor.
     bool are_proportional(const Event& x, const Event& y) const;
+    // Sign at a double of the event of a line and a circle at its end, 0 if not certain.
+    int joint_sign(const Feature& line, const Feature& circle, double tau) const;
     RoundForm form(const Feature& first, const Feature& second) const;  // in doubles
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
     SurdPoly exactly(const Feature& first, const Feature& second) const;
@@ -64,9 +76,20 @@ private:
         return place_of_curve<K>(scene, surface.contact, curve, axis, in);
     }
 
+    // Ranges of curves between two angles that have been asked for last; nothing if a denominator may be zero.
+    struct Kept {
+        Feature curve;
+        int axis = -1;
+        double lo = 0, hi = 0;
+        std::optional<Bounds> range;
+    };
+    const std::optional<Bounds>& kept_range(const Feature& curve, int axis, const Between& in) const;
+
     const Scene& scene;
     Surface surface;
     double kappa;
+    mutable std::array<Kept, 8> kept;
+    mutable std::size_t next = 0;
 };
 
 }  // namespace cfree

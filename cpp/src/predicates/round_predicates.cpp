@@ -7,10 +7,15 @@
 
 namespace cfree {
 
+const RoundOrders& Predicates::round_orders() const {
+    if (!made_orders) made_orders = std::make_unique<const RoundOrders>(scene, surface);
+    return *made_orders;
+}
+
 // Roots in the interval and a little beyond it, where certain signs in balls do not suffice.
 Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, const Feature& second, double lo, double hi) {
     Candidates result;
-    const SurdPoly p = RoundOrders(scene, surface).exactly(first, second);
+    const SurdPoly p = round_orders().exactly(first, second);
     result.all_zero = is_zero(p);
     if (result.all_zero) return result;
     constexpr unsigned digits = 56;  // a few more than a double has
@@ -26,10 +31,10 @@ Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, con
 
 int Predicates::event_sign(const Feature& first, const Feature& second, const Sample& at) {
     if (!at.fine)
-        if (const int sign = RoundOrders(scene, surface).form(first, second).sign(at.tau); sign != 0) return ++counters.filter, sign;
+        if (const int sign = round_orders().form(first, second).sign(at.tau); sign != 0) return ++counters.filter, sign;
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(coefficients<Ball>(first, second), at.ball());
-        else return cfree::sign_at(RoundOrders(scene, surface).exactly(first, second), at.exact());
+        else return cfree::sign_at(round_orders().exactly(first, second), at.exact());
     });
 }
 Predicates::Roots Predicates::event_roots(const Feature& first, const Feature& second, const Event& from, const Event& to) {
@@ -42,9 +47,10 @@ int Predicates::event_sign_on(const Feature& first, const Feature& second, doubl
         const bool is_one = std::all_of(sign, sign + degree + 1, [&](int s) { return s == sign[0]; });
         return is_one ? sign[0] : 0;
     };
-    const RoundForm form = RoundOrders(scene, surface).form(first, second);
+    const RoundForm form = round_orders().form(first, second);
     form.signs(lo, hi, sign);
-    if (std::find(sign, sign + form.degree + 1, 0) == sign + form.degree + 1) return common(form.degree);
+    constexpr double wide = 0x1p-30;  // balls then rarely decide: there is a root near an end
+    if (hi - lo > wide || std::find(sign, sign + form.degree + 1, 0) == sign + form.degree + 1) return common(form.degree);
     const Balls p(coefficients<Ball>(first, second));
     p.signs(lo, hi, sign);
     return common(p.degree);
@@ -53,14 +59,14 @@ int Predicates::event_sign_on(const Feature& first, const Feature& second, doubl
 LongRoot Predicates::long_root_of(const Event& x) const {
     const Dyadic lo = x.fine >= 0 ? fine[x.fine][0] : Dyadic::from(x.lo), hi = x.fine >= 0 ? fine[x.fine][1] : Dyadic::from(x.hi);
     if (cfree::compare(lo, hi) == 0) return {LongPoly{-lo.n, Int(1) << lo.k}, lo, hi};
-    auto roots = roots_between(RoundOrders(scene, surface).exactly(x.first, x.second), lo, hi);
+    auto roots = roots_between(round_orders().exactly(x.first, x.second), lo, hi);
     if (roots.size() != 1) throw std::logic_error("an angle is not the only root in its interval");
     return roots[0].at;
 }
 
 // All roots of an event's polynomial in its interval of doubles, ends included.
 std::vector<SurdRoot> Predicates::roots_around(const Event& x) const {
-    return roots_between(RoundOrders(scene, surface).exactly(x.first, x.second), Dyadic::from(std::nextafter(x.lo, -2)),
+    return roots_between(round_orders().exactly(x.first, x.second), Dyadic::from(std::nextafter(x.lo, -2)),
                          Dyadic::from(std::nextafter(x.hi, 2)));
 }
 int Predicates::place_round(const Event& x) const {
@@ -97,12 +103,12 @@ bool Predicates::is_same_round(const Event& x, const Event& y) const {
     if (p.first == q.first && p.second == q.second) return true;
     const bool are_curves = x.second.kind != Kind::none && y.second.kind != Kind::none;
     if (are_curves && p.first == q.second && p.second == q.first) return true;
-    return RoundOrders(scene, surface).are_proportional(x, y);
+    return round_orders().are_proportional(x, y);
 }
 
 // True if two curves meet at a root of the polynomial of the three surfaces: if another branch does, they do not.
 bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) const {
-    const RoundOrders orders(scene, surface);
+    const RoundOrders& orders = round_orders();
     if (const auto line = line_of_joint(scene, p, q)) {
         const Feature& circle = is_circle(p) ? p : q;
         auto branch = x.fine < 0 ? orders.joint_branch(*line, circle, x.lo, x.hi) : std::nullopt;
@@ -119,7 +125,7 @@ bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) con
 }
 
 Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, const Event& from, const Event& to) {
-    const RoundOrders orders(scene, surface);
+    const RoundOrders& orders = round_orders();
     Order result;
     if (const int sign = orders.order_on(p, q, from.lo, to.hi); sign != 0) {
         result.sign[0] = sign, result.strict = true;

@@ -101,6 +101,8 @@ struct Counters {
     }
 };
 
+class RoundOrders;
+
 class Predicates {
 public:
     Predicates(const Scene& s, const Surface& on);
@@ -252,6 +254,8 @@ private:
     };
     std::vector<Narrowed> recent;  // table by features, as one angle is compared with many; empty at first
     std::size_t misses = 0;        // misses since the last resize
+    const RoundOrders& round_orders() const;
+    mutable std::unique_ptr<const RoundOrders> made_orders;  // none until asked for
     struct CloseAngles;
     std::unique_ptr<CloseAngles> close;  // none until there are many
     int close_questions = 0;
