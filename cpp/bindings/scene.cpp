@@ -64,12 +64,12 @@ void bind_scene(nb::module_& m) {
                          for (const auto c : s.vertex_radius) radius.push_back(integer(s.radii[c].exact));
                          return radius;
                      })
-        .def_prop_ro("makes_surfaces",
-                     [](const cfree::Shape& s) {  // of the edges of rings: false for stubs, and for a point
-                         std::vector<std::int8_t> makes;
-                         for (cfree::Index e = 0; e < s.ring_vertices; ++e) makes.push_back(s.makes_surfaces(e));
-                         return array_of(std::move(makes));
-                     })
+        .def("makes_surfaces",
+             [](const cfree::Shape& s) {  // edges of rings: 0 for stubs, and for a point
+                 std::vector<std::int8_t> makes;
+                 for (cfree::Index e = 0; e < s.ring_vertices; ++e) makes.push_back(s.makes_surfaces(e));
+                 return array_of(std::move(makes));
+             })
         .def_prop_ro("convex", [](const cfree::Shape& s) { return flags(s.convex); })
         .def_prop_ro("emit", [](const cfree::Shape& s) { return flags(s.emit); });
     rows<2>(shape, "xy", &cfree::Shape::xy);

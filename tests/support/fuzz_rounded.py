@@ -506,7 +506,7 @@ def faults(plain: RoundScene, name: str, all_laws: bool = False) -> Iterator[str
 def surface_faults(space: Built) -> Iterator[str]:
     """Angles that are not known to a double's digits, sides without partner, and odd Euler numbers."""
     cells, rows = space.cells, space.boundary.trapezoids
-    if max(np.max(rows.from_hi - rows.from_lo, initial=0.0), np.max(rows.to_hi - rows.to_lo, initial=0.0)) > 1e-12:
+    if max(np.max(rows.from_hi - rows.from_lo, initial=0.0), np.max(rows.to_hi - rows.to_lo, initial=0.0)) > 1e-10:
         yield "an angle in a wide interval"
     if np.any(cells.twin < 0) or np.any(cells.twin[cells.twin] != np.arange(len(cells.twin))):
         yield "sides without partners"

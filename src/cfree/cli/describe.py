@@ -134,7 +134,7 @@ def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
     robot, obstacles = features.robot, features.obstacles
     a, b = robot.core.layer == BODY, (obstacles.core.layer == BODY) & (obstacles.core.emit > 0)
     convex_a, convex_b = a & (robot.core.convex > 0), b & (obstacles.core.convex > 0)
-    edges_a, edges_b = (s.core.makes_surfaces > 0 for s in (robot, obstacles))
+    edges_a, edges_b = (s.core.makes_surfaces() > 0 for s in (robot, obstacles))
     counts = {"v-e": _pairs(convex_a, b & edges_b), "e-v": _pairs(a & edges_a, convex_b)}
     if scene.curved:
         sharp_a, sharp_b = (s.radius[: len(s.previous)] == 0 for s in (robot, obstacles))
