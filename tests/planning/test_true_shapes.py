@@ -400,7 +400,8 @@ def test_doubles_leave_out_no_contact_that_exact_numbers_find(robot: Any, tau: F
             for other in fits._close(float(place[0]), float(place[1]), near):
                 if contact := contact_fits._contact(contact_fits._turned(own, tau), other, place, near):
                     held.setdefault(replace(contact[0], own=own), contact[1])
-        assert list(fits._contacts(place, tau, near)) == sorted(held, key=held.__getitem__)
+        shapes = [contact for contact in fits._contacts(place, tau, near) if contact.own]  # bounds have none
+        assert shapes == sorted(held, key=held.__getitem__)
 
 
 @pytest.mark.slow

@@ -75,7 +75,10 @@ class Line:
 
 @dataclass(frozen=True)
 class _Held:
-    """A contact: the reference point p is at n . p = h, n a unit vector; or at a distance from a center."""
+    """A contact: the reference point p is at n . p = h, n a unit vector; or at a distance from a center.
+
+    Contacts with bounds have no feature of the robot, `own`.
+    """
 
     n: ExactPoint | None = None
     h: Fraction = Fraction(0)
@@ -194,10 +197,6 @@ class Fits:
         """Yield the contacts near a pose, the nearest first."""
         held = dict[_Held, float]()
         x, y = map(float, place)
-        for bound in self._bounds:
-            assert bound.n is not None
-            if (off := abs(float(bound.n[0] * place[0] + bound.n[1] * place[1] - bound.h))) <= near:
-                held[bound] = off
         others = self._close(x, y, near)
         rows = _Rows.of(others) if others else None
         may_touch = _may_touch(self._rows.turned(tau), rows, (x, y), near) if rows else np.zeros((1, 0), bool)
@@ -207,6 +206,10 @@ class Fits:
             for j in np.flatnonzero(may_touch[k]).tolist():
                 if contact := _contact(turned, others[j], place, near):
                     held.setdefault(replace(contact[0], own=own), contact[1])
+        for bound in self._bounds:
+            assert bound.n is not None
+            if (off := abs(float(bound.n[0] * place[0] + bound.n[1] * place[1] - bound.h))) <= near:
+                held.setdefault(bound, off)
         yield from sorted(held, key=held.__getitem__)
 
 
