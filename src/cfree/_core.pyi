@@ -19,7 +19,6 @@ class Shape:
     @property
     def radius(self) -> list[int]: ...
 
-    @property
     def makes_surfaces(self) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
 
     @property
