@@ -120,7 +120,6 @@ void RoundTrimmer::cover(Index p, Index k) {
             bounds(pinch);
             subtract_from_live({pinch, -1, -1, nullptr});
         }
-        if (found.tangent) find_pinches(*found.tangent, span);
         if (span.to != whole.to) todo.push_back({span.to, whole.to});
         if (span.from != whole.from) todo.push_back({whole.from, span.from});
     }
@@ -322,12 +321,11 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
     const int beyond = reach(side);
     if (beyond <= 0 || (count == 0 && reach(-side) <= 0)) {
-        for (const int k : {far - 1, far}) {
-            if (side < 0 || count == 0 || cross_with_line(pillar.edge(k).line, at) != 0) continue;
-            if (beyond < 0) out.tangent = with_branch(circle, side);
-            else touch(pillar.circle(k < far ? k + count : k + 1), at, out);  // a slit, between both ends
+        if (side > 0 && beyond == 0) {
+            touch(circle, at, out);
+            for (const int k : {far - 1, far})  // an edge on the line: a slit, between both ends
+                if (count > 0 && cross_with_line(pillar.edge(k).line, at) == 0) touch(pillar.circle(k < far ? k + count : k + 1), at, out);
         }
-        if (side > 0 && beyond == 0) touch(circle, at, out);
         if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
         return out;
     }
@@ -488,16 +486,6 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     if (!is_apart && !is_around)
         out.bands.push_back(quadrant());
     return out;
-}
-
-// Find ends of a state at which an edge lies on the line for that moment: neither surface goes on there.
-void RoundTrimmer::find_pinches(const Feature& tangent, const Span& span) {
-    for (const Index end : {span.from, span.to}) {
-        const Event& e = events[end];
-        if (decide.event_sign_on(tangent, {}, e.lo, e.hi) != 0) continue;
-        LongRoot root = decide.long_root_of(e);
-        if (sign_at(orders.exactly(tangent, {}), root) == 0) pinches.push_back(end);
-    }
 }
 
 // Cut the patch where a feature touches it from outside at every angle.

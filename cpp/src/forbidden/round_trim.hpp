@@ -55,7 +55,6 @@ private:
         std::vector<std::array<Feature, 2>> bands;
         std::vector<std::array<Feature, 2>> touched;  // the same curve twice: free space is pinched there
         std::vector<Watch> watched;
-        std::optional<Feature> tangent;  // an arc at the end of a parallel edge that may touch the line at one angle
     };
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
     bool has_extent(const Feature& circle) const;  // its radius is not 0
@@ -75,7 +74,6 @@ private:
     int foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at);
     void watch_beside(const Pillar& pillar, int k, Cover& out) const;
     void watch_cone(const Pillar& pillar, int k, Cover& out) const;
-    void find_pinches(const Feature& tangent, const Span& span);
     void touch(const Feature& f, const Sample& at, Cover& out);
     void clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out);
     bool narrow(Cover& cover, const Sample& at, Span& span);
