@@ -31,7 +31,6 @@ from rounded_families import (
     core,
     mapped,
     mirrored,
-    rectangle,
     scene,
     swapped,
 )
@@ -176,15 +175,3 @@ def test_surfaces_around_little_have_a_ray() -> None:
     pocket = among(shape([(0, 0), (1, 0), (0, 2)], "1/2"), shape([(0, 0), (3, 0), (0, 4)], 2))
     walls = core([(x, "-1/2"), (x + 12, "-1/2"), (x + 12, 6), (x, 6)])
     assert counts(built(pocket._replace(workspace=walls))).cells == 3
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("gap", "euler"), [(1, -4), ("1/2", 0)])
-def test_walls_that_touch_at_one_angle_are_glued_in_any_direction_as_among_polygons(gap: Any, euler: int) -> None:
-    """A robot as long as the gap touches both sides when it stands across, and one as thick when it lies along."""
-    upper = Shape(mapped(rectangle(2, 1), Fraction(1, 3), 2 + Fraction(gap)), Fraction(0))
-    plain = among(Shape(rectangle(HALF, Fraction(1, 4)), Fraction(0)), Shape(rectangle(2, 1), Fraction(0)), upper)
-    beside_a_disc = plain._replace(obstacles=(*plain.obstacles, shape([(50, 50)], 1)))
-    for turn in TURNS[:3]:
-        assert counts(built(all_mapped(plain, turn=turn))).surfaces == [(euler, False)]
-        assert counts(built(all_mapped(beside_a_disc, turn=turn))).surfaces == sorted([(euler, False), (0, False)])

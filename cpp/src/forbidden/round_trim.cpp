@@ -143,7 +143,6 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
             bounds(band);
             take({band, p, k, &crossing});
         }
-        if (found.tangent) find_pinches(*found.tangent, span);
         if (span.to != whole.to) todo.push_back({span.to, whole.to});
         if (span.from != whole.from) todo.push_back({whole.from, span.from});
     }
@@ -368,12 +367,7 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
     watch_arc(pillar, far, out);
     if (count > 0)
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
-    const int beyond = reach(side);
-    if (beyond <= 0 || (count == 0 && reach(-side) <= 0)) {
-        for (const int k : {far - 1, far}) {
-            if (side < 0 || count == 0 || beyond == 0 || is_stub(pillar.edge(k).line)) continue;
-            if (cross_with_line(pillar.edge(k).line, at) == 0) out.tangent = with_branch(circle, side);
-        }
+    if (reach(side) <= 0 || (count == 0 && reach(-side) <= 0)) {
         if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
         return out;
     }
@@ -532,14 +526,6 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     return out;
 }
 
-// Find ends of a state at which an edge lies on the line for that moment: neither surface goes on there.
-void RoundTrimmer::find_pinches(const Feature& tangent, const Span& span) {
-    for (const Index end : {span.from, span.to}) {
-        const Event& e = events[end];
-        if (decide.event_sign_on(tangent, {}, e.lo, e.hi) != 0) continue;
-        LongRoot root = decide.long_root_of(e);
-        if (sign_at(orders.exactly(tangent, {}), root) == 0) pinches.push_back(end);
-    }
 }
 
 // The covered parts of the quadrant, from crossings in any order: between one where the circle enters and the next one.

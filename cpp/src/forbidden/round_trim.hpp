@@ -59,7 +59,6 @@ private:
     struct Cover {
         std::vector<std::array<Feature, 2>> bands;
         std::vector<Watch> watched;
-        std::optional<Feature> tangent;  // an arc at the end of a parallel edge that may touch the line at one angle
     };
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
     bool has_extent(const Feature& circle) const;  // its radius is not 0
@@ -81,7 +80,6 @@ private:
     std::array<Feature, 2> foot(const Pillar& pillar, int edge, int arc) const;
     int foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at);
     void watch_cone(const Pillar& pillar, int k, Cover& out) const;
-    void find_pinches(const Feature& tangent, const Span& span);
     void clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out);
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);

@@ -180,8 +180,11 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
                                     const Event& to) {
     Candidates all;
     Brackets found;
-    const bool is_isolated = scene.is_round ? isolate_around(round_orders().form(first, second), from.lo, to.hi, found)
-                                            : isolate_around(f, from.lo, to.hi, found) || double_only;
+    bool is_isolated = scene.is_round ? isolate_around(round_orders().form(first, second), from.lo, to.hi, found)
+                                      : isolate_around(f, from.lo, to.hi, found) || double_only;
+    constexpr double widest = 0x1p-36;  // places are computed from the middle: near ties, where doubles leave more, balls do
+    if (scene.is_round)
+        for (const auto& [below, above] : found) is_isolated &= above - below < widest;
     if (is_isolated) {
         ++counters.filter;
         for (const auto& [below, above] : found) all.at.push_back({first, second, below, above});

@@ -105,8 +105,9 @@ def rounded(shape: AnyShape) -> Rounded | None:
 
     Examples
     --------
-    >>> rounded(Curved.circle((1, 2), "1/3"))
-    Rounded(core=((Fraction(1, 1), Fraction(2, 1)),), radius=Fraction(1, 3))
+    >>> disc = rounded(Curved.circle((1, 2), "1/3"))
+    >>> disc.core == ((1, 2),), disc.radius
+    (True, Fraction(1, 3))
     >>> from cfree.curves import Arc
     >>> stadium = Curved([(0, 0), (4, 0), Arc((4, 2), center=(4, 1)), (0, 2), Arc((0, 0), center=(0, 1))])
     >>> [tuple(map(int, p)) for p in rounded(stadium).core], rounded(Curved.ellipse((0, 0), (1, 2))) is None
