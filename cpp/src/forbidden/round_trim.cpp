@@ -526,8 +526,6 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     return out;
 }
 
-}
-
 // The covered parts of the quadrant, from crossings in any order: between one where the circle enters and the next one.
 void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out) {
     const Feature& x = surface.contact;
