@@ -108,7 +108,7 @@ def test_a_scene_without_rounded_shapes_is_refused(saved: Path, tmp_path: Path) 
 
 
 def test_incomplete_rounded_boundaries_are_saved(tmp_path: Path) -> None:
-    many = Scene(disc(0, 0, 1), [grown(SQUARE, "1/3", 3 * k, k % 7) for k in range(60)])
+    many = Scene(grown(SQUARE, 1), [grown(SQUARE, "1/3", 3 * k, k % 7) for k in range(300)])
     part = boundary(many, max_seconds=0, threads=1)
     assert not part.complete
     save(part, tmp_path / "part.npz")
