@@ -65,7 +65,8 @@ static void pillars_over_a_patch_are_not_rejected() {
                 }
                 for (Index v = O.piece[pieces[near]]; v < O.piece[pieces[near] + 1]; ++v)
                     obstacle.push_back({Real(O.X[O.piece_vertex[v]]), Real(O.Y[O.piece_vertex[v]])});
-                const Real rho = Real(A.radii[A.piece_radius[0]].exact) + Real(O.radii[O.piece_radius[pieces[near]]].exact);
+                const Real rho = Real(A.radii[A.vertex_radius[A.piece_vertex[0]]].exact) +
+                                 Real(O.radii[O.vertex_radius[O.piece_vertex[O.piece[pieces[near]]]]].exact);
                 const auto part = shadows.part(0, near);
                 const bool is_away = slice < part.first || part.last < slice;
                 if (distance(robot, obstacle) < rho) {

@@ -15,7 +15,8 @@ double radius_of(const SceneShapes& shapes) {
     for (const auto& part : shapes.robot)
         for (Index k = 0; k < part->vertices.size(); ++k)
             most = std::max(most, norm(nearest(part->vertices.X[k], part->denominator), nearest(part->vertices.Y[k], part->denominator)));
-    return most + nearest(shapes.robot_radius.n, shapes.robot_radius.d);
+    const Ratio radius = shapes.robot_radius();
+    return most + nearest(radius.n, radius.d);
 }
 
 // The scene of shapes whose features are those of the user's shapes.

@@ -88,7 +88,7 @@ def test_boundary_has_the_same_bytes_for_any_number_of_threads() -> None:
 def test_critical_angles_are_as_narrow_as_doubles_allow(seed: int) -> None:
     """In the scene of seed 400 exact roots decide, whose isolating intervals are a quarter of a chart wide."""
     table = boundary(random_scene(seed)).trapezoids
-    assert max((table.to_hi - table.to_lo).max(), (table.from_hi - table.from_lo).max()) < 1e-12
+    assert max((table.to_hi - table.to_lo).max(), (table.from_hi - table.from_lo).max()) < 2**-36
 
 
 def test_boundary_is_pickled() -> None:

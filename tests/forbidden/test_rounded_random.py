@@ -150,9 +150,9 @@ HALL = [shape([(x, -2), (x, 2)], "1/4") for x in (-1, 4)] + [shape([(-1, y), (4,
 BEAMS = shape([("1/2", 1), ("1/2", 2)], "1/8"), shape([(2, -2), (2, 0)], "1/8")
 # a slit as wide as the disc, between blocks of which one is higher: surfaces and cells; each half turn has its own slit
 SLITS = {
-    "alone": (among(shape([(0, 0)], "1/4"), block(0, 0), block("3/2", "1/3")), 3, 3),
-    "in a hall": (among(shape([(0, 0)], "1/4"), block(0, 0), block("3/2", "1/3"), *HALL, *BEAMS), 6, 6),
-    "of a corner": (among(shape([(1, 0)], "1/4"), block(0, 0), block("3/2", "1/3")), 3, 3),
+    "alone": (among(shape([(0, 0)], "1/4"), block(0, 0), block("3/2", "1/3")), 1, 1),
+    "in a hall": (among(shape([(0, 0)], "1/4"), block(0, 0), block("3/2", "1/3"), *HALL, *BEAMS), 4, 4),
+    "of a corner": (among(shape([(1, 0)], "1/4"), block(0, 0), block("3/2", "1/3")), 1, 1),
 }
 
 
