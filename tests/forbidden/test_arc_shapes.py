@@ -148,6 +148,19 @@ def test_parts_of_a_robot_have_radii_of_their_own() -> None:
         assert (space.locate(pose) >= 0) == is_free(scene, pose), pose
 
 
+def test_three_circles_through_one_point_at_every_angle() -> None:
+    """Two corners of the robot on a disc of its own, against two discs as far apart as that disc and one of them touch."""
+    robot = [Curved.circle((-3, -2), 5), [(1, 1), (-1, 0), (0, -1)], [(-2, 0), (0, -6), (2, -2)]]
+    scene = Scene(robot, [Curved.circle((2, -3), 5), Curved.circle((-4, -3), 1), Curved.circle((20, 0), 1)])
+    found = boundary(scene)
+    space = free_space(found)
+    assert np.all(found.complex.euler % 2 == 0)
+    rng = random.Random(5)
+    for _ in range(200):
+        pose = Pose(rng.uniform(-15, 15), rng.uniform(-15, 15), rng.uniform(0, math.tau))
+        assert (space.locate(pose) >= 0) == is_free(scene, pose), pose
+
+
 def test_places_of_arcs_have_names() -> None:
     found = boundary(Scene(shape(HALF, by="1/5"), [shape(SECTOR, 3, 0), [(0, 5), (2, 5), (1, 7)]]))
     kinds = {patch.kind for patch in found.patches if patch.is_live}

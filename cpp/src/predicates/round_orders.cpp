@@ -199,7 +199,11 @@ std::optional<Trig<K>> RoundOrders::quadratic(const Feature& first, const Featur
     if (first.kind == Kind::edge_edge)
         return Predicates::parallel_trig(edge<K>(scene.robot, first.robot), edge<K>(scene.obstacles, first.obstacle));
     if (second.kind == Kind::none) return of.tangency(surface.contact, first, first.branch);
-    if (second.branch == 2 && is_circle(second)) return dot(of.along(first), of.between(surface.contact, second));  // see Event
+    if (second.branch == 2 && is_circle(second)) {  // see Event
+        if (is_line(first)) return dot(of.along(first), of.between(surface.contact, second));
+        if (is_line(surface.contact)) return dot(of.along(surface.contact), of.between(first, second));
+        return cross(of.between(first, surface.contact), of.between(second, surface.contact));
+    }
     if (second.kind == Kind::seam) return of.end_of_quadrant(surface.contact, second.branch, first);
     return joint_of_three(of, scene, surface.contact, first, second);
 }

@@ -1,6 +1,7 @@
 // Orders of curves and of angles where shapes are grown: in intervals, in balls, exactly; theory, "Rounded shapes".
 #include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "predicates/isolation.hpp"
 #include "predicates/round_orders.hpp"
@@ -138,11 +139,39 @@ Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, 
         if (const auto sign = orders.order_in_balls(p, q, at.ball())) return ++counters.interval, *sign;
         return ++counters.exact, orders.order_at(p, q, at);
     };
-    if (all.all_zero) {  // a branch of the one meets a branch of the other everywhere
-        for (int attempt = 0; attempt < 3 && result.sign[0] == 0; ++attempt) result.sign[0] = sign_at_sample(between(from, to, attempt));
+    int last = 0;
+    if (all.all_zero) {  // a branch of the one meets a branch of the other everywhere; which does changes where
+                         // surfaces touch
+        std::vector<Event> cuts;
+        for (const Feature& f : {p, q}) {
+            if (!(is_circle(f) || is_circle(surface.contact)) || f.kind == Kind::seam || line_of_joint(scene, f, surface.contact)) continue;
+            for (const int side : {1, -1}) {
+                Feature touching = f;
+                touching.branch = static_cast<std::int8_t>(side);
+                const Roots touches = event_roots(touching, {}, from, to);
+                cuts.insert(cuts.end(), touches.at.begin(), touches.at.end());
+            }
+        }
+        if (is_circle(p) || is_circle(q)) {  // or where all they have in common with the surface is two points
+            Feature first = is_circle(q) ? p : q, second = is_circle(q) ? q : p;
+            first.branch = 0, second.branch = 2;
+            if (is_circle(first) || is_circle(surface.contact)) {
+                const Roots centres = event_roots(first, second, from, to);
+                cuts.insert(cuts.end(), centres.at.begin(), centres.at.end());
+            }
+        }
+        std::sort(cuts.begin(), cuts.end(), [&](const Event& x, const Event& y) { return order(x, y) < 0; });
+        cuts.push_back(to);
+        for (std::size_t k = 0; k < cuts.size(); ++k) {
+            const Event& before = k == 0 ? from : cuts[k - 1];
+            if (k > 0 && order(before, cuts[k]) == 0) continue;
+            int sign = 0;
+            for (int attempt = 0; attempt < 3 && sign == 0; ++attempt) sign = sign_at_sample(between(before, cuts[k], attempt));
+            if (k > 0 && sign != last) result.at.push_back(before);
+            result.sign[result.at.size()] = last = sign;
+        }
         return result;
     }
-    int last = 0;
     for (int k = 0; k <= all.at.size(); ++k) {
         const Event &before = k == 0 ? from : all.at[k - 1], &after = k == all.at.size() ? to : all.at[k];
         int sign = 0;

@@ -184,9 +184,10 @@ class Reader:
             return _poly(BALLS.axis(x, branch2, y), chart)
         z = self.surface(kind2, i2, j2)
         if kind2 == CIRCLE and branch2 == 2:
-            if y.edge is None:
-                raise Fault("a foot on a circle")
-            return _poly(BALLS.trig(dot(y.edge, x.to(z))), chart)
+            if y.edge is not None:
+                return _poly(BALLS.trig(dot(y.edge, x.to(z))), chart)
+            form = cross(x.to(y), x.to(z)) if x.edge is None else dot(x.edge, y.to(z))
+            return _poly(BALLS.trig(form), chart)
         return BALLS.meeting(x, y, z, chart)
 
     def _angle(

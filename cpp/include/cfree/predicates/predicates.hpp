@@ -64,7 +64,8 @@ struct Filtered {
 //   vertex_vertex alone: the helix meets the surface;  otherwise the two curves cross.
 // Where shapes are grown:  a line or circle alone: it touches the surface, on the side of its branch (round_surfaces.hpp);
 //   a line and a circle at its end: their joint is on the surface, or, with branch 2 of the circle, the foot of the surface's centre
-//   on the line is the circle's centre;  a surface and a seam: they meet.
+//   on the line is the circle's centre;  two circles, branch 2 of the second: their centres have one foot on the surface's line, or
+//   the three centres are on one line;  a surface and a seam: they meet.
 // If doubles cannot separate two roots, `fine` is the place of a finer interval, stored by the Predicates that found it.
 struct Event {
     Feature first, second;
