@@ -305,7 +305,7 @@ def test_an_interrupt_ends_improving_and_keeps_the_path(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_an_interrupt_while_filming_leaves_no_film(tmp_path: Path) -> None:
     film = tmp_path / "way.gif"
-    code, message = interrupted(4, "plan", PARKING, "--film", str(film))
+    code, message = interrupted(2.5, "plan", PARKING, "--film", str(film))
     assert code == 130
     assert message.splitlines()[-1] == "error: interrupted; no file was left half-written"
     assert not list(tmp_path.iterdir())
