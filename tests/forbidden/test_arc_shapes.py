@@ -149,7 +149,7 @@ def test_parts_of_a_robot_have_radii_of_their_own() -> None:
 
 
 def test_three_circles_through_one_point_at_every_angle() -> None:
-    """Two corners of the robot on a disc of its own, against two discs as far apart as that disc and one of them touch."""
+    """Two corners of the robot are on a disc of its own; a disc of that size is one radius away from a small one."""
     robot = [Curved.circle((-3, -2), 5), [(1, 1), (-1, 0), (0, -1)], [(-2, 0), (0, -6), (2, -2)]]
     scene = Scene(robot, [Curved.circle((2, -3), 5), Curved.circle((-4, -3), 1), Curved.circle((20, 0), 1)])
     found = boundary(scene)
