@@ -7,8 +7,8 @@ namespace cfree {
 
 namespace {
 
-constexpr int smaller[] = {10, 40, 100};  // powers of 1/2 by which discs are smaller, one after the other
-constexpr Index most_pairs = 4000;        // of corners: some seconds
+constexpr int smaller = 100;        // power of 1/2 by which discs are smaller
+constexpr Index most_pairs = 4000;  // of corners: some seconds
 
 Index corners(const std::vector<std::shared_ptr<const Polygon>>& cores) {
     Index count = 0;
@@ -51,17 +51,14 @@ std::optional<RoundCells::Proof> RoundCells::proof(const RationalPose& start, co
     const auto& others = shapes.obstacle_rounding;
     const bool are_all = std::all_of(others.begin(), others.end(), [](const Rounding& rounding) { return rounding.radius.n > 0; });
     if (shapes.bounds || (shapes.robot_radius().n == 0 && (shapes.workspace || others.empty() || !are_all))) return {};
-    for (const int power : smaller) {
-        const Known& less = smaller_by(power_of_two(-power));
-        const auto cells = less.scene->built();
-        if (cells->common_cell(start, goal) >= 0) continue;
-        const Scene& scene = less.scene->scene();
-        const Index first = cells->space->locate(start.exact(scene)), second = cells->space->locate(goal.exact(scene));
-        Barrier surface = barrier_between(*cells, first, second);
-        if (surface.faces.empty()) continue;
-        return Proof{{std::move(surface), less.scene, true}, less.near};
-    }
-    return {};
+    const Known& less = smaller_by(power_of_two(-smaller));
+    const auto cells = less.scene->built();
+    if (cells->common_cell(start, goal) >= 0) return {};
+    const Scene& scene = less.scene->scene();
+    const Index first = cells->space->locate(start.exact(scene)), second = cells->space->locate(goal.exact(scene));
+    Barrier surface = barrier_between(*cells, first, second);
+    if (surface.faces.empty()) return {};
+    return Proof{{std::move(surface), less.scene, true}, less.near};
 }
 
 }  // namespace cfree

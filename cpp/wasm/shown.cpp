@@ -11,7 +11,6 @@
 #include "cfree/mesh/mesh.hpp"
 #include "cfree/support/elementary.hpp"
 #include "reading.hpp"
-#include "round_mesh.hpp"
 
 namespace cfree {
 
@@ -54,10 +53,7 @@ double sum_of(const Scene& scene, const Feature& contact) { return sum_of_radii(
 // The line of a contact, moved outwards where shapes are grown.
 ContactLine<double> line_of(const Scene& scene, const Feature& contact) {
     ContactLine<double> line(scene, contact, UserUnits{});
-    if (const double rho = sum_of(scene, contact); rho > 0) {
-        const double scale = rho / norm(line.E.x, line.E.y);
-        (line.on_edge ? line.b : line.a) = (line.on_edge ? line.b : line.a) - Vec<double>{-scale * line.E.y, scale * line.E.x};
-    }
+    if (const double rho = sum_of(scene, contact); rho > 0) move_outwards(line, rho);
     return line;
 }
 
@@ -143,7 +139,7 @@ struct Radii {
 };
 Radii radii_of(const Scene& scene, const Feature& contact) {
     if (!scene.is_round) return {0, 0};
-    const auto radius = [&](const Shape& of, Index v) { return of.radii[of.vertex_radius[v]].about.hi * scene.unit(); };
+    const auto radius = [&](const Shape& of, Index v) { return of.radius_of(v).about.hi * scene.unit(); };
     const Shape &A = scene.robot, &O = scene.obstacles;
     return {radius(A, contact.kind == Kind::edge_vertex ? A.v[contact.robot] : contact.robot),
             radius(O, contact.kind == Kind::vertex_edge ? O.v[contact.obstacle] : contact.obstacle)};
@@ -210,16 +206,6 @@ SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cell
     return out;
 }
 
-// Mesh of an error, or of a larger one with about `most` triangles.
-Mesh mesh_of(const CellComplex& cells, double& error, double length, double most) {
-    if (!cells.boundary->scene->is_round) {
-        while (error < length && estimate_mesh(cells, error, length).triangles > most) error *= 2;
-        return mesh(cells, error, length);
-    }
-    for (;; error *= 2)
-        if (auto made = round_mesh(cells, error, length, error < length ? most : HUGE_VAL)) return std::move(*made);
-}
-
 void put(const SurfaceColumns& columns, Reply& reply) {
     reply.add("xyz", columns.xyz), reply.add("normal", columns.normal), reply.add("corners", columns.corners);
     reply.add("face", columns.face), reply.add("kind", columns.kind), reply.add("cell", columns.cell), reply.add("owner", columns.owner);
@@ -234,7 +220,7 @@ RationalPose pose_in_contact(const Scene& scene, const Feature& contact, double 
     const auto r = half.rotation();
     const auto over = [](const Vec<Int>& p, const Int& d) { return RatioPoint{reduced(p.x, d), reduced(p.y, d)}; };
     const auto on_grid = [](double share) { return Ratio{Int(std::llround(std::clamp(share, 0.0, 1.0) * 0x1p20)), Int(1) << 20}; };
-    const auto radius = [&](const Shape& s, Index v) { return scene.is_round ? s.radii[s.vertex_radius[v]].exact : Int(0); };
+    const auto radius = [&](const Shape& s, Index v) { return scene.is_round ? s.radius_of(v).exact : Int(0); };
     const Int whole = r.w * scene.scale;
     const auto moved = [&](const RatioPoint& p, const RatioPoint& by, const Ratio& factor) {
         return RationalPose{p.x + factor * by.x, p.y + factor * by.y, half};
@@ -349,14 +335,13 @@ void show_columns(const World& world, Reply& reply) {
 
 void show_mesh(const World& world, double error, double most, Reply& reply) {
     world.need_space();
-    const Mesh made = mesh_of(*world.cells, error, world.radius, most);
-    put(surface_of(world.features, *world.cells, made, world.radius, world.space.get()), reply);
+    while (error < world.radius && estimate_mesh(*world.cells, error, world.radius).triangles > most) error *= 2;
+    put(surface_of(world.features, *world.cells, mesh(*world.cells, error, world.radius), world.radius, world.space.get()), reply);
     reply.add("error", error);
 }
 
 void show_surface(const SceneFeatures& features, const CellComplex& cells, double length, Reply& reply) {
-    double error = length / 20;
-    put(surface_of(features, cells, mesh_of(cells, error, length, HUGE_VAL), length, nullptr), reply);
+    put(surface_of(features, cells, mesh(cells, length / 20, length), length, nullptr), reply);
 }
 
 void show_slice(const World& world, double theta, Reply& reply) {

@@ -10,6 +10,7 @@ import pytest
 import trimesh
 
 import cfree._core as core
+from arc_rings import HALF, LENS, random_arcs, shape
 from cfree import Scene, boundary
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.kinds import PatchKind
@@ -94,6 +95,47 @@ def test_meshes_of_random_rounded_scenes_are_closed_and_close(seed: int) -> None
         mesh = result.mesh(share * robot_radius(result.scene), angle_scale=(0.3, 1, 3)[seed % 3])
         check_closed(mesh, result)
         check_error(mesh, result, seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(20))
+def test_meshes_among_arcs_as_sides_are_closed_and_close(seed: int) -> None:
+    result = boundary(random_arcs(seed), threads=1)
+    for share in (0.3, 0.03):
+        mesh = result.mesh(share * robot_radius(result.scene))
+        check_closed(mesh, result)
+        check_error(mesh, result, seed)
+
+
+HALVES = Scene(shape(HALF, 1, 2, "1/2"), [shape(LENS, 9, 0), shape(HALF, 0, 9)])
+
+
+def check_vertices(result: Boundary) -> None:
+    """The vertices of the cell complex are on the trapezoids that have them as corners."""
+    complex, table = result.complex, result.trapezoids
+    face = complex.face
+    x, y, theta = (array[complex.vertex] for array in (complex.x, complex.y, complex.theta))
+    low, high = table.theta_from[face], table.theta_to[face]
+    theta = theta + np.where(theta < low - 1e-6, math.tau, 0) - np.where(theta > high + 1e-6, math.tau, 0)
+    off = distance_in_slice(result, face, np.stack([x, y, theta], axis=1), 1.0)
+    assert off[high - low > THICK].max() < 1e-3 * robot_radius(result.scene)
+
+
+def test_vertices_among_arcs_as_sides_are_on_their_trapezoids() -> None:
+    check_vertices(boundary(HALVES, threads=1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(40))
+def test_vertices_of_random_scenes_are_on_their_trapezoids(seed: int) -> None:
+    check_vertices(boundary(random_arcs(seed) if seed % 2 else random_scene(seed), threads=1))
+
+
+def test_a_mesh_of_arcs_as_sides_is_closed_and_close() -> None:
+    result = boundary(HALVES, threads=1)
+    mesh = result.mesh(0.1)
+    check_closed(mesh, result)
+    check_error(mesh, result)
 
 
 def test_a_mesh_of_arcs_is_closed_and_close() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import cfree
+from arc_rings import random_arcs
 from cfree import Scene, boundary
 from cfree.geometry import gauss_bonnet
 from rounded_scenes import MIXED, SCENES, TRIANGLE, disc, grown, random_scene
@@ -33,6 +34,12 @@ def test_curvature_of_rounded_shapes_adds_up_to_euler_numbers(name: str) -> None
 @pytest.mark.parametrize("seed", range(12))
 def test_curvature_of_random_rounded_scenes_adds_up(seed: int) -> None:
     check(random_scene(seed))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(20))
+def test_curvature_among_arcs_as_sides_adds_up(seed: int) -> None:
+    check(random_arcs(seed))
 
 
 @pytest.mark.slow

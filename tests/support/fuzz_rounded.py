@@ -227,10 +227,11 @@ def poses(truth: Truth, r: Draw) -> Iterator[Pose]:
     """Poses around the scene, some of them on lattices and in contact."""
     grow = Fraction(truth.spread).limit_denominator(16) + 1
     for k in range(POSES):
-        tau = (
-            r.choice([Fraction(0), Fraction(1), Fraction(-1), HALF_TURN, HALF_TURN]) if k % 3 == 0 else r.on(-1, 1, 64)
-        )
-        if tau == HALF_TURN:
+        if k % 3 != 0:
+            tau = r.on(-1, 1, 64)
+        elif r.random() < 0.6:
+            tau = Fraction(r.choice([0, 1, -1]))
+        else:
             tau = Fraction(r.choice([1, -1]), r.choice([2, 3]))
         chart = r.randint(0, 1)
         turn = rotation(tau, chart)
@@ -250,9 +251,6 @@ def poses(truth: Truth, r: Draw) -> Iterator[Pose]:
             centre = mapped((truth.middle,), turn=turn)[0]  # type: ignore[arg-type]
             at = [at[0] - Fraction(round(centre[0] * 4), 4), at[1] - Fraction(round(centre[1] * 4), 4)]
         yield Pose(at[0], at[1], tau, chart)
-
-
-HALF_TURN = Fraction(99)
 
 
 def location_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
@@ -335,13 +333,7 @@ def minkowski(shape: Any, turned: list[tuple[float, float]], core: Core, part: C
 def triangles(points: list[tuple[float, float]]) -> list[list[tuple[float, float]]]:
     if len(points) < 3:
         return [points]
-    ring = shapely.Polygon(points)
-    pieces = (
-        shapely.constrained_delaunay_triangles(ring) if hasattr(shapely, "constrained_delaunay_triangles") else None
-    )
-    if pieces is None:
-        pieces = [t for t in shapely.ops.triangulate(ring) if ring.covers(t.representative_point())]
-        return [list(t.exterior.coords)[:-1] for t in pieces]
+    pieces = shapely.constrained_delaunay_triangles(shapely.Polygon(points))
     return [list(t.exterior.coords)[:-1] for t in pieces.geoms]
 
 

@@ -224,7 +224,6 @@ void RoundCurve::meet_on_circle(const Places& places, const Feature& on, const F
 }
 
 double RoundCurve::position(double phi) const {
-    const auto in_quadrant = [](double psi) { return 0.25 * pi + std::remainder(psi - 0.25 * pi, 2 * pi); };
     switch (form) {
         case Form::still: return in_quadrant(start);
         case Form::turning: return in_quadrant(start + phi);

@@ -109,21 +109,24 @@ void CoincidentSurfaces::add_opposite(const Feature& contact, std::vector<Featur
 
 namespace {
 
-bool is_point_core(const Shape& s, Index v) { return s.previous[v] == v; }
-const Int& exact_radius(const Shape& s, Index v) { return s.radii[s.vertex_radius[v]].exact; }
 bool is_one_place(const Shape& s, Index v, Index w) { return s.X[v] == s.X[w] && s.Y[v] == s.Y[w]; }
+
+// True if an edge runs to the left, or straight down.
+bool is_backward(const Shape& s, Index e) {
+    const Vec<Int> E = edge<Int>(s, e);
+    return E.x.sign() < 0 || (E.x.is_zero() && E.y.sign() < 0);
+}
 
 // Offset of a line from the origin, to the left of the least integer vector D along its direction, times |D|; the line is moved
 // by its radius outwards, and then `by` further. D points to one half of the plane. None if that is no integer.
 std::optional<Int> moved_offset(const Shape& s, Index e, const Int& by) {
     const Vec<Int> E = edge<Int>(s, e);
     const Int divisor = gcd(abs(E.x), abs(E.y));
-    const bool is_backward = E.x.sign() < 0 || (E.x.is_zero() && E.y.sign() < 0);
     const Vec<Int> D{E.x / divisor, E.y / divisor};
-    const Int offset = cross(Vec<Int>{s.X[s.v[e]], s.Y[s.v[e]]}, D), outwards = s.radii[s.vertex_radius[s.v[e]]].exact + by;
+    const Int offset = cross(Vec<Int>{s.X[s.v[e]], s.Y[s.v[e]]}, D), outwards = s.radius_of(s.v[e]).exact + by;
     if (!s.lengths[e].is_rational() && !outwards.is_zero()) return {};
     const Int moved = s.lengths[e].is_rational() ? Int(offset + outwards * (s.lengths[e].factor / divisor)) : offset;
-    return is_backward ? Int(-moved) : moved;
+    return is_backward(s, e) ? Int(-moved) : moved;
 }
 
 }  // namespace
@@ -138,19 +141,15 @@ struct RoundSlits::Lines {
     Lines(const Shape& shape, Index layer, const Int& further) : s(shape), by(further) {
         for (Index e = 0; e < s.ring_vertices; ++e)
             if (s.makes_surfaces(e) && s.layer[e] == layer && s.emit[e])
-                if (const auto offset = moved_offset(s, e, by)) keys.emplace_back(s.direction[e], is_backward(e), *offset, e);
+                if (const auto offset = moved_offset(s, e, by)) keys.emplace_back(s.direction[e], is_backward(s, e), *offset, e);
         std::sort(keys.begin(), keys.end());
-    }
-    bool is_backward(Index e) const {
-        const Vec<Int> E = edge<Int>(s, e);
-        return E.x.sign() < 0 || (E.x.is_zero() && E.y.sign() < 0);
     }
     // Edges that run the other way on the line of e, which is moved by another distance.
     std::vector<Index> opposite(Index e, const Int& other_by) const {
         std::vector<Index> result;
         const auto offset = moved_offset(s, e, other_by);
         if (!offset) return result;
-        const Key least{s.direction[e], !is_backward(e), *offset, -1};
+        const Key least{s.direction[e], !is_backward(s, e), *offset, -1};
         for (auto k = std::lower_bound(keys.begin(), keys.end(), least); k != keys.end(); ++k) {
             if (std::get<0>(*k) != std::get<0>(least) || std::get<1>(*k) != std::get<1>(least) || std::get<2>(*k) != *offset) break;
             result.push_back(std::get<3>(*k));
@@ -166,10 +165,10 @@ RoundSlits::RoundSlits(const Scene& s) : scene(s) {
         if (!moved_by(all, further)) all.push_back(std::make_unique<const Lines>(shape, body_layer, further));
     };
     for (const Index i : bodies)
-        if (is_point_core(A, i) || !at(i).empty()) add(walls, O, exact_radius(A, i));
+        if (!A.has_extent(i) || !at(i).empty()) add(walls, O, A.radius_of(i).exact);
     if (!references.empty()) bounds = std::make_unique<const Lines>(O, reference_layer, 0);
     for (Index j = 0; j < O.ring_vertices; ++j)
-        if (is_point_core(O, j) && O.layer[j] == body_layer) add(prongs, A, exact_radius(O, j));
+        if (!O.has_extent(j) && O.layer[j] == body_layer) add(prongs, A, O.radius_of(j).exact);
 }
 
 const RoundSlits::Lines* RoundSlits::moved_by(const std::vector<std::unique_ptr<const Lines>>& all, const Int& further) {
@@ -193,16 +192,16 @@ void RoundSlits::add_opposite(const Feature& contact, std::vector<Feature>& out)
     const Index i = contact.robot, j = contact.obstacle;
     if (contact.kind == Kind::vertex_edge) {
         const bool is_reference = A.layer[i] == reference_layer;
-        const Int by = is_reference ? Int(0) : exact_radius(A, i);
+        const Int by = is_reference ? Int(0) : A.radius_of(i).exact;
         for (const Index i2 : at(i)) {
-            const Lines* others = is_reference ? moved_by(walls, exact_radius(A, i2)) : bounds.get();
+            const Lines* others = is_reference ? moved_by(walls, A.radius_of(i2).exact) : bounds.get();
             if (!A.convex[i2]) continue;
             for (const Index e : others->opposite(j, by)) out.push_back({Kind::vertex_edge, i2, e});
         }
-        if (!is_reference && is_point_core(A, i))
+        if (!is_reference && !A.has_extent(i))
             for (const Index e : moved_by(walls, by)->opposite(j, by)) out.push_back({Kind::vertex_edge, i, e});
-    } else if (contact.kind == Kind::edge_vertex && is_point_core(O, j) && O.layer[j] == body_layer) {
-        const Int& by = exact_radius(O, j);
+    } else if (contact.kind == Kind::edge_vertex && !O.has_extent(j) && O.layer[j] == body_layer) {
+        const Int& by = O.radius_of(j).exact;
         for (const Index e : moved_by(prongs, by)->opposite(i, by)) out.push_back({Kind::edge_vertex, e, j});
     }
 }
@@ -211,12 +210,12 @@ bool RoundSlits::may_be() const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     std::vector<Feature> opposite;
     for (Index i = 0; i < A.ring_vertices && opposite.empty(); ++i) {
-        if (A.layer[i] == body_layer ? !is_point_core(A, i) : at(i).empty()) continue;
+        if (A.layer[i] == body_layer ? A.has_extent(i) : at(i).empty()) continue;
         for (Index j = 0; j < O.ring_vertices && opposite.empty(); ++j)
             if (O.layer[j] == A.layer[i] && O.makes_surfaces(j) && O.emit[j]) add_opposite({Kind::vertex_edge, i, j}, opposite);
     }
     for (Index j = 0; j < O.ring_vertices && opposite.empty(); ++j)
-        for (Index i = 0; is_point_core(O, j) && i < A.ring_vertices && opposite.empty(); ++i)
+        for (Index i = 0; !O.has_extent(j) && i < A.ring_vertices && opposite.empty(); ++i)
             if (O.layer[j] == A.layer[i] && A.makes_surfaces(i)) add_opposite({Kind::edge_vertex, i, j}, opposite);
     return !opposite.empty();
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "forbidden/junction_at.hpp"
 #include "predicates/round_junction.hpp"
 #include "support/parallel.hpp"
 #include "support/union_find.hpp"
@@ -79,15 +80,7 @@ template <class At>
 void LevelGluer<At>::glue(Index rank, std::span<const Index> sides) {
     if (std::none_of(sides.begin(), sides.end(), [&](Index s) { return whole[s / 2]; })) return;
     const int chart = rank > angles.middle ? 1 : 0;
-    At at = [&] {
-        const double lo = angles.lo(rank, chart), hi = angles.hi(rank, chart);
-        if constexpr (is_round)
-            return At(scene, chart, lo, hi, [&] { return angles.critical(rank, chart).exact_among_grown(scene); },
-                      [&] { return angles.critical(rank, chart).bracket(scene); });
-        else
-            return At(scene, chart, lo, hi, [&] { return angles.critical(rank, chart).exact(scene); },
-                      [&] { return angles.critical(rank, chart).bracket(scene); });
-    }();
+    At at = junction_at<At>(scene, angles, rank, chart);
     levels.clear(), places.clear();
     for (const Index s : sides) {
         const Index k = s / 2;

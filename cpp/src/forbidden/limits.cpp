@@ -53,8 +53,7 @@ Limits::Line Limits::round_line(const Feature& contact, const Rotation<double>& 
 
 Vec<double> Limits::Line::at(double t) const {
     if (!is_circle()) return {p.x + t * u.x, p.y + t * u.y};
-    Vec<double> outwards{(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)};
-    for (int k = 0; k < quadrant; ++k) outwards = {-outwards.y, outwards.x};
+    const Vec<double> outwards = on_quadrant(quadrant, t);
     return {p.x + radius * outwards.x, p.y + radius * outwards.y};
 }
 
@@ -104,9 +103,9 @@ Limits::Meeting Limits::meets_round(const Feature& contact, const Line& l, const
             return Vec<double>{unit * by.x.hi, unit * by.y.hi};
         };
         d = from(scene.obstacles, contact.obstacle, f.obstacle) - r(from(scene.robot, contact.robot, f.robot));
-        const auto radius = [](const Shape& shape, Index v) { return shape.radii[shape.vertex_radius[v]].about; };
-        more = unit * (radius(scene.obstacles, f.obstacle) - radius(scene.obstacles, contact.obstacle) +
-                       (radius(scene.robot, f.robot) - radius(scene.robot, contact.robot))).hi;
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        more = unit * (O.radius_of(f.obstacle).about - O.radius_of(contact.obstacle).about +
+                       (A.radius_of(f.robot).about - A.radius_of(contact.robot).about)).hi;
     }
     if (is_smooth(scene, f, contact)) {
         const double length = norm(other.u.x, other.u.y);

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "cfree/contact/contact_line.hpp"
-#include "cfree/predicates/junction.hpp"
 #include "cfree/support/elementary.hpp"
+#include "forbidden/junction_at.hpp"
 #include "predicates/round_junction.hpp"
 #include "support/free_memory.hpp"
 
@@ -80,12 +80,10 @@ PlacedPose place_of(const Boundary& boundary, Index k, Side side, double start) 
     if (side == Side::upper || side == Side::lower) {
         const Feature curve = unpacked((side == Side::upper ? trapezoids.upper : trapezoids.lower)[k]);
         if (scene.is_round) {
-            RoundJunction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact_among_grown(scene); },
-                             [&, in = chart] { return angles.critical(rank, in).bracket(scene); });
+            auto at = junction_at<RoundJunction>(scene, angles, rank, chart);
             t = at.value(contact, at.spot(contact, curve, rank == angles.from[k]));
         } else {
-            const Junction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact(scene); },
-                              [&, in = chart] { return angles.critical(rank, in).bracket(scene); });
+            const auto at = junction_at<Junction>(scene, angles, rank, chart);
             t = at.value(contact, at.spot(contact, curve));
         }
     }
@@ -95,24 +93,21 @@ PlacedPose place_of(const Boundary& boundary, Index k, Side side, double start) 
 Vec<double> place_on(const Scene& scene, const Surface& surface, double tau, double t) {
     const auto R = rotation_by(surface.chart, tau);
     const Shape &A = scene.robot, &O = scene.obstacles;
-    const auto placed = [&](const Feature& helix) {
-        const Index a = helix.robot, b = helix.obstacle;
-        return Vec<double>{O.x[b], O.y[b]} - R(Vec<double>{A.x[a], A.y[a]});
-    };
     const Feature& contact = surface.contact;
-    const Feature helix = is_line(contact) ? end_helix(scene, contact, 0) : contact;
-    const double rho = scene.is_round ? A.radii[A.vertex_radius[helix.robot]].about.hi + O.radii[O.vertex_radius[helix.obstacle]].about.hi : 0;
-    auto p = placed(helix);
-    if (is_line(contact)) {
-        const auto U = placed(end_helix(scene, contact, 1)) - p;
-        p = {p.x + t * U.x, p.y + t * U.y};
-        if (rho == 0) return p;
-        const double scale = rho / std::sqrt(dot(U, U));
-        return {p.x + scale * U.y, p.y - scale * U.x};
+    const Index i = contact.robot, j = contact.obstacle;
+    const auto placed = [&](Index a, Index b) { return Vec<double>{O.x[b], O.y[b]} - R(Vec<double>{A.x[a], A.y[a]}); };
+    const double rho = sum_of_radii(scene, contact);
+    if (is_circle(contact)) {
+        const Vec<double> p = placed(i, j), unit = on_quadrant(contact.branch, t);
+        return {p.x + rho * unit.x, p.y + rho * unit.y};
     }
-    Vec<double> unit{(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)};
-    for (int k = 0; k < contact.branch; ++k) unit = {-unit.y, unit.x};
-    return {p.x + rho * unit.x, p.y + rho * unit.y};
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    auto p = on_edge ? placed(i, O.v[j]) : placed(A.v[i], j);
+    const auto U = (on_edge ? placed(i, O.w[j]) : placed(A.w[i], j)) - p;
+    p = {p.x + t * U.x, p.y + t * U.y};
+    if (rho == 0) return p;
+    const double scale = rho / std::sqrt(dot(U, U));
+    return {p.x + scale * U.y, p.y - scale * U.x};
 }
 
 }  // namespace cfree

@@ -12,9 +12,7 @@ namespace cfree {
 
 namespace {
 
-constexpr double root_of_two = 1.4375, eighth_turn = 0.4375;  // a little more than it, and than the tangent of half of that
-
-double radius_of(const Shape& s, Index v) { return s.radii[s.vertex_radius[v]].about.hi; }
+constexpr double eighth_turn = 0.4375;  // a little more than the tangent of half of it
 
 bool has(const std::vector<Index>& list, const std::vector<Index>& start, Index piece, Index what) {
     const auto begin = list.begin() + start[piece], end = list.begin() + start[piece + 1];
@@ -22,14 +20,6 @@ bool has(const std::vector<Index>& list, const std::vector<Index>& start, Index 
 }
 
 }  // namespace
-
-void RoundShadows::Octagon::add(const Vec<double>& at, double radius) {
-    const double value[4] = {at.x, at.y, at.x + at.y, at.x - at.y};
-    for (int i = 0; i < 4; ++i) {
-        const double reach = i < 2 ? radius : root_of_two * radius;
-        low[i] = std::min(low[i], value[i] - reach), high[i] = std::max(high[i], value[i] + reach);
-    }
-}
 
 // From one vertex to another.
 Vec<double> RoundShadows::seen(const Shape& s, Index from, Index to) {
@@ -42,28 +32,31 @@ RoundShadows::RoundShadows(const Scene& s, const Feature& on, const std::vector<
     : scene(s), contact(on), near_pieces(pieces) {
     const Shape &A = s.robot, &O = s.obstacles;
     const Index a = on.kind == Kind::edge_vertex ? A.v[on.robot] : on.robot, b = on.kind == Kind::vertex_edge ? O.v[on.obstacle] : on.obstacle;
-    const double rho = radius_of(A, a) + radius_of(O, b);
+    const double rho = A.radius_of(a).about.hi + O.radius_of(b).about.hi;
     Octagon patch;
     std::vector<Vec<double>> patch_turning{{0, 0}};  // of the robot, with the opposite sign
     if (on.kind == Kind::vertex_edge) {  // a segment on the right of its line
         const Vec<double> E = seen(O, b, O.w[on.obstacle]);
         const double length = norm(E.x, E.y);
         direction = {E.x / length, E.y / length};
-        patch.add({0, -rho}, 0), patch.add({length, -rho}, 0);
+        patch.add(0, -rho), patch.add(length, -rho);
     } else if (on.kind == Kind::edge_vertex) {
         const Vec<double> E = seen(A, a, A.w[on.robot]);
         const double length = norm(E.x, E.y);
-        patch.add({0, 0}, 0);
+        patch.add(0, 0);
         patch_turning = {{-rho * E.y / length, rho * E.x / length}, {-rho * E.y / length - E.x, rho * E.x / length - E.y}};
     } else {  // an arc, in the hull of its ends and of points of its tangents
         const auto axis = [&](int turns) { return Vec<double>{turns % 2 == 0 ? 1.0 - turns : 0.0, turns % 2 == 0 ? 0.0 : 2.0 - turns}; };
         const Vec<double> first = axis(on.branch & 3), last = axis((on.branch + 1) & 3);
         for (const auto& [x, y] : {std::pair{1.0, 0.0}, std::pair{1.0, eighth_turn}, std::pair{eighth_turn, 1.0}, std::pair{0.0, 1.0}})
-            patch.add({rho * (x * first.x + y * last.x), rho * (x * first.y + y * last.y)}, 0);
+            patch.add(rho * (x * first.x + y * last.x), rho * (x * first.y + y * last.y));
     }
     for (const Index k : pieces) {
         Octagon around;
-        for (Index n = O.piece[k]; n < O.piece[k + 1]; ++n) around.add(seen(O, b, O.piece_vertex[n]), radius_of(O, O.piece_vertex[n]));
+        for (Index n = O.piece[k]; n < O.piece[k + 1]; ++n) {
+            const Vec<double> at = seen(O, b, O.piece_vertex[n]);
+            around.add(at.x, at.y, O.radius_of(O.piece_vertex[n]).about.hi);
+        }
         for (int i = 0; i < 4; ++i) {
             const double low = around.low[i] - patch.high[i];
             around.high[i] -= patch.low[i], around.low[i] = low;
@@ -74,13 +67,12 @@ RoundShadows::RoundShadows(const Scene& s, const Feature& on, const std::vector<
         for (Index n = A.piece[p]; n < A.piece[p + 1]; ++n)
             for (const Vec<double>& more : patch_turning) {
                 const Vec<double> d = seen(A, a, A.piece_vertex[n]);
-                turning.push_back({p, {d.x + more.x, d.y + more.y}, radius_of(A, A.piece_vertex[n])});
+                turning.push_back({p, {d.x + more.x, d.y + more.y}, A.radius_of(A.piece_vertex[n]).about.hi});
             }
     size += A.radii.back().about.hi + O.radii.back().about.hi;
 }
 
-// An arc is in the triangle of its ends and of the meeting of its tangents, see Shadows. All values are at most 8 sizes, and within
-// 200 u of that.
+// All values are at most 8 sizes, and within 200 u of that.
 void RoundShadows::cut(int chart, double lo, double hi) {
     slices.cut(lo, hi, chart);
     const double slack = 0x1p-42 * size + tiny;
@@ -90,9 +82,9 @@ void RoundShadows::cut(int chart, double lo, double hi) {
         const double from = slices.at[s], to = slices.at[s + 1];
         Octagon* around = &turned[static_cast<std::size_t>(s) * count];
         for (const auto& [x, y] : {std::pair{from, from}, std::pair{from, to}, std::pair{to, to}}) {
-            const double w = slices.kappa / (1 + x * y), cosine = (1 - x * y) * w, sine = (x + y) * w;
+            const auto [cosine, sine] = slices.corner(x, y);
             for (const Vertex& v : turning)
-                around[v.piece].add({cosine * v.at.x - sine * v.at.y, cosine * v.at.y + sine * v.at.x}, v.radius + slack);
+                around[v.piece].add(cosine * v.at.x - sine * v.at.y, cosine * v.at.y + sine * v.at.x, v.radius + slack);
         }
     }
 }

@@ -5,6 +5,7 @@
 // obstacles, or along the axes.
 #pragma once
 #include "cfree/forbidden/trim.hpp"
+#include "forbidden/octagon.hpp"
 
 namespace cfree {
 
@@ -21,12 +22,6 @@ public:
     Slices::Part part(Index p, std::size_t near) const;
 
 private:
-    // Bounds of x, y, x + y and x - y.
-    struct Octagon {
-        static constexpr double infinity = std::numeric_limits<double>::infinity();
-        double low[4] = {infinity, infinity, infinity, infinity}, high[4] = {-infinity, -infinity, -infinity, -infinity};
-        void add(const Vec<double>& at, double radius);
-    };
     Vec<double> seen(const Shape& shape, Index from, Index to);
 
     const Scene& scene;

@@ -8,12 +8,6 @@
 
 namespace cfree {
 
-namespace {
-
-const Int& radius(const Shape& s, Index v) { return s.radii[s.vertex_radius[v]].exact; }
-
-}  // namespace
-
 // Two surfaces touch at every angle only if the robot's place is one for both, a disc's centre or the reference point, or if the
 // obstacles' is, a disc's centre. In the plane of the other shape they then stand still.
 struct RoundTrimmer::Touch {
@@ -47,42 +41,41 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
             result.push_back({feature, {}, &s == &A});
         }
     };
-    const auto is_disc = [](const Shape& s, Index v) { return s.previous[v] == v; };
     // around one place of the robot
     if (own.kind != Kind::edge_vertex) {
+        std::vector<Index> near;  // vertices of the pieces
+        for (const Index k : pieces)
+            for (Index p = O.piece[k]; p < O.piece[k + 1]; ++p)
+                if (O.piece_vertex[p] < O.ring_vertices) near.push_back(O.piece_vertex[p]);
+        std::sort(near.begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
         const bool is_reference = A.layer[i] == reference_layer;
-        const Int mine = radius(A, i) + (is_circle_here ? radius(O, j) : radius(O, O.v[j]));
+        const Int mine = A.radius_of(i).exact + (is_circle_here ? O.radius_of(j).exact : O.radius_of(O.v[j]).exact);
         for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {
             const bool is_same_layer = A.layer[i2] == A.layer[i];
-            if (is_same_layer ? i2 != i || is_reference || !is_disc(A, i) : A.X[i2] != A.X[i] || A.Y[i2] != A.Y[i]) continue;
+            if (is_same_layer ? i2 != i || is_reference || A.has_extent(i) : A.X[i2] != A.X[i] || A.Y[i2] != A.Y[i]) continue;
             const auto add_at = [&](Index v) {
                 if (O.layer[v] != A.layer[i2] || !O.emit[v]) return;
                 if (O.convex[v] && A.convex[i2])
-                    add(O, j, v, false, mine, radius(A, i2) + radius(O, v), {Kind::vertex_vertex, i2, v, 1});
+                    add(O, j, v, false, mine, A.radius_of(i2).exact + O.radius_of(v).exact, {Kind::vertex_vertex, i2, v, 1});
                 if (is_circle_here && O.makes_surfaces(v) && A.convex[i2])
-                    add(O, j, v, true, mine, radius(A, i2) + radius(O, v), {Kind::vertex_edge, i2, v, 1});
+                    add(O, j, v, true, mine, A.radius_of(i2).exact + O.radius_of(v).exact, {Kind::vertex_edge, i2, v, 1});
             };
             if (A.layer[i2] == reference_layer) {
                 for (Index v = 0; v < O.ring_vertices; ++v) add_at(v);
                 continue;
             }
-            std::vector<Index> near;
-            for (const Index k : pieces)
-                for (Index p = O.piece[k]; p < O.piece[k + 1]; ++p)
-                    if (O.piece_vertex[p] < O.ring_vertices) near.push_back(O.piece_vertex[p]);
-            std::sort(near.begin(), near.end());
-            near.erase(std::unique(near.begin(), near.end()), near.end());
             for (const Index v : near) add_at(v);
         }
     }
     // around a disc among the obstacles
-    if (own.kind != Kind::vertex_edge && is_disc(O, j) && O.layer[j] == body_layer) {
-        const Int& disc = radius(O, j);
-        const Int mine = disc + (is_circle_here ? radius(A, i) : radius(A, A.v[i]));
+    if (own.kind != Kind::vertex_edge && !O.has_extent(j) && O.layer[j] == body_layer) {
+        const Int& disc = O.radius_of(j).exact;
+        const Int mine = disc + (is_circle_here ? A.radius_of(i).exact : A.radius_of(A.v[i]).exact);
         for (Index v = 0; v < A.ring_vertices; ++v) {
             if (A.layer[v] != body_layer) continue;
-            if (A.convex[v]) add(A, i, v, false, mine, radius(A, v) + disc, {Kind::vertex_vertex, v, j, 1});
-            if (is_circle_here && A.makes_surfaces(v)) add(A, i, v, true, mine, radius(A, v) + disc, {Kind::edge_vertex, v, j, 1});
+            if (A.convex[v]) add(A, i, v, false, mine, A.radius_of(v).exact + disc, {Kind::vertex_vertex, v, j, 1});
+            if (is_circle_here && A.makes_surfaces(v)) add(A, i, v, true, mine, A.radius_of(v).exact + disc, {Kind::edge_vertex, v, j, 1});
         }
     }
     return result;
@@ -108,11 +101,7 @@ void RoundTrimmer::split_at_touches(const std::vector<Index>& pieces) {
                 const auto roots = decide.event_roots(touch.feature, seam, events[0], events[1]);
                 cuts.insert(cuts.end(), roots.at.begin(), roots.at.end());
             }
-        std::sort(cuts.begin(), cuts.end(), [&](const Event& p, const Event& q) { return decide.order(p, q) < 0; });
-        cuts.push_back(events[1]);
-        for (Index from = 0; const Event& cut : cuts) {
-            if (decide.order(events[from], cut) == 0) continue;
-            const Index to = intern(cut);
+        for (const auto& [from, to] : spans_between(std::move(cuts))) {
             Vec<Int> to_place = touch.towards;
             if (touch.turns) {
                 const Dyadic tau = decide.between(events[from], events[to]).exact();
@@ -122,7 +111,6 @@ void RoundTrimmer::split_at_touches(const std::vector<Index>& pieces) {
             }
             for (int turns = surface.contact.branch; turns > 0; --turns) to_place = {to_place.y, -to_place.x};  // the quadrant becomes the first
             if (to_place.x.sign() > 0 && to_place.y.sign() > 0) split_between(from, to, touch.feature);
-            from = to;
         }
     }
 }

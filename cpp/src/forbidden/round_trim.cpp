@@ -43,6 +43,20 @@ std::array<Feature, 2> RoundTrimmer::ends_of_quadrant() const {
     return limits;
 }
 
+// Spans of the range between angles that cut it, in any order.
+std::vector<Trimmer::Span> RoundTrimmer::spans_between(std::vector<Event> cuts) {
+    std::sort(cuts.begin(), cuts.end(), [&](const Event& p, const Event& q) { return decide.order(p, q) < 0; });
+    cuts.push_back(events[1]);
+    std::vector<Span> spans;
+    Index from = 0;
+    for (const Event& cut : cuts) {
+        if (decide.order(events[from], cut) == 0) continue;
+        spans.push_back({from, intern(cut)});
+        from = spans.back().to;
+    }
+    return spans;
+}
+
 // The directions of a quadrant in the cones of both vertices, between joints with the edges beside them and ends of the quadrant,
 // change only where two of these are parallel.
 std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
@@ -72,12 +86,8 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
                 for (const Feature& g : other)
                     if (g.kind == Kind::vertex_edge) add(decide.parallel_roots(f.robot, g.obstacle, events[0], events[1]));
         }
-    std::sort(cuts.begin(), cuts.end(), [&](const Event& p, const Event& q) { return decide.order(p, q) < 0; });
-    cuts.push_back(events[1]);
     const auto ends_here = ends_of_quadrant();
-    for (Index from = 0; const Event& cut : cuts) {
-        if (decide.order(events[from], cut) == 0) continue;
-        const Index to = intern(cut);
+    for (const auto& [from, to] : spans_between(std::move(cuts))) {
         const Sample at = decide.between(events[from], events[to]);
         using Direction = RoundOrders::Direction;
         const auto both = [&](const std::array<Feature, 2>& f) { return std::array{orders.direction(f[0], at), orders.direction(f[1], at)}; };
@@ -98,7 +108,6 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
         }
         if (limits[0] && limits[1] && orders.turn(orders.direction(*limits[0], at), orders.direction(*limits[1], at), at) > 0)
             areas.push_back({from, to, curve_of(*limits[0], false), curve_of(*limits[1], false), 0, 1});
-        from = to;
     }
     for (Area& area : areas) bounds(area);
     return areas;
@@ -358,16 +367,16 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
         watch_arc(pillar, far, out);
         return out;
     }
-    const auto reach = [&](int to) {  // 1 strictly to this side of the line, 0 if it touches this
+    const auto reaches = [&](int to) {  // true if some of it is strictly on this side of the line
         const Feature tangent = with_branch(circle, to);
-        const int ahead = sign_of(tangent, {}, at) * to;
-        out.watched.push_back({tangent, {}, ahead > 0 ? to : -to, ahead <= 0});
-        return ahead;
+        const bool is_beyond = sign_of(tangent, {}, at) * to > 0;
+        out.watched.push_back({tangent, {}, is_beyond ? to : -to, !is_beyond});
+        return is_beyond;
     };
     watch_arc(pillar, far, out);
     if (count > 0)
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
-    if (reach(side) <= 0 || (count == 0 && reach(-side) <= 0)) {
+    if (!reaches(side) || (count == 0 && !reaches(-side))) {
         if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
         return out;
     }
@@ -486,7 +495,6 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
                  watch_foot(k, k, 1) && watch_foot(k, k + 1, -1))
             cross_twice(name);
     }
-    bool is_apart = false;
     for (int k = 0; k < std::max(count, 1); ++k) {
         const Feature circle = pillar.circle(k);
         const int first = count > 0 ? of(2 * k - 1 + n) : 0, last = count > 0 ? of(2 * k) : 0;
@@ -499,18 +507,17 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
             cross_once(circle, last < 0);
             continue;
         }
-        const bool is_inside = first < 0;
         if (!watch(with_branch(circle, 1), {}, -1) || !watch(with_branch(circle, -1), {}, 1)) continue;
-        const int side = is_inside ? -1 : 1;
+        const int side = first < 0 ? -1 : 1;
         if (count > 0 && (!watch_foot(k - 1, k, side) || !watch_foot(k, k, -side))) continue;
-        if (!is_inside) cross_twice(circle);
-        else cross_once(circle, false), cross_once(circle, true);
+        cross_twice(circle);
     }
     if (!crossings.empty()) {
         clip(crossings, at, out);
         return out;
     }
     // all of the circle is inside, or outside: beyond an edge or an arc, or around the pillar
+    bool is_apart = false;
     for (int k = 0; k < count; ++k) {
         if (foot_sign(pillar, k, k, at) <= 0 || foot_sign(pillar, k, k + 1, at) >= 0) continue;
         is_apart |= sign_of(with_branch(pillar.edge(k).line, 1), {}, at) <= 0;
@@ -521,8 +528,7 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     }
     const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
                            (count == 0 && orders.compare_radius(pillar.circle(0)) > 0);
-    if (!is_apart && !is_around)
-        out.bands.push_back(quadrant());
+    if (!is_apart && !is_around) out.bands.push_back(quadrant());
     return out;
 }
 
@@ -577,15 +583,11 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
     if (is_covered) out.bands.push_back({from, seams[1]});
 }
 
-static bool is_same(const Feature& f, const Feature& g) {
-    return f.kind == g.kind && f.branch == g.branch && f.robot == g.robot && f.obstacle == g.obstacle;
-}
-
 // Narrow a span to the angles at which a state holds; false if the sample is critical.
 bool RoundTrimmer::narrow(Cover& cover, const Sample& sample, Span& span) {
     for (const Watch& w : cover.watched) {
         // an end of the span that is its own root has no other root beside it
-        const auto is_own = [&](const Event& x) { return x.fine < 0 && is_same(x.first, w.first) && is_same(x.second, w.second); };
+        const auto is_own = [&](const Event& x) { return x.fine < 0 && x.first == w.first && x.second == w.second; };
         const Event &from = events[span.from], &to = events[span.to];
         const double lo = is_own(from) ? from.hi : from.lo, hi = is_own(to) ? to.lo : to.hi;
         if (lo < hi && decide.event_sign_on(w.first, w.second, lo, hi) == w.sign) continue;
@@ -655,18 +657,15 @@ int RoundTrimmer::order_at(Index event, Index p, Index q) {
     const Code first = bare(e.first), second = bare(e.second), p_code = bare(x.feature), q_code = bare(y.feature);
     if (e.second.kind == Kind::none) {
         if (first == p_code && first == q_code) return 0;  // both branches, where the surface is touched
-    } else if (!(is_circle(e.second) && e.second.branch == 2) &&
+    } else if (!is_center(e.second) &&
                ((first == p_code && second == q_code) || (first == q_code && second == p_code))) {
         const auto is_pair = [&](const Feature& f, const Feature& g) { return code(scene, f) == x.code && code(scene, g) == y.code; };
         if (is_pair(e.first, e.second) || is_pair(e.second, e.first)) return 0;
         if (e.fine < 0 && orders.do_meet(x.feature, y.feature, e.lo, e.hi)) return 0;
     }
     if (const int sign = orders.order_on(x.feature, y.feature, e.lo, e.hi); sign != 0) return sign;
-    if (const auto& near = decide.narrowed(e)) {
-        Ball tau = ((*near)[0] + (*near)[1]) * Ball(0.5);
-        tau.radius = (std::abs((((*near)[1] - (*near)[0]) * Ball(0.5)).hi) + tau.radius) * (1 + 0x1p-40) + least_radius;
-        if (const auto sign = orders.order_in_balls(x.feature, y.feature, tau); sign && *sign != 0) return *sign;
-    }
+    if (const auto& near = decide.narrowed(e))
+        if (const auto sign = orders.order_in_balls(x.feature, y.feature, ball_around(*near)); sign && *sign != 0) return *sign;
     LongRoot root = decide.long_root_of(e);
     return orders.order_at(x.feature, y.feature, root);
 }

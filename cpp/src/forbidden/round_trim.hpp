@@ -86,6 +86,7 @@ private:
     std::array<Feature, 2> quadrant() const;
     std::array<Feature, 2> ends_of_quadrant() const;
     std::vector<Area> in_cones(const Feature& contact);
+    std::vector<Span> spans_between(std::vector<Event> cuts);
     bool crosses_at(const Band& band, Index event) override;
     int order_at(Index event, Index p, Index q) override;
     double extreme(const Curve& curve, double lo, double hi, bool want_max) const override;

@@ -70,16 +70,9 @@ void Shadows::around(Index j, const std::vector<Index>& pieces, double reach) {
     }
 }
 
-// An arc lies in the triangle of its ends and the intersection of its end tangents. For the angles of x and y, that point is
-// (1 - x y, x + y) / (1 + x y).
-Vec<double> Shadows::rotation(double x, double y) const {
-    const double w = slices.kappa / (1 + x * y);
-    return {(1 - x * y) * w, (x + y) * w};
-}
-
 // Octagons of all pieces at the point of the angles of x and y.
 void Shadows::turn_to(double x, double y, double sign, std::vector<Octagon>& out) const {
-    const Vec<double> R = rotation(x, y);
+    const Vec<double> R = slices.corner(x, y);
     const double cosine = R.x, sine = sign * R.y;
     out.clear();
     for (Index q = 0; q < turning->count(); ++q) {
@@ -265,7 +258,7 @@ bool Shadows::covers_helix(const Pillar& pillar, Index a, const Vec<double>& at)
     std::size_t witness = 0;
     for (int s = 0; s < slices.count; ++s) {
         const double from = slices.at[s], to = slices.at[s + 1];
-        const Vec<double> rotations[] = {rotation(from, to), rotation(from, from), rotation(to, to)};
+        const Vec<double> rotations[] = {slices.corner(from, to), slices.corner(from, from), slices.corner(to, to)};
         const auto stays = [&](std::size_t k) {
             return std::all_of(rotations, rotations + 3, [&](const Vec<double>& R) {
                 if (k < robot_count) {

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "cfree/forbidden/trim.hpp"
+#include "forbidden/octagon.hpp"
 
 namespace cfree {
 
@@ -40,24 +41,6 @@ public:
     Slices::Part part(const Pillar& pillar) const;
 
 private:
-    // Bounds of the values along and across, of their sum and of their difference.
-    struct Octagon {
-        static constexpr double infinity = std::numeric_limits<double>::infinity();
-        double low[4] = {infinity, infinity, infinity, infinity}, high[4] = {-infinity, -infinity, -infinity, -infinity};
-        void add(double along, double across) {
-            const double value[4] = {along, across, along + across, along - across};
-            for (int i = 0; i < 4; ++i) {
-                low[i] = value[i] < low[i] ? value[i] : low[i];
-                high[i] = high[i] < value[i] ? value[i] : high[i];
-            }
-        }
-        void add(const Octagon& o) {
-            for (int i = 0; i < 4; ++i) {
-                low[i] = o.low[i] < low[i] ? o.low[i] : low[i];
-                high[i] = high[i] < o.high[i] ? o.high[i] : high[i];
-            }
-        }
-    };
     struct Range {
         double low, high;
     };
@@ -81,7 +64,6 @@ private:
     void look(const Shape& shape, Index origin, Index piece, Side& side) const;
     void look_at_robot(Index origin, Side& side) const;
     void stand(const Shape& shape, Index edge, bool of_robot, Standing& out) const;
-    Vec<double> rotation(double x, double y) const;
     void turn(double sign, double slack);
     void turn_to(double x, double y, double sign, std::vector<Octagon>& out) const;
     bool covers_helix(const Pillar& pillar, Index robot_vertex, const Vec<double>& at);

@@ -103,14 +103,13 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         const RoundPoints points(scene, surface.chart);
         const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
         const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
-        const Ball y = low.y + Ball(0.5 + (attempt % 5 - 2) * 0.125) * (high.y - low.y);
-        if (!((high.y - low.y).hi != 0)) return {};
+        const Ball rise = high.y - low.y, y = low.y + Ball(0.5 + (attempt % 5 - 2) * 0.125) * rise;
+        if (rise.hi == 0) return {};
         const Ball x = points.crossing(surface.contact, low, high, y, tau);
-        const bool rises = (high.y - low.y).hi > 0;
         const auto pose_at = [&](double by) {
             return exact_pose(x + Ball(by), y, scene.shift, surface.chart, tau);
         };
-        double step = (std::abs((high.x - low.x).hi) + std::abs((high.y - low.y).hi)) * 0.25;
+        double step = (std::abs((high.x - low.x).hi) + std::abs(rise.hi)) * 0.25;
         for (int smaller = 0; smaller < 50; ++smaller, step *= 0.25) {
             const ExactPose q = pose_at(-step);
             const Nearby left = look_among_grown(q), right = look_among_grown(pose_at(step));
@@ -119,7 +118,7 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
             std::sort(before.begin(), before.end()), std::sort(after.begin(), after.end());
             std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(passed));
             if (before.size() + passed.size() != after.size()) continue;
-            if (passed == std::vector{k}) return Ray{q, k, rises, std::move(before)};
+            if (passed == std::vector{k}) return Ray{q, k, rise.hi > 0, std::move(before)};
         }
         return {};
     };

@@ -30,10 +30,7 @@ namespace {
 Ruled ruled(const Boundary& boundary, Index trapezoid) {
     const Feature contact = boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(trapezoid)]);
     ContactLine<double> l(*boundary.scene, contact, Places{*boundary.scene});
-    if (boundary.scene->is_round) {  // moved outwards
-        const double scale = sum_of_radii(*boundary.scene, contact) * boundary.scene->unit() / norm(l.E.x, l.E.y);
-        (l.on_edge ? l.b : l.a) = (l.on_edge ? l.b : l.a) - Vec<double>{-scale * l.E.y, scale * l.E.x};
-    }
+    if (boundary.scene->is_round) move_outwards(l, sum_of_radii(*boundary.scene, contact) * boundary.scene->unit());
     if (l.on_edge) return {l.b.x, l.b.y, l.E.x, l.E.y, l.a.x, l.a.y, 0, 0};
     return {l.b.x, l.b.y, 0, 0, l.a.x, l.a.y, l.E.x, l.E.y};
 }
@@ -202,10 +199,10 @@ private:
         const auto v = static_cast<std::size_t>(cells.vertex[static_cast<std::size_t>(h)]);
         const auto [c, s] = cosine_sine(cells.theta[v]);
         const Scene& scene = *cells.boundary->scene;
-        const Complex x{cells.xy[2 * v] + (0 - (c * scene.frame[2] - s * scene.frame[3])),
-                        cells.xy[2 * v + 1] + (0 - (s * scene.frame[2] + c * scene.frame[3]))};
+        const Complex x{cells.xy[2 * v] - (c * scene.frame[2] - s * scene.frame[3]),
+                        cells.xy[2 * v + 1] - (s * scene.frame[2] + c * scene.frame[3])};
         const Complex u = x - (b - Complex{c, s} * a);
-        return 0.25 * pi + std::remainder(std::arg(u) - begin - 0.25 * pi, 2 * pi);
+        return in_quadrant(std::arg(u) - begin);
     }
     // Geodesic curvature along an arc at one orientation.
     Integral along_arc(double phi, double start, double stop) const {

@@ -12,9 +12,8 @@ namespace cfree {
 namespace {
 
 constexpr double golden = std::numbers::phi;
-constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles per unit of w du dphi / error
-constexpr double rim_gap = 0.1;                       // least distance of points from the rim, in units of the lattice
-constexpr double rim_cost = 1.1;                      // measured extra triangles per unit of the rim
+constexpr double rim_gap = 0.1;   // least distance of points from the rim, in units of the lattice
+constexpr double rim_cost = 1.1;  // measured extra triangles per unit of the rim
 
 class Lattice {
 public:

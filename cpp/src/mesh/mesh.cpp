@@ -79,6 +79,7 @@ private:
 
     void lay_out();
     std::optional<Wanted> wanted_by_neighbours(Index f) const;
+    bool is_of_digon(Index edge) const;  // a face with two sides has it
     Samples samples_of_curve(Index edge) const;
     Samples samples_of_side(Index edge) const;
     Samples samples_of_round_curve(Index edge) const;
@@ -109,17 +110,23 @@ private:
     FaceMesher<Face> filler;
 };
 
+template <class Face>
+bool Mesher<Face>::is_of_digon(Index edge) const {
+    return std::any_of(order.begin() + start[edge], order.begin() + start[edge + 1], [&](Index h) {
+        const Index f = in.face[h];
+        return in.first[f + 1] - in.first[f] == 2;
+    });
+}
+
 // Samples of a curve: angles at which the rows of one of the faces end, with others between them if the curve bends too much,
 // or if a face's bound forbids the chord, and so every triangle with it.
 template <class Face>
 typename Mesher<Face>::Samples Mesher<Face>::samples_of_curve(Index edge) const {
     const Index first = order[start[edge]];
     const double a = std::min(angle(first), angle(after(first))), b = std::max(angle(first), angle(after(first)));
-    bool is_digon = false;
     Samples stops;
     for (Index k = start[edge]; k < start[edge + 1]; ++k) {
         const Index f = in.face[order[k]];
-        is_digon = is_digon || in.first[f + 1] - in.first[f] == 2;
         Samples ends;
         const auto& of = layouts[f].stops[in.side[order[k]] == 1];
         const double near_by = nearest_part * (mesh_faces[f].to - mesh_faces[f].from) / static_cast<double>(of.size() + 1);
@@ -169,7 +176,7 @@ typename Mesher<Face>::Samples Mesher<Face>::samples_of_curve(Index edge) const 
             samples.push_back(at += step);
         }
     }
-    if (samples.empty() && is_digon) samples.push_back(0.5 * (a + b));
+    if (samples.empty() && is_of_digon(edge)) samples.push_back(0.5 * (a + b));
     return samples;
 }
 
@@ -180,7 +187,6 @@ typename Mesher<Face>::Samples Mesher<Face>::samples_of_round_curve(Index edge) 
     const bool rises = angle(first) < angle(after(first));
     const Index low = rises ? first : after(first), high = rises ? after(first) : first;
     const double a = angle(low), b = angle(high);
-    bool is_digon = false;
     const auto is_close = [&](double from, double to) {
         return std::all_of(order.begin() + start[edge], order.begin() + start[edge + 1], [&](Index h) {
             const Face& sheet = mesh_faces[in.face[h]];
@@ -195,10 +201,6 @@ typename Mesher<Face>::Samples Mesher<Face>::samples_of_round_curve(Index edge) 
             return sheet.is_close(corner(from), corner(to), upper);
         });
     };
-    for (Index k = start[edge]; k < start[edge + 1]; ++k) {
-        const Index f = in.face[order[k]];
-        is_digon = is_digon || in.first[f + 1] - in.first[f] == 2;
-    }
     Samples samples;
     constexpr double least_step = 1e-11;  // then doubles tell too little of the curve
     double step = std::min(most_turn, b - a);
@@ -210,7 +212,7 @@ typename Mesher<Face>::Samples Mesher<Face>::samples_of_round_curve(Index edge) 
         if (step >= b - at - least_step) break;
         samples.push_back(at += std::max(step, least_step));
     }
-    if (samples.empty() && is_digon) samples.push_back(0.5 * (a + b));
+    if (samples.empty() && is_of_digon(edge)) samples.push_back(0.5 * (a + b));
     return samples;
 }
 

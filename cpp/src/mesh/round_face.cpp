@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "cfree/mesh/layout.hpp"
 #include "cfree/support/elementary.hpp"
 #include "predicates/round_surfaces.hpp"
 
@@ -28,15 +29,14 @@ RoundFace::RoundFace(const Places& places, const Feature& on, const Feature& low
     }
     a = places.a(on.robot), b = places.b(on.obstacle);
     radius = sum_of_radii(places.scene, on) * places.scene.unit(), begin = 0.5 * pi * on.branch;
-    // usual_stretch is the height of phi over u: errors are radius ds^2 + |a| dphi^2
-    constexpr double usual = 1.6;
-    unit = std::clamp(std::sqrt(std::abs(a) / radius), 0.1, 10.0) / (usual * usual);
+    // errors are radius ds^2 + |a| dphi^2
+    unit = std::clamp(std::sqrt(std::abs(a) / radius), 0.1, 10.0) / (usual_stretch * usual_stretch);
 }
 
 double RoundFace::position(Complex x, double phi) const {
     if (line) return line->position(x, phi);
     const Complex u = x - (b - std::polar(1.0, phi) * a);
-    return 0.25 * pi + std::remainder(std::arg(u) - begin - 0.25 * pi, 2 * pi);
+    return in_quadrant(std::arg(u) - begin);
 }
 
 Complex RoundFace::at(double s, double phi) const {
@@ -91,7 +91,6 @@ double RoundFace::least() const {
         const double phi = from + (k + 0.5) * (to - from) / parts;
         sum += std::max(0.0, u_at(curves[1], phi) - u_at(curves[0], phi));
     }
-    constexpr double best_density = 0.21650635094610965;  // as in lattice.cpp
     return best_density * w * (to - from) * sum / parts / eps;
 }
 

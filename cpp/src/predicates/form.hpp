@@ -70,6 +70,12 @@ Coefficients<T> derivative(const Coefficients<T>& p) {
     return {{p.c[1], p.c[2] + p.c[2]}, 3};
 }
 
+// True if the two roots of a quadratic may be equal, so that halving would not separate them.
+inline bool may_touch(const Filtered& p) {
+    const double A = p.a - p.b, B = p.c, C = p.a + p.b;
+    return std::abs(B * B - A * C) <= 4 * p.err * (std::abs(A) + std::abs(B) + std::abs(C));
+}
+
 // A quadratic p, or the quartic p q - r s, in doubles.
 struct Predicates::Form : Terms<Filtered> {
     struct Value {
@@ -119,12 +125,7 @@ struct Predicates::Form : Terms<Filtered> {
     }
     // Place between two close roots: left to halving.
     std::optional<double> extremum(double, double) const { return {}; }
-    // True if its two roots may be equal, so that halving would not separate them.
-    bool may_touch() const {
-        if (degree != 2) return false;
-        const double A = p.a - p.b, B = p.c, C = p.a + p.b;
-        return std::abs(B * B - A * C) <= 4 * p.err * (std::abs(A) + std::abs(B) + std::abs(C));
-    }
+    bool may_touch() const { return degree == 2 && cfree::may_touch(p); }
     int sign(double t) const {
         const Value value = at(t);
         return value.v > value.err ? 1 : value.v < -value.err ? -1 : 0;

@@ -79,20 +79,8 @@ struct RoundForm {
         }
         for (int n = 0; n <= degree; ++n) sign[n] = sum[n] > err ? 1 : sum[n] < -err ? -1 : 0;
     }
-    // Its sign on the whole closed interval, 0 if not certain
-    int sign_on(double lo, double hi) const {
-        int each[7], sum = 0;
-        signs(lo, hi, each);
-        for (int i = 0; i <= degree; ++i) sum += each[i];
-        return std::abs(sum) <= degree ? 0 : sum > 0 ? 1 : -1;
-    }
     std::optional<double> extremum(double, double) const { return {}; }
-    // True if its two roots may be equal, so that halving would not separate them.
-    bool may_touch() const {
-        if (degree != 2) return false;
-        const double A = p.a - p.b, B = p.c, C = p.a + p.b;
-        return std::abs(B * B - A * C) <= 4 * p.err * (std::abs(A) + std::abs(B) + std::abs(C));
-    }
+    bool may_touch() const { return degree == 2 && cfree::may_touch(p); }
 };
 
 }  // namespace cfree

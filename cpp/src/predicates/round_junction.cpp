@@ -38,8 +38,7 @@ void RoundJunction::know_meeting(const Feature& on, const Feature& first, const 
     MeetingNames::Name name{code(scene, on), code(scene, first), code(scene, second)};
     std::sort(name.begin(), name.end());
     known.insert(name);
-    const bool is_foot = is_circle(second) && second.branch == 2;
-    if (!is_foot) meetings.push_back({bare_name(scene, {on, first, second}), from, to});
+    if (!is_center(second)) meetings.push_back({bare_name(scene, {on, first, second}), from, to});
 }
 
 // True if t is the same on both.
@@ -57,6 +56,19 @@ bool RoundJunction::do_cross(const Spot& p, const Spot& q) const {
     return meeting != meetings.end() && RoundOrders(scene, {on, chart}).do_meet(p.curve, q.curve, meeting->lo, meeting->hi);
 }
 
+// A v-e and an e-v line.
+static std::array<Feature, 2> by_kind(const Feature& x, const Feature& y) {
+    return x.kind == Kind::vertex_edge ? std::array{x, y} : std::array{y, x};
+}
+
+// Circle with which two lines of different kinds are smooth, if they are one here: then they meet in their joint with it.
+std::optional<Feature> RoundJunction::common_circle(const Feature& x, const Feature& y) {
+    const auto [ve, ev] = by_kind(x, y);
+    const Feature circle{Kind::vertex_vertex, ve.robot, ev.obstacle};
+    const bool is_common = is_smooth(scene, ve, circle) && is_smooth(scene, ev, circle) && parallel(x, y) > 0;
+    return is_common ? std::optional(circle) : std::nullopt;
+}
+
 // True if two lines are one here, because edges known to be parallel join their contacts.
 bool RoundJunction::are_one_line(const Feature& x, const Feature& y) {
     const Shape &A = scene.robot, &O = scene.obstacles;
@@ -65,9 +77,8 @@ bool RoundJunction::are_one_line(const Feature& x, const Feature& y) {
         return (s.point[s.v[e]] == s.point[v] && s.point[s.w[e]] == s.point[w]) || (s.point[s.v[e]] == s.point[w] && s.point[s.w[e]] == s.point[v]);
     };
     if (x.kind != y.kind) {
-        const Feature &ve = x.kind == Kind::vertex_edge ? x : y, &ev = x.kind == Kind::vertex_edge ? y : x;
-        const Feature circle{Kind::vertex_vertex, ve.robot, ev.obstacle};
-        return are_parallel(ev.robot, ve.obstacle) && is_smooth(scene, ve, circle) && is_smooth(scene, ev, circle) && parallel(x, y) > 0;
+        const auto [ve, ev] = by_kind(x, y);
+        return are_parallel(ev.robot, ve.obstacle) && common_circle(x, y);
     }
     const bool of_vertex = x.kind == Kind::vertex_edge;
     const Shape& turning = of_vertex ? A : O;
@@ -105,7 +116,7 @@ bool RoundJunction::is_known(const Feature& surface, const Spot& p, const Spot& 
     if (known.contains(name) || do_cross(p, q)) return true;
     if (!is_circle(surface) || !is_smooth(scene, p.curve, surface) || !is_smooth(scene, q.curve, surface)) return false;
     if (p.curve.kind == q.curve.kind) return false;
-    const Feature &ve = p.curve.kind == Kind::vertex_edge ? p.curve : q.curve, &ev = p.curve.kind == Kind::vertex_edge ? q.curve : p.curve;
+    const auto [ve, ev] = by_kind(p.curve, q.curve);
     return known.contains({0, 0, code(scene, {Kind::edge_edge, ev.robot, ve.obstacle})});
 }
 
@@ -114,11 +125,7 @@ std::optional<Ball> RoundJunction::near_ball() {
     if (lo == hi) return Ball(lo);
     if (!narrow) return {};
     if (!bracket) bracket = narrow();
-    if (!*bracket) return {};
-    const auto& [below, above] = **bracket;
-    Ball middle = (below + above) * Ball(0.5);
-    middle.radius = (std::abs(((above - below) * Ball(0.5)).hi) + middle.radius) * (1 + 0x1p-40) + least_radius;
-    return middle;
+    return *bracket ? std::optional(ball_around(**bracket)) : std::nullopt;
 }
 
 LongRoot& RoundJunction::here() {
@@ -136,7 +143,7 @@ int RoundJunction::sign(const F& form) {
 
 int RoundJunction::turn(const Feature& x, const Feature& y) {
     if (x.kind != y.kind) {
-        const Feature &ve = x.kind == Kind::vertex_edge ? x : y, &ev = x.kind == Kind::vertex_edge ? y : x;
+        const auto [ve, ev] = by_kind(x, y);
         const Code name = code(scene, {Kind::edge_edge, ev.robot, ve.obstacle});
         if (known.contains({0, 0, name})) return 0;
         const int found = sign([&]<class K>(const RoundSurfaces<K>& of) { return cross(of.along(x), of.along(y)); });
@@ -189,12 +196,8 @@ RoundSpot RoundJunction::spot(const Feature& on, const Feature& curve, bool is_a
         result.jumps = are_one_circle(on, circle);
     }
     if (is_line(on) && is_line(curve)) result.is_limit = turn(on, curve) == 0;
-    if (result.is_limit && on.kind != curve.kind) {  // tangents of one circle, which become one, meet in their joint with it
-        const Feature &ve = on.kind == Kind::vertex_edge ? on : curve, &ev = on.kind == Kind::vertex_edge ? curve : on;
-        const Feature circle{Kind::vertex_vertex, ve.robot, ev.obstacle};
-        if (is_smooth(scene, ve, circle) && is_smooth(scene, ev, circle) && parallel(on, curve) > 0)
-            result.curve = circle, result.code = code(scene, circle), result.is_limit = false;
-    }
+    if (result.is_limit && on.kind != curve.kind)
+        if (const auto circle = common_circle(on, curve)) result.curve = *circle, result.code = code(scene, *circle), result.is_limit = false;
     return result;
 }
 
@@ -263,19 +266,6 @@ double RoundJunction::value(const Feature& surface, const Spot& p) {
     return std::clamp(along_end / (1 + along_start), 0.0, 1.0);
 }
 
-// Order in balls, if certain; also if it is certainly 0.
-std::optional<int> RoundJunction::order_in_balls(const Feature& surface, const Spot& p, const Spot& q, const Ball& tau) const {
-    const InBalls in(tau, kappa);
-    const auto x = place<Ball>(surface, p, 0, in), y = place<Ball>(surface, q, 0, in);
-    const auto first = certain_sign(x.c), second = certain_sign(y.c);
-    if (!first || !second) return {};
-    Ball difference = x.a * y.c - y.a * x.c;
-    if (x.has_root) difference = difference + x.b * y.c * sqrt(x.d);
-    if (y.has_root) difference = difference - y.b * x.c * sqrt(y.d);
-    const auto sign = certain_sign(difference);
-    return sign ? std::optional(*sign * *first * *second) : std::nullopt;
-}
-
 int RoundJunction::order(const Feature& surface, const Spot& p, const Spot& q) {
     if (p.code == q.code && !p.given && !q.given && !p.jumps && code(scene, p.on) == code(scene, q.on)) return 0;
     if (!p.jumps && !q.jumps && !p.given && !q.given && are_one_curve(p, q)) return 0;
@@ -290,8 +280,10 @@ int RoundJunction::order(const Feature& surface, const Spot& p, const Spot& q) {
     const bool is_of_crossing = !p.jumps && !q.jumps && !p.is_limit && !q.is_limit;
     if (is_of_crossing && !p.given && !q.given && is_known(surface, p, q)) return 0;
     if (!p.jumps && !q.jumps)
-        if (const auto tau = near_ball())
-            if (const auto sign = order_in_balls(surface, p, q, *tau)) return *sign;
+        if (const auto tau = near_ball()) {
+            const InBalls in(*tau, kappa);
+            if (const auto sign = certain_order(place<Ball>(surface, p, 0, in), place<Ball>(surface, q, 0, in))) return *sign;
+        }
     const auto x = place_exactly(surface, p, 0), y = place_exactly(surface, q, 0);
     const Radicals difference{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}};
     return sign_at(difference, here()) * sign_at(x.c, here()) * sign_at(y.c, here());

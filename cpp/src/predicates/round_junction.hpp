@@ -69,7 +69,7 @@ private:
     std::optional<LongRoot> root;  // computed when needed, as the next
     std::optional<std::optional<Predicates::Bracket>> bracket;
     std::optional<Ball> near_ball();
-    std::optional<int> order_in_balls(const Feature& surface, const Spot& p, const Spot& q, const Ball& tau) const;
+    std::optional<Feature> common_circle(const Feature& x, const Feature& y);
     bool are_one_line(const Feature& x, const Feature& y);
     bool are_one_curve(const Spot& p, const Spot& q);
     bool is_known(const Feature& surface, const Spot& p, const Spot& q) const;

@@ -37,14 +37,6 @@ struct AsBallPoly {
     }
 };
 
-// Sign of (A + b sqrt(d)) - (...), in balls, if certain: p - q of two places.
-std::optional<int> sign_of_difference(const Ball& a, const Ball& b, const Ball& d, const Ball& c, const Ball& e) {
-    Ball sum = a;
-    if (certain_sign(b) != 0) sum = sum + b * sqrt(d);
-    if (certain_sign(c) != 0) sum = sum + c * sqrt(e);
-    return certain_sign(sum);
-}
-
 }  // namespace
 
 int RoundOrders::compare_radius(const Feature& circle) const {
@@ -66,9 +58,7 @@ std::array<double, 2> RoundOrders::range(const Feature& f, double lo, double hi)
 
 const std::optional<Bounds>& RoundOrders::kept_range(const Feature& f, int axis, const Between& in) const {
     for (const Kept& k : kept)
-        if (k.axis == axis && k.lo == in.lo && k.hi == in.hi && k.curve.kind == f.kind && k.curve.branch == f.branch &&
-            k.curve.robot == f.robot && k.curve.obstacle == f.obstacle)
-            return k.range;
+        if (k.axis == axis && k.lo == in.lo && k.hi == in.hi && k.curve == f) return k.range;
     Kept& result = kept[next++ % kept.size()];
     result = {f, axis, in.lo, in.hi, range_of(place<Approx>(f, axis, in))};
     return result.range;
@@ -87,11 +77,8 @@ int RoundOrders::order_on(const Feature& p, const Feature& q, double lo, double 
 std::optional<int> RoundOrders::order_in_balls(const Feature& p, const Feature& q, const Ball& tau) const {
     const InBalls in(tau, kappa);
     for (int axis = 0; axis < (is_line(surface.contact) ? 1 : 2); ++axis) {
-        const auto x = place<Ball>(p, axis, in), y = place<Ball>(q, axis, in);
-        const auto first = certain_sign(x.c), second = certain_sign(y.c);
-        if (!first || !second) continue;
-        const auto sign = sign_of_difference(x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d);
-        if (sign) return *sign * *first * *second;
+        const auto sign = certain_order(place<Ball>(p, axis, in), place<Ball>(q, axis, in));
+        if (sign) return sign;
     }
     return {};
 }
@@ -106,6 +93,10 @@ int RoundOrders::order_at(const Feature& p, const Feature& q, const Sample& at) 
     const Between near = around(at);
     if (const int sign = order_on(p, q, near.lo, near.hi); sign != 0) return sign;
     if (const auto sign = order_in_balls(p, q, at.ball())) return *sign;
+    return order_exactly(p, q, at);
+}
+
+int RoundOrders::order_exactly(const Feature& p, const Feature& q, const Sample& at) const {
     const Difference d = difference(p, q);
     const Dyadic tau = at.exact();
     return sign_at(d.value, tau) * sign_at(d.first, tau) * sign_at(d.second, tau);
@@ -148,19 +139,17 @@ int RoundOrders::turn(const Direction& d, const Direction& e, const Sample& at) 
 int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Sample& at) const {
     if (const auto range = range_of(place<Approx>(curve, axis, around(at))))
         if (range->lo > 0 || range->hi < 0) return range->lo > 0 ? 1 : -1;
-    const auto in_balls = place<Ball>(curve, axis, InBalls(at.ball(), kappa));
-    const auto sign = sign_of_difference(in_balls.a, in_balls.b, in_balls.d, {}, {}), below = certain_sign(in_balls.c);
-    if (sign && below) return *sign * *below;
+    const Ball zero = 0.0, one = 1.0;
+    if (const auto sign = certain_order(place<Ball>(curve, axis, InBalls(at.ball(), kappa)), {zero, zero, zero, one, false})) return *sign;
     const auto x = place<RootSum>(curve, axis, AsSurdPoly{kappa});
     const Dyadic tau = at.exact();
     return sign_at(Radicals{x.a, x.b, x.d, {}, {}, {}}, tau) * sign_at(x.c, tau);
 }
 
 bool RoundOrders::do_meet(const Feature& p, const Feature& q, double lo, double hi) const {
-    const Feature &line = is_line(p) ? p : q, &circle = is_line(p) ? q : p;
-    if (is_smooth(scene, line, circle)) {
-        const auto branch = joint_branch(line, circle, lo, hi);
-        return branch && circle.branch == *branch && (is_line(surface.contact) || line.branch == *branch);
+    if (const auto line = line_of_joint(scene, p, q)) {
+        const auto branch = joint_branch(*line, is_circle(p) ? p : q, lo, hi);
+        return branch && are_on(*branch, p, q);
     }
     for (const Feature* f : {&p, &q}) {
         const auto x = place<Approx>(*f, 0, Between{lo, hi, kappa});
@@ -199,7 +188,7 @@ std::optional<Trig<K>> RoundOrders::quadratic(const Feature& first, const Featur
     if (first.kind == Kind::edge_edge)
         return Predicates::parallel_trig(edge<K>(scene.robot, first.robot), edge<K>(scene.obstacles, first.obstacle));
     if (second.kind == Kind::none) return of.tangency(surface.contact, first, first.branch);
-    if (second.branch == 2 && is_circle(second)) {  // see Event
+    if (is_center(second)) {
         if (is_line(first)) return dot(of.along(first), of.between(surface.contact, second));
         if (is_line(surface.contact)) return dot(of.along(surface.contact), of.between(first, second));
         return cross(of.between(first, surface.contact), of.between(second, surface.contact));

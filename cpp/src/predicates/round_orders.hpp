@@ -18,18 +18,24 @@ public:
     int compare_radius(const Feature& circle) const;
     // Bounds of a curve's place between two angles, or of all.
     std::array<double, 2> range(const Feature& curve, double lo, double hi) const;
-    // Sign of p - q at an angle, in balls if that is certain; and at a sample.
+    // Sign of p - q at an angle, in balls if that is certain; exactly at a sample; and by whichever decides it first.
     std::optional<int> order_in_balls(const Feature& p, const Feature& q, const Ball& tau) const;
+    int order_exactly(const Feature& p, const Feature& q, const Sample& at) const;
     int order_at(const Feature& p, const Feature& q, const Sample& at) const;
-    // True if the two curves certainly meet between two angles: they go through one another; or, if one is smooth with the other, their
-    // joint is on the surface there, and they are on its branch.
+    // True if the two curves certainly meet between two angles: they go through one another; or, if they have a joint at every
+    // angle, it is on the surface there, and they are on its branch.
     bool do_meet(const Feature& p, const Feature& q, double lo, double hi) const;
-    // True if the two curves meet at a root of the polynomial of their surfaces.
+    // True if two curves without a joint meet at a root of the polynomial of their surfaces.
     bool meet_at(const Feature& p, const Feature& q, LongRoot& root) const;
     // Branch on which a line and a circle that is smooth with it go through their joint where that is on the surface, if it
     // is certain everywhere between two angles; and at a root.
     std::optional<int> joint_branch(const Feature& line, const Feature& circle, double lo, double hi) const;
     int joint_branch(const Feature& line, const Feature& circle, LongRoot& root) const;
+    // True if both curves are on a branch; a line meets a line only once.
+    bool are_on(int branch, const Feature& p, const Feature& q) const {
+        const auto is_there = [&](const Feature& f) { return f.branch == branch || (is_line(f) && is_line(surface.contact)); };
+        return is_there(p) && is_there(q);
+    }
 
     // Sign at a root of p - q, places at which no denominator is zero there.
     int order_at(const Feature& p, const Feature& q, LongRoot& root) const;
@@ -45,11 +51,11 @@ public:
     // Sign at a sample of a coordinate of a curve on a circle, see `place`.
     int coordinate_sign(const Feature& curve, int axis, const Sample& at) const;
 
-    // Polynomial of an event's features, times a power of 1 + tau^2.
     // True if the polynomials of two events are quadratics, and equal up to a factor.
     bool are_proportional(const Event& x, const Event& y) const;
     // Sign at a double of the event of a line and a circle at its end, 0 if not certain.
     int joint_sign(const Feature& line, const Feature& circle, double tau) const;
+    // Polynomial of an event's features, times a power of 1 + tau^2.
     RoundForm form(const Feature& first, const Feature& second) const;  // in doubles
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
     SurdPoly exactly(const Feature& first, const Feature& second) const;

@@ -172,6 +172,26 @@ PlanePoint<V> plane_point(const Scene& scene, const Feature& x, const CurvePlace
     return {coordinate(0), coordinate(1), t.d, constant(whole<K>(1)) * t.c, t.has_root};
 }
 
+// Order of two places, if it is certain.
+inline std::optional<int> certain_order(const CurvePlace<Ball>& x, const CurvePlace<Ball>& y) {
+    const auto first = certain_sign(x.c), second = certain_sign(y.c);
+    if (!first || !second) return {};
+    const Ball b = x.b * y.c, c = y.b * x.c;
+    Ball difference = x.a * y.c - y.a * x.c;
+    if (certain_sign(b) != 0) difference = difference + b * sqrt(x.d);
+    if (certain_sign(c) != 0) difference = difference - c * sqrt(y.d);
+    const auto sign = certain_sign(difference);
+    return sign ? std::optional(*sign * *first * *second) : std::nullopt;
+}
+
+// Ball around an angle.
+inline Ball ball_around(const Predicates::Bracket& bracket) {
+    const auto& [below, above] = bracket;
+    Ball middle = (below + above) * Ball(0.5);
+    middle.radius = (std::abs(((above - below) * Ball(0.5)).hi) + middle.radius) * (1 + 0x1p-40) + least_radius;
+    return middle;
+}
+
 // Range of a place, if its denominator is certain.
 template <class Place>
 std::optional<Bounds> range_of(Place x) {

@@ -94,7 +94,7 @@ bool Predicates::is_same_round(const Event& x, const Event& y) const {
     };
     const auto names = [&](const Event& e) -> Names {
         Feature first = e.first, second = e.second;
-        if (second.kind != Kind::none && !(is_circle(second) && second.branch == 2)) {
+        if (second.kind != Kind::none && !is_center(second)) {
             if (first.kind != Kind::seam) first.branch = 0;
             if (second.kind != Kind::seam) second.branch = 0;
         }
@@ -117,12 +117,32 @@ bool Predicates::meet_at(const Feature& p, const Feature& q, const Event& x) con
             LongRoot root = long_root_of(x);
             branch = orders.joint_branch(*line, circle, root);
         }
-        const auto is_there = [&](const Feature& f) { return f.branch == *branch || (is_line(f) && is_line(surface.contact)); };
-        return is_there(p) && is_there(q);
+        return orders.are_on(*branch, p, q);
     }
     if (x.fine < 0 && orders.order_on(p, q, x.lo, x.hi) != 0) return false;
     LongRoot root = long_root_of(x);
     return orders.meet_at(p, q, root);
+}
+
+// A branch of the one curve may meet a branch of the other at every angle. Which does changes only where surfaces touch, or where
+// all that the curves have in common with the surface is two points. These angles are in order.
+std::vector<Event> Predicates::changes_of_branch(const Feature& p, const Feature& q, const Event& from, const Event& to) {
+    std::vector<Event> found;
+    const auto add = [&](Feature first, int branch, const Feature& second) {
+        first.branch = static_cast<std::int8_t>(branch);
+        const Roots roots = event_roots(first, second, from, to);
+        found.insert(found.end(), roots.at.begin(), roots.at.end());
+    };
+    for (const Feature& f : {p, q}) {
+        if (!(is_circle(f) || is_circle(surface.contact)) || f.kind == Kind::seam || line_of_joint(scene, f, surface.contact)) continue;
+        add(f, 1, {}), add(f, -1, {});
+    }
+    if (is_circle(p) || is_circle(q)) {
+        const Feature &first = is_circle(q) ? p : q, &center = is_circle(q) ? q : p;
+        if (is_circle(first) || is_circle(surface.contact)) add(first, 0, {Kind::vertex_vertex, center.robot, center.obstacle, 2});
+    }
+    std::sort(found.begin(), found.end(), [&](const Event& x, const Event& y) { return order(x, y) < 0; });
+    return found;
 }
 
 Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, const Event& from, const Event& to) {
@@ -137,30 +157,11 @@ Predicates::Order Predicates::compare_round(const Feature& p, const Feature& q, 
         if (!at.fine)
             if (const int sign = orders.order_on(p, q, at.tau, at.tau); sign != 0) return ++counters.filter, sign;
         if (const auto sign = orders.order_in_balls(p, q, at.ball())) return ++counters.interval, *sign;
-        return ++counters.exact, orders.order_at(p, q, at);
+        return ++counters.exact, orders.order_exactly(p, q, at);
     };
     int last = 0;
-    if (all.all_zero) {  // a branch of the one meets a branch of the other everywhere; which does changes where
-                         // surfaces touch
-        std::vector<Event> cuts;
-        for (const Feature& f : {p, q}) {
-            if (!(is_circle(f) || is_circle(surface.contact)) || f.kind == Kind::seam || line_of_joint(scene, f, surface.contact)) continue;
-            for (const int side : {1, -1}) {
-                Feature touching = f;
-                touching.branch = static_cast<std::int8_t>(side);
-                const Roots touches = event_roots(touching, {}, from, to);
-                cuts.insert(cuts.end(), touches.at.begin(), touches.at.end());
-            }
-        }
-        if (is_circle(p) || is_circle(q)) {  // or where all they have in common with the surface is two points
-            Feature first = is_circle(q) ? p : q, second = is_circle(q) ? q : p;
-            first.branch = 0, second.branch = 2;
-            if (is_circle(first) || is_circle(surface.contact)) {
-                const Roots centres = event_roots(first, second, from, to);
-                cuts.insert(cuts.end(), centres.at.begin(), centres.at.end());
-            }
-        }
-        std::sort(cuts.begin(), cuts.end(), [&](const Event& x, const Event& y) { return order(x, y) < 0; });
+    if (all.all_zero) {
+        std::vector<Event> cuts = changes_of_branch(p, q, from, to);
         cuts.push_back(to);
         for (std::size_t k = 0; k < cuts.size(); ++k) {
             const Event& before = k == 0 ? from : cuts[k - 1];

@@ -28,6 +28,7 @@ struct Site {
 
 inline bool is_line(const Feature& f) { return f.kind == Kind::vertex_edge || f.kind == Kind::edge_vertex; }
 inline bool is_circle(const Feature& f) { return f.kind == Kind::vertex_vertex; }
+inline bool is_center(const Feature& f) { return is_circle(f) && f.branch == 2; }  // as the second feature of an event
 
 // End of an edge, 0 or 1, where its line touches a vertex's circle; -1 if that is at none.
 inline int end_at(const Shape& s, Index e, Index vertex) {

@@ -321,7 +321,7 @@ std::vector<std::pair<Int, Int>> add_radii(Shape& s, Builder& from, const Points
         const Index v = s.v[e], w = s.w[e];
         if (points.same(v, w)) continue;
         const Vec<Int> E{points.X[w] - points.X[v], points.Y[w] - points.Y[v]};
-        const Int divisor = gcd(abs(E.x), abs(E.y)), &radius = s.radii[s.vertex_radius[v]].exact;
+        const Int divisor = gcd(abs(E.x), abs(E.y)), &radius = s.radius_of(v).exact;
         const Vec<Int> D{E.x / divisor, E.y / divisor};
         const Int square = dot(D, D), root = root_below(square), offset = cross(Vec<Int>{points.X[v], points.Y[v]}, D);
         const bool is_rational = root * root == square;

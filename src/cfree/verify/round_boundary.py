@@ -21,15 +21,13 @@ from cfree.scene.rounded import Cores, rounded_shapes
 from cfree.scene.scene import Scene
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.round_algebra import Turn, precision
-from cfree.verify.round_closure import loose
 from cfree.verify.round_inside import largest_radius
 from cfree.verify.round_pieces import Piece, Reader, Scale
 from cfree.verify.round_proof import Features, RoundSeparation
-from cfree.verify.round_separation import UNDECIDED, scale_of, size_of
+from cfree.verify.round_separation import scale_of, side_findings, size_of
 from cfree.verify.round_slices import SURE, compared, pillar_of
-from cfree.verify.round_surfaces import Fault, UndecidedError
 from cfree.verify.round_world import Part, RoundWorld, is_apart
-from cfree.words import counted, listed
+from cfree.words import counted
 
 PIECES, TRAPEZOIDS, FREE = "convex pieces", "names, angles, domains", "not forbidden"
 CLOSED, ISOLATED, MISSING, DEEP = "closed surfaces", "isolated parts", "nothing missing", "Euler numbers again"
@@ -59,7 +57,7 @@ def round_boundary(
             findings.append(finding)
         whole = len(pieces) == count
         if whole:
-            findings += _findings_of_sides(pieces, scale)
+            findings += side_findings(pieces, scale, CLOSED, "trapezoid")
             places = random.Random(f"slices {seed}")
             for k in range(slices):
                 report((1 + k / max(1, slices)) / 2)
@@ -123,27 +121,13 @@ def _findings_of_trapezoids(
         if done % BLOCK == 0:
             report(done / (2 * len(chosen)))
         where = f"trapezoid {k} (patch {table.patch[k]}, theta {table.theta_from[k]:.6g} to {table.theta_to[k]:.6g})"
-        try:
-            piece = reader.piece(k)
-        except Fault as fault:
-            yield Finding(TRAPEZOIDS, where, str(fault))
-        except UndecidedError as reason:
-            yield Finding(TRAPEZOIDS, where, f"{UNDECIDED}{reason}")
-        except IndexError:
-            yield Finding(TRAPEZOIDS, where, "it names a feature that does not exist")
-        else:
-            pieces.append(piece)
-            if covering.covers(piece, reader.scale):
-                yield Finding(FREE, where, "forbidden in the middle")
-
-
-def _findings_of_sides(pieces: Sequence[Piece], scale: Scale) -> Iterator[Finding]:
-    try:
-        for where, numbers in loose(pieces, scale):
-            owners = listed([str(n) for n in numbers[:6]], "and")
-            yield Finding(CLOSED, where, f"a side of {counted(len(numbers), 'trapezoid')} ({owners}) has no partner")
-    except UndecidedError as reason:
-        yield Finding(CLOSED, "the surfaces", f"{UNDECIDED}{reason}")
+        piece = reader.piece_or_fault(k)
+        if not isinstance(piece, Piece):
+            yield Finding(TRAPEZOIDS, where, piece)
+            continue
+        pieces.append(piece)
+        if covering.covers(piece, reader.scale):
+            yield Finding(FREE, where, "forbidden in the middle")
 
 
 class _Covering:

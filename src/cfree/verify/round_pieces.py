@@ -14,7 +14,7 @@ from cfree.polygons.polygon import Polygon
 from cfree.verify.round_algebra import Surd, Trig, Turn, cross, dot
 from cfree.verify.round_angles import quadratic_roots, root_in, trimmed
 from cfree.verify.round_proof import BOUNDS, WORKSPACE, Core, RoundSeparation
-from cfree.verify.round_surfaces import AXES, BALLS, NIL, Curve, Fault, Forms, Surface, UndecidedError
+from cfree.verify.round_surfaces import AXES, BALLS, NIL, UNDECIDED, Curve, Fault, Forms, Surface, UndecidedError
 
 SURDS = Forms(Surd)
 NONE, VERTEX_EDGE, EDGE_VERTEX, CIRCLE, PARALLEL, SEAM = range(6)
@@ -238,6 +238,17 @@ class Reader:
         if not gap > -self.scale.near:
             raise Fault("its upper curve is below the lower one")
         return piece
+
+    def piece_or_fault(self, k: int) -> Piece | str:
+        """Return a piece with its angles and curves, or what is wrong with it."""
+        try:
+            return self.piece(k)
+        except Fault as fault:
+            return str(fault)
+        except UndecidedError as reason:
+            return f"{UNDECIDED}{reason}"
+        except IndexError:
+            return "it names a feature that does not exist"
 
     def _stays(self, curve: Curve, chart: int, start: int, stop: int) -> list[int]:
         """Prove that a curve exists and is on its patch between two angles. Return where its branches meet."""

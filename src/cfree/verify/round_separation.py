@@ -7,7 +7,7 @@ docs/theory/separations.md, Proposition 83.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -20,12 +20,11 @@ from cfree.verify.round_inside import margin
 from cfree.verify.round_pieces import Piece, Reader, Scale
 from cfree.verify.round_proof import RoundSeparation
 from cfree.verify.round_sides import is_inside
-from cfree.verify.round_surfaces import Fault, UndecidedError
+from cfree.verify.round_surfaces import UNDECIDED, UndecidedError
 from cfree.words import counted, listed
 
 INSIDE, CONTACTS, CLOSED, SIDES = "smaller shapes", "contacts", "closed surface", "two sides"
 BLOCK = 100  # pieces between two reports
-UNDECIDED = "undecided: "
 
 
 def round_separation_findings(
@@ -77,24 +76,28 @@ def _findings(
     for k in range(len(proof)):
         if k % BLOCK == 0:
             report(k / len(proof))
-        try:
-            pieces.append(reader.piece(k))
-        except Fault as fault:
-            yield Finding(CONTACTS, f"piece {k}", str(fault))
-        except UndecidedError as reason:
-            yield Finding(CONTACTS, f"piece {k}", f"{UNDECIDED}{reason}")
-        except IndexError:
-            yield Finding(CONTACTS, f"piece {k}", "it names a feature that does not exist")
+        piece = reader.piece_or_fault(k)
+        if isinstance(piece, Piece):
+            pieces.append(piece)
+        else:
+            yield Finding(CONTACTS, f"piece {k}", piece)
     if len(pieces) < len(proof):
         return
+    decided = yield from side_findings(pieces, scale, CLOSED, "piece")
+    if decided:
+        yield from _two_sides(proof, pieces, scale, least, size)
+
+
+def side_findings(pieces: Sequence[Piece], scale: Scale, kind: str, name: str) -> Generator[Finding, None, bool]:
+    """Yield findings about sides without partner, of a kind; return True if all sides are decided."""
     try:
         for where, numbers in loose(pieces, scale):
             owners = listed([str(n) for n in numbers[:6]], "and")
-            yield Finding(CLOSED, where, f"a side of {counted(len(numbers), 'piece')} ({owners}) has no partner")
+            yield Finding(kind, where, f"a side of {counted(len(numbers), name)} ({owners}) has no partner")
     except UndecidedError as reason:
-        yield Finding(CLOSED, "the surface", f"{UNDECIDED}{reason}")
-        return
-    yield from _two_sides(proof, pieces, scale, least, size)
+        yield Finding(kind, f"the {kind}", f"{UNDECIDED}{reason}")
+        return False
+    return True
 
 
 def _two_sides(

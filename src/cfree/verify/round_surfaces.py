@@ -46,6 +46,10 @@ class UndecidedError(Exception):
     """The bits do not suffice for a statement."""
 
 
+UNDECIDED = "undecided: "
+"""Begins a finding's text where it is no fault but undecided."""
+
+
 @dataclass(frozen=True)
 class Surface:
     """A line, with `edge` on an obstacle or on the robot, or a circle.

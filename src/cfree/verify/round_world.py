@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import lcm
 
 import numpy as np
 from flint import arb, fmpq
@@ -99,7 +98,7 @@ class RoundWorld:
         if not isinstance(core, Polygon):
             yield Part(core, radius)
             return
-        scale = lcm(core.denominator)
+        scale = core.denominator
         vertices = [(x, y) for x, y in core.numerators]
         pieces = [[vertices[k] for k in piece] for piece in core.pieces]
         if not tile(pieces, rings_of(core, scale)):

@@ -71,7 +71,21 @@ inline double sum_of_radii(const Scene& scene, const Feature& contact) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index a = contact.kind == Kind::edge_vertex ? A.v[contact.robot] : contact.robot;
     const Index b = contact.kind == Kind::vertex_edge ? O.v[contact.obstacle] : contact.obstacle;
-    return A.radii[A.vertex_radius[a]].about.hi + O.radii[O.vertex_radius[b]].about.hi;
+    return A.radius_of(a).about.hi + O.radius_of(b).about.hi;
+}
+
+// Move a line outwards, to its right.
+inline void move_outwards(ContactLine<double>& line, double by) {
+    const double scale = by / norm(line.E.x, line.E.y);
+    Vec<double>& at = line.on_edge ? line.b : line.a;
+    at = at - Vec<double>{-scale * line.E.y, scale * line.E.x};
+}
+
+// Direction from the centre of a circle at t, the tangent of half the angle from the beginning of a quadrant.
+inline Vec<double> on_quadrant(int quadrant, double t) {
+    Vec<double> u{(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)};
+    for (int k = 0; k < quadrant; ++k) u = {-u.y, u.x};
+    return u;
 }
 
 }  // namespace cfree

@@ -4,9 +4,18 @@
 // A position on a line counts as in mesh_face.hpp: on an e-v surface from the foot of the perpendicular from the reference point, on a
 // v-e surface from the origin. On a circle it is psi, the angle from the beginning of the patch's quadrant.
 #pragma once
+#include <cmath>
+#include <numbers>
+
 #include "cfree/contact/contact_curve.hpp"
 
 namespace cfree {
+
+// An angle from the beginning of a quadrant, at most half a turn from its middle.
+inline double in_quadrant(double psi) {
+    using std::numbers::pi;
+    return 0.25 * pi + std::remainder(psi - 0.25 * pi, 2 * pi);
+}
 
 // a + b cos + c sin
 struct Harmonic {

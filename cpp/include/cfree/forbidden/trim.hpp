@@ -57,6 +57,11 @@ struct Slices {
         bool empty() const { return first > last; }
     };
     void cut(double lo, double hi, int chart);
+    // Meeting of the tangents at two rotations, x and y in tau; the arc between these is in the triangle of all three.
+    Vec<double> corner(double x, double y) const {
+        const double w = kappa / (1 + x * y);
+        return {(1 - x * y) * w, (x + y) * w};
+    }
 };
 
 class Trimmer {

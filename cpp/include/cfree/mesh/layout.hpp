@@ -24,6 +24,7 @@ struct Layout {
 inline constexpr double few_triangles = 4;
 // Stretch without a layout, and for large h, where the shear varies less.
 inline constexpr double usual_stretch = 1.6;
+inline constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles per unit of w du dphi / error
 // Cost, in triangles of neighbours, of a point that they do not need.
 inline constexpr double spare_point_cost = 1;
 

@@ -34,6 +34,7 @@ struct Feature {
 
     constexpr Feature() = default;
     constexpr Feature(Kind k, Index r, Index o, int b = 0) : kind(k), branch(static_cast<std::int8_t>(b)), robot(r), obstacle(o) {}
+    bool operator==(const Feature&) const = default;
 };
 // Equal features have equal codes: vertices by point, edges by line (parallels: by direction).
 using Code = std::uint64_t;
@@ -229,6 +230,7 @@ private:
     Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
     // The same where shapes are grown (round_predicates.cpp).
     Order compare_round(const Feature& p, const Feature& q, const Event& from, const Event& to);
+    std::vector<Event> changes_of_branch(const Feature& p, const Feature& q, const Event& from, const Event& to);
     Candidates roots_exactly_round(const Feature& first, const Feature& second, double lo, double hi);
     bool is_same_round(const Event& x, const Event& y) const;
     bool meet_at(const Feature& p, const Feature& q, const Event& x) const;

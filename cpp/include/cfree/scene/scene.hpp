@@ -60,6 +60,7 @@ struct Shape {
     std::vector<Index> vertex_radius;
     std::vector<Length> lengths;
 
+    const Radius& radius_of(Index vertex) const { return radii[vertex_radius[vertex]]; }
     Index pieces() const { return static_cast<Index>(piece.size()) - 1; }
     // Vertices at the ends of each edge whose circles it touches there, beside v and w: those of arcs. Only with arcs, else empty.
     std::vector<Index> first, last;

@@ -1,0 +1,34 @@
+// Bounds of points in eight directions.
+#pragma once
+#include <limits>
+
+#include "cfree/scene/scene.hpp"
+
+namespace cfree {
+
+// Bounds of x, y, x + y and x - y.
+struct Octagon {
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    double low[4] = {infinity, infinity, infinity, infinity}, high[4] = {-infinity, -infinity, -infinity, -infinity};
+    void add(double x, double y) {
+        const double value[4] = {x, y, x + y, x - y};
+        for (int i = 0; i < 4; ++i) {
+            low[i] = value[i] < low[i] ? value[i] : low[i];
+            high[i] = high[i] < value[i] ? value[i] : high[i];
+        }
+    }
+    void add(const Octagon& o) {
+        for (int i = 0; i < 4; ++i) {
+            low[i] = o.low[i] < low[i] ? o.low[i] : low[i];
+            high[i] = high[i] < o.high[i] ? o.high[i] : high[i];
+        }
+    }
+    // A disc.
+    void add(double x, double y, double radius) {
+        constexpr double root_of_two = 1.4375;  // a little more than it
+        const double slanted = root_of_two * radius;
+        add({{x - radius, y - radius, x + y - slanted, x - y - slanted}, {x + radius, y + radius, x + y + slanted, x - y + slanted}});
+    }
+};
+
+}  // namespace cfree
