@@ -19,7 +19,7 @@ unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: help build demo test check ctest sanitize fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded lint bench docs viewer viewer-test dev stub clean
+.PHONY: help build demo test check rest ctest sanitize fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded lint bench docs viewer viewer-test dev stub clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
@@ -37,9 +37,12 @@ demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot
 test: $(TESTED)  ## the quick tests, in a few minutes
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
-check: $(INSTALLED)  ## every test, those of the core under sanitizers, types and style
+check: test  ## every test, those of the core under sanitizers, types and style
+	$(MAKE) rest
+
+rest: $(INSTALLED)  ## all that `make test` leaves out
 	$(MAKE) -j 2 --output-sync $(TESTED) ctest lint
-	$(BIN)/python -m pytest -n 2 --dist worksteal  # files of tests stay together as long as there are enough
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m slow  # files of tests stay together as long as there are enough
 
 ctest: $(INSTALLED)  ## the core's own tests, without Python, under the address and undefined-behaviour sanitizers
 	$(BIN)/cmake -S . -B build/ctest -DCFREE_SANITIZE=ON -DCFREE_UNITY=ON -DCMAKE_CXX_FLAGS_RELEASE=-O0 \
