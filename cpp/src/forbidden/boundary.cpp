@@ -171,8 +171,9 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
         for (Trapezoids* rows : {&trapezoids, &thin}) use_names(scene, rows->features());
     tally.collect_seconds = lap();
     IsolatedParts isolated;
-    if (work.is_complete() && !task.regularized && !task.features && !scene.is_round)  // not there yet for grown shapes
-        isolated = isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
+    if (work.is_complete() && !task.regularized && !task.features)
+        isolated = scene.is_round ? isolated_round_parts(scene, work.patches, trapezoids, thin, task.threads)
+                                  : isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
     heed_stop();
     if (has_names) use_names(scene, isolated.parts.features());
     tally.isolated_seconds = lap();

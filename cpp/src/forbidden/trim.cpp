@@ -297,8 +297,10 @@ void Trimmer::keep_around(const Overlap& x, Index start, const Cover& cover) {
 
 // Keep curves of a covered area that are the band's own: bands are open, so these curves are free.
 void Trimmer::keep_touched_curves(const Overlap& x, Index start, Index end, const Cover& cover) {
-    if (cover.inside && x.sign(Overlap::lower_to_lower) == 0) add_thin(start, end, x.area.lower, x.area.lower);
-    if (cover.inside && x.sign(Overlap::upper_to_upper) == 0) add_thin(start, end, x.area.upper, x.area.upper);
+    if (!cover.inside) return;
+    const auto is_touched = [&](Overlap::Which which, Index end_of_band) { return x.sign(which) == 0 && !goes_on_beyond(end_of_band); };
+    if (is_touched(Overlap::lower_to_lower, x.band.area.lower)) add_thin(start, end, x.area.lower, x.area.lower);
+    if (is_touched(Overlap::upper_to_upper, x.band.area.upper)) add_thin(start, end, x.area.upper, x.area.upper);
 }
 
 // Keep the parts without width that the band leaves of the area at an angle between two covered parts, or at the end of one.
@@ -312,7 +314,7 @@ void Trimmer::keep_at(const Overlap& x, Index at, const Cover* before_it, const 
     };
     const bool is_end = before_it == nullptr || after_it == nullptr;
     const auto meets = [&](Overlap::Which w, Index p, Index q) {
-        return is_end && !x.orders[w].strict && order_at(at, p, q) == 0;
+        return is_end && !x.orders[w].strict && !goes_on_beyond(p) && order_at(at, p, q) == 0;
     };
     if (both(&Cover::low) && ((!is_end && x.low_meets) || meets(Overlap::lower_to_lower, band.lower, area.lower)))
         add_thin(at, at, area.lower, area.lower);
@@ -335,12 +337,15 @@ void Trimmer::subtract_from_thin(const Band& taken) {
 void Trimmer::subtract_from_segment(const Area& segment, const Band& taken) {
     const Area& band = taken.area;
     const Index at = segment.from, lower = segment.lower, upper = segment.upper;
-    if (before(at, band.from) || before(band.to, at) || !covers_at(taken, at) || order_at(at, band.lower, upper) >= 0 ||
-        order_at(at, band.upper, lower) <= 0) {
+    const auto order_of = [&](Index end_of_band, Index curve, int beyond) {
+        return goes_on_beyond(end_of_band) ? beyond : order_at(at, end_of_band, curve);
+    };
+    if (before(at, band.from) || before(band.to, at) || !covers_at(taken, at) || order_of(band.lower, upper, -1) >= 0 ||
+        order_of(band.upper, lower, 1) <= 0) {
         fresh.push_back(segment);
         return;
     }
-    const int low = order_at(at, band.lower, lower), high = order_at(at, band.upper, upper);
+    const int low = order_of(band.lower, lower, -1), high = order_of(band.upper, upper, 1);
     if (low > 0) add_thin(at, at, lower, band.lower);
     if (high < 0) add_thin(at, at, band.upper, upper);
     if (taken.state == nullptr) return;
@@ -365,8 +370,13 @@ bool Trimmer::compare(CurveOverlap& x) {
     x.from = before(curve.from, band.from) ? band.from : curve.from;
     x.to = before(band.to, curve.to) ? band.to : curve.to;
     if (!before(x.from, x.to)) return false;
-    const auto order = [&](Index p) { return decide.compare(curves[p], curves[curve.lower], events[x.from], events[x.to]); };
-    x.low = order(band.lower), x.high = order(band.upper);
+    const auto order = [&](Index p, int beyond) {
+        if (!goes_on_beyond(p)) return decide.compare(curves[p], curves[curve.lower], events[x.from], events[x.to]);
+        Predicates::Order always;
+        always.sign[0] = beyond, always.strict = true;
+        return always;
+    };
+    x.low = order(band.lower, -1), x.high = order(band.upper, 1);
     return true;
 }
 
@@ -408,9 +418,8 @@ void Trimmer::keep_pieces(CurveOverlap& x) {
 
 // True if the curve's point at this angle, an end of a covered piece, is outside the open band or on its border.
 bool Trimmer::leaves_point(const CurveOverlap& x, Index event) {
-    const Area& band = x.band.area;
-    return !covers_at(x.band, event) || order_at(event, band.lower, x.curve.lower) == 0 ||
-           order_at(event, band.upper, x.curve.lower) == 0;
+    const auto is_on = [&](Index end_of_band) { return !goes_on_beyond(end_of_band) && order_at(event, end_of_band, x.curve.lower) == 0; };
+    return !covers_at(x.band, event) || is_on(x.band.area.lower) || is_on(x.band.area.upper);
 }
 
 // --- what is left ----------------------------------------------------------------------------------------------------

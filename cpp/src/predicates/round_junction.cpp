@@ -311,4 +311,158 @@ int RoundJunction::across(const Feature& x, const Feature& y, const Spot& p, con
     return after ? sign_after(form, here()) : sign_before(form, here());
 }
 
+// --- a place against other surfaces ----------------------------------------------------------------------------------
+
+template <class K, class Ring>
+auto RoundJunction::point(const Spot& p, const Ring& in) const {
+    const auto t = place<K>(p.on, p, 0, in);
+    return plane_point<K>(scene, p.on, t, is_line(p.on) ? t : place<K>(p.on, p, 1, in), in);
+}
+
+namespace {
+
+// Products of a point of the plane, in a ring; all over p.c, and those of vectors over 1 + tau^2.
+template <class K, class Ring>
+class PointForms {
+public:
+    using V = decltype(std::declval<Ring>().number(whole<K>(0)));
+    PointForms(const Scene& s, const PlanePoint<V>& at, const Ring& ring) : scene(s), of(s), p(at), in(ring) {}
+
+    // Distance to the right of a line, times its length; or the square of the distance from a circle's centre, less that of its radius.
+    CurvePlace<V> outside(const Feature& x) const {
+        if (is_line(x)) {
+            const auto U = of.along(x);
+            const V ux = in(dot(U, of.axis(0))), uy = in(dot(U, of.axis(1))), offset = in(cross(U, start(x)));
+            return {uy * p.x.a - ux * p.y.a + offset * p.c - constant(of.rho(x) * of.length(x)) * p.c, uy * p.x.b - ux * p.y.b, p.d, p.c, p.has_root};
+        }
+        const auto dx = from_centre(x, 0), dy = from_centre(x, 1);
+        const V radius = constant(of.rho(x)) * p.c, two = in.number(whole<K>(2)), one = in.number(whole<K>(1));
+        V square = dx.a * dx.a + dy.a * dy.a - radius * radius;
+        if (p.has_root) square = square + (dx.b * dx.b + dy.b * dy.b) * p.d;
+        return {square, two * (dx.a * dx.b + dy.a * dy.b), p.d, one, p.has_root};
+    }
+    // As place_of_curve, of a point on the surface.
+    CurvePlace<V> place(const Feature& x, int axis) const {
+        if (is_line(x)) {
+            const auto [a, b] = along(of.along(x), x);
+            return {a, b, p.d, p.c * constant(of.square_of_length(x)), p.has_root};
+        }
+        const auto e = from_centre(x, x.branch + 1 + axis);
+        return {e.a, e.b, p.d, p.c * constant(of.rho(x)), p.has_root};
+    }
+    CurvePlace<V> ahead(const Feature& line, const Feature& circle) const {
+        const auto [a, b] = along(of.along(line), circle);
+        return {a, b, p.d, p.c, p.has_root};
+    }
+
+private:
+    struct Value {
+        V a, b;
+    };
+    MovingVector<K> start(const Feature& x) const { return position<K>(scene, of.site(x)); }
+    V constant(const K& k) const { return in(RoundSurfaces<K>::constant(k)); }
+    // Vector from a surface's site along an axis, by a number of quarter turns.
+    Value from_centre(const Feature& x, int turns) const {
+        const V w = constant(whole<K>(1)), centre = in(dot(start(x), of.axis(turns))) * p.c;
+        const auto& coordinate = turns % 2 == 0 ? p.x : p.y;
+        const V factor = (turns & 3) < 2 ? w : in.number(whole<K>(0)) - w;
+        return {factor * coordinate.a - centre, factor * coordinate.b};
+    }
+    Value along(const MovingVector<K>& U, const Feature& x) const {
+        const V ux = in(dot(U, of.axis(0))), uy = in(dot(U, of.axis(1)));
+        return {ux * p.x.a + uy * p.y.a - in(dot(start(x), U)) * p.c, ux * p.x.b + uy * p.y.b};
+    }
+
+    const Scene& scene;
+    const RoundSurfaces<K> of;
+    const PlanePoint<V>& p;
+    const Ring& in;
+};
+
+template <class V>
+V value_of(const CurvePlace<V>& x) {
+    return x.has_root ? x.a + x.b * sqrt(x.d) : x.a;
+}
+
+}  // namespace
+
+template <class F>
+int RoundJunction::sign_of_place(const F& place_in) {
+    const CurvePlace<Bounds> about = place_in.template operator()<Approx>(Between{lo, hi, kappa});
+    const auto sign_of = [](const Bounds& b) { return b.lo > 0 ? 1 : b.hi < 0 ? -1 : 0; };
+    if (const int sign = sign_of(value_of(about)) * sign_of(about.c); sign != 0) return sign;
+    if (const auto tau = near_ball()) {
+        const CurvePlace<Ball> near = place_in.template operator()<Ball>(InBalls(*tau, kappa));
+        const auto value = certain_sign(value_of(near)), below = certain_sign(near.c);
+        if (value && below) return *value * *below;
+    }
+    const CurvePlace<SurdPoly> x = place_in.template operator()<RootSum>(AsSurdPoly{kappa});
+    return sign_at(Radicals{x.a, x.b, x.d, {}, {}, {}}, here()) * sign_at(x.c, here());
+}
+
+// Order of two places on one surface; exactly at once if a place is available only so.
+template <class F, class G>
+int RoundJunction::order_of_places(const F& first, const G& second, bool is_exact) {
+    if (!is_exact) {
+        const auto p = range_of(first.template operator()<Approx>(Between{lo, hi, kappa}));
+        const auto q = range_of(second.template operator()<Approx>(Between{lo, hi, kappa}));
+        if (p && q && p->hi < q->lo) return -1;
+        if (p && q && q->hi < p->lo) return 1;
+        if (const auto tau = near_ball()) {
+            const InBalls in(*tau, kappa);
+            if (const auto sign = certain_order(first.template operator()<Ball>(in), second.template operator()<Ball>(in))) return *sign;
+        }
+    }
+    const AsSurdPoly in{kappa};
+    const CurvePlace<SurdPoly> x = first.template operator()<RootSum>(in), y = second.template operator()<RootSum>(in);
+    const Radicals difference{x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), y.d, {}};
+    return sign_at(difference, here()) * sign_at(x.c, here()) * sign_at(y.c, here());
+}
+
+int RoundJunction::outside(const Feature& x, const Spot& p) {
+    const Code name = bare_code(scene, x);
+    if (name == bare_code(scene, p.on) || (p.curve.kind != Kind::seam && !p.is_limit && name == bare_code(scene, p.curve))) return 0;
+    return sign_of_place([&]<class K>(const auto& in) {
+        const auto at = point<K>(p, in);
+        return PointForms<K, std::remove_cvref_t<decltype(in)>>(scene, at, in).outside(x);
+    });
+}
+
+int RoundJunction::ahead(const Feature& line, const Feature& circle, const Spot& p) {
+    return sign_of_place([&]<class K>(const auto& in) {
+        const auto at = point<K>(p, in);
+        return PointForms<K, std::remove_cvref_t<decltype(in)>>(scene, at, in).ahead(line, circle);
+    });
+}
+
+bool RoundJunction::is_between(const Feature& x, const Spot& low, const Spot& high, const Spot& p) {
+    const auto place_of = [&](int axis) {
+        return [this, &x, &p, axis]<class K>(const auto& in) {
+            const auto at = point<K>(p, in);
+            return PointForms<K, std::remove_cvref_t<decltype(in)>>(scene, at, in).place(x, axis);
+        };
+    };
+    // both coordinates in a quadrant, from its beginning and towards its end, are positive
+    if (is_circle(x) && (sign_of_place(place_of(0)) < 0 || sign_of_place(place_of(1)) > 0)) return false;
+    const auto order_to = [&](const Spot& end) {
+        return order_of_places(place_of(0), [&]<class K>(const auto& in) {
+            if constexpr (std::is_same_v<K, RootSum>) return place_exactly(x, end, 0);
+            else return place<K>(x, end, 0, in);
+        }, end.jumps);
+    };
+    return order_to(low) >= 0 && order_to(high) <= 0;
+}
+
+bool RoundJunction::are_one_place(const Spot& p, const Spot& q) {
+    if (p.code == q.code && code(scene, p.on) == code(scene, q.on)) return true;
+    const auto coordinate = [&](const Spot& of, int axis) {
+        return [this, &of, axis]<class K>(const auto& in) {
+            const auto at = point<K>(of, in);
+            const auto& x = axis == 0 ? at.x : at.y;
+            return CurvePlace<std::remove_cvref_t<decltype(at.c)>>{x.a, x.b, at.d, at.c, at.has_root};
+        };
+    };
+    return order_of_places(coordinate(p, 0), coordinate(q, 0), false) == 0 && order_of_places(coordinate(p, 1), coordinate(q, 1), false) == 0;
+}
+
 }  // namespace cfree

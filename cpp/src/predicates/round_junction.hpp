@@ -50,6 +50,14 @@ public:
     // True if two circles, or quadrants of them, are equal here.
     bool are_one_circle(const Feature& x, const Feature& y);
 
+    // A place against other surfaces than its own, of one angle and without jumps: 1 outside the surface's pillar, -1 inside, 0 on it;
+    // if it is on the surface, whether it is between two places there, and in the quadrant of a circle; whether two places are one.
+    int outside(const Feature& surface, const Spot& p);
+    bool is_between(const Feature& surface, const Spot& low, const Spot& high, const Spot& p);
+    bool are_one_place(const Spot& p, const Spot& q);
+    // Sign of the product of a line's direction and the vector from a circle's centre to a place.
+    int ahead(const Feature& line, const Feature& circle, const Spot& p);
+
     // The place, on a line that is that of its own surface here; in the ring of surd polynomials also where it is a limit.
     CurvePlace<SurdPoly> place_exactly(const Feature& surface, const Spot& p, int axis) const;
     LongRoot& here();
@@ -60,6 +68,12 @@ private:
     // Sign here of a form that is available in balls and exactly.
     template <class F>
     int sign(const F& form);
+    template <class K, class Ring>
+    auto point(const Spot& p, const Ring& in) const;
+    template <class F>
+    int sign_of_place(const F& place_in);
+    template <class F, class G>
+    int order_of_places(const F& first, const G& second, bool is_exact);
 
     const Scene& scene;
     int chart;

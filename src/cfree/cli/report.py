@@ -103,19 +103,17 @@ def boundary_rows(boundary: Boundary, *, verbose: bool) -> dict[str, int | float
     )
 
 
-def _exactness(boundary: Boundary) -> dict[str, int | str]:
-    if not boundary.scene.curved:
-        return {"isolated parts (exact fits)": len(boundary.isolated)}
-    return {
-        "round shapes, exact": round_count(shapes_of(boundary.scene)),
-        "isolated parts (exact fits)": "not computed among round shapes",
-    }
+def _exactness(boundary: Boundary) -> dict[str, int]:
+    rounds = {"round shapes, exact": round_count(shapes_of(boundary.scene))} if boundary.scene.curved else {}
+    return {**rounds, "isolated parts (exact fits)": len(boundary.isolated)}
 
 
 def boundary_facts(boundary: Boundary) -> dict[str, Any]:
-    """Describe a boundary by numbers, for machines; exact fits are not computed among round shapes."""
-    rounds = round_count(shapes_of(boundary.scene))
-    return asdict(boundary.stats) | {"isolated": None if rounds else len(boundary.isolated), "round": rounds}
+    """Describe a boundary by numbers, for machines."""
+    return asdict(boundary.stats) | {
+        "isolated": len(boundary.isolated),
+        "round": round_count(shapes_of(boundary.scene)),
+    }
 
 
 @dataclass(frozen=True)

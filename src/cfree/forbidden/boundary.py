@@ -87,8 +87,7 @@ def boundary(
     if the origin of a scene far from 0 has moved. Doubles, and shapes turned by any angle, change nothing elsewhere,
     but where exact integers decided something. `Boundary.kept_patches` counts the patches that were taken.
 
-    Rounded shapes are exact, not replaced by polygons. `Boundary.isolated` is empty among them: exact fits without
-    width are not computed.
+    Rounded shapes are exact, not replaced by polygons, and so are exact fits among them (`Boundary.isolated`).
 
     Examples
     --------

@@ -11,5 +11,7 @@ namespace cfree {
 
 IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin,
                              int threads, std::atomic<bool>& stop);
+// The same among grown shapes.
+IsolatedParts isolated_round_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin, int threads);
 
 }  // namespace cfree

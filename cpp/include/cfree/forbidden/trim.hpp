@@ -204,6 +204,8 @@ protected:
     void find_curves(State& state);
     void add_band(const State& state, const Span& span, Index p, Index k);
     bool covers_at(const Band& band, Index event);
+    // True if a band's end is that of a quadrant: the pillar covers more of the circle beyond it.
+    bool goes_on_beyond(Index end_of_band) const { return curves[end_of_band].feature.kind == Kind::seam; }
     virtual bool crosses_at(const Band& band, Index event);
     virtual int order_at(Index event, Index p, Index q);
     bool touches_along(const State& state) const;
