@@ -76,8 +76,9 @@ struct ArcPoseChecker::Grid {
         return {x0 + (static_cast<double>(cell % nx) + 0.5) * side, y0 + (static_cast<double>(cell / nx) + 0.5) * side};
     }
     void fill(const NearScene& scene) {
-        double core = 0;  // radius of a disc in the robot, around its reference point
-        for (const NearShape& part : scene.robot) core = std::max(core, part.disc.radius - norm(part.disc.center.x, part.disc.center.y));
+        double core = -HUGE_VAL;  // radius of a disc in the robot around its reference point; of one elsewhere, less its distance from there
+        for (const NearShape& part : scene.robot)
+            if (part.disc.radius > 0) core = std::max(core, part.disc.radius - norm(part.disc.center.x, part.disc.center.y));
         is_blocked.assign(nx * ny, false);
         std::vector<std::pair<std::size_t, Index>> found;
         const auto index = [&](double offset, std::size_t count) {

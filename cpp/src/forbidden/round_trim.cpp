@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "predicates/round_junction.hpp"
+
 namespace cfree {
 
 RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to, const std::vector<Index>& edges)
@@ -668,6 +670,21 @@ int RoundTrimmer::order_at(Index event, Index p, Index q) {
         if (const auto sign = orders.order_in_balls(x.feature, y.feature, ball_around(*near)); sign && *sign != 0) return *sign;
     LongRoot root = decide.long_root_of(e);
     return orders.order_at(x.feature, y.feature, root);
+}
+
+// Lines that are parallel at the angle have a place on the surface's line by continuity, if they are one with it, or none.
+int RoundTrimmer::order_of_end(Index event, Index end_of_band, Index curve, int beyond) {
+    if (goes_on_beyond(end_of_band)) return beyond;
+    const Feature &on = surface.contact, &p = curves[end_of_band].feature, &q = curves[curve].feature;
+    if (!is_line(on) || !(is_line(p) || is_line(q))) return order_at(event, end_of_band, curve);
+    const Event& e = events[event];
+    if (const int sign = orders.order_on(p, q, e.lo, e.hi); sign != 0) return sign;
+    RoundJunction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.long_root_of(e); }, [&] { return decide.narrowed(e); });
+    if (e.first.kind == Kind::edge_edge) here.know_parallel(e.first.robot, e.first.obstacle);
+    const RoundSpot end = here.spot(on, p, false), other = here.spot(on, q, false);
+    if (end.is_limit && here.side(on, p) != 0) return beyond;
+    const auto is_parallel = [&](const RoundSpot& spot, const Feature& f) { return spot.is_limit || spot.curve != f; };
+    return is_parallel(end, p) || is_parallel(other, q) ? here.order(on, end, other) : order_at(event, end_of_band, curve);
 }
 
 double RoundTrimmer::extreme(const Curve& c, double lo, double hi, bool want_max) const {

@@ -89,6 +89,7 @@ private:
     std::vector<Span> spans_between(std::vector<Event> cuts);
     bool crosses_at(const Band& band, Index event) override;
     int order_at(Index event, Index p, Index q) override;
+    int order_of_end(Index event, Index end_of_band, Index curve, int beyond) override;
     double extreme(const Curve& curve, double lo, double hi, bool want_max) const override;
 
     int sign_of(const Feature& first, const Feature& second, const Sample& at);

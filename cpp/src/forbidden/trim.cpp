@@ -314,7 +314,7 @@ void Trimmer::keep_at(const Overlap& x, Index at, const Cover* before_it, const 
     };
     const bool is_end = before_it == nullptr || after_it == nullptr;
     const auto meets = [&](Overlap::Which w, Index p, Index q) {
-        return is_end && !x.orders[w].strict && !goes_on_beyond(p) && order_at(at, p, q) == 0;
+        return is_end && !x.orders[w].strict && order_of_end(at, p, q, w == Overlap::lower_to_lower ? -1 : 1) == 0;
     };
     if (both(&Cover::low) && ((!is_end && x.low_meets) || meets(Overlap::lower_to_lower, band.lower, area.lower)))
         add_thin(at, at, area.lower, area.lower);
@@ -337,15 +337,12 @@ void Trimmer::subtract_from_thin(const Band& taken) {
 void Trimmer::subtract_from_segment(const Area& segment, const Band& taken) {
     const Area& band = taken.area;
     const Index at = segment.from, lower = segment.lower, upper = segment.upper;
-    const auto order_of = [&](Index end_of_band, Index curve, int beyond) {
-        return goes_on_beyond(end_of_band) ? beyond : order_at(at, end_of_band, curve);
-    };
-    if (before(at, band.from) || before(band.to, at) || !covers_at(taken, at) || order_of(band.lower, upper, -1) >= 0 ||
-        order_of(band.upper, lower, 1) <= 0) {
+    if (before(at, band.from) || before(band.to, at) || !covers_at(taken, at) || order_of_end(at, band.lower, upper, -1) >= 0 ||
+        order_of_end(at, band.upper, lower, 1) <= 0) {
         fresh.push_back(segment);
         return;
     }
-    const int low = order_of(band.lower, lower, -1), high = order_of(band.upper, upper, 1);
+    const int low = order_of_end(at, band.lower, lower, -1), high = order_of_end(at, band.upper, upper, 1);
     if (low > 0) add_thin(at, at, lower, band.lower);
     if (high < 0) add_thin(at, at, band.upper, upper);
     if (taken.state == nullptr) return;
@@ -418,8 +415,9 @@ void Trimmer::keep_pieces(CurveOverlap& x) {
 
 // True if the curve's point at this angle, an end of a covered piece, is outside the open band or on its border.
 bool Trimmer::leaves_point(const CurveOverlap& x, Index event) {
-    const auto is_on = [&](Index end_of_band) { return !goes_on_beyond(end_of_band) && order_at(event, end_of_band, x.curve.lower) == 0; };
-    return !covers_at(x.band, event) || is_on(x.band.area.lower) || is_on(x.band.area.upper);
+    const Area& band = x.band.area;
+    return !covers_at(x.band, event) || order_of_end(event, band.lower, x.curve.lower, -1) == 0 ||
+           order_of_end(event, band.upper, x.curve.lower, 1) == 0;
 }
 
 // --- what is left ----------------------------------------------------------------------------------------------------

@@ -208,6 +208,8 @@ protected:
     bool goes_on_beyond(Index end_of_band) const { return curves[end_of_band].feature.kind == Kind::seam; }
     virtual bool crosses_at(const Band& band, Index event);
     virtual int order_at(Index event, Index p, Index q);
+    // Order of a band's end and a curve at an angle; `beyond` if the end has no place there, but the band goes on.
+    virtual int order_of_end(Index event, Index end_of_band, Index curve, int) { return order_at(event, end_of_band, curve); }
     bool touches_along(const State& state) const;
     void cut_at(Index event);
     Index curve_of(const Feature& feature, bool flipped);
