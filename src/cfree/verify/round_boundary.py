@@ -22,11 +22,12 @@ from cfree.scene.scene import Scene
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.round_algebra import Turn, precision
 from cfree.verify.round_inside import largest_radius
+from cfree.verify.round_isolated import IsolatedParts
 from cfree.verify.round_pieces import Piece, Reader, Scale
 from cfree.verify.round_proof import Features, RoundSeparation
 from cfree.verify.round_separation import scale_of, side_findings, size_of
 from cfree.verify.round_slices import SURE, compared, pillar_of
-from cfree.verify.round_world import Part, RoundWorld, is_apart
+from cfree.verify.round_world import Part, Place, RoundWorld, is_apart
 from cfree.words import counted
 
 PIECES, TRAPEZOIDS, FREE = "convex pieces", "names, angles, domains", "not forbidden"
@@ -53,8 +54,11 @@ def round_boundary(
     scale, bits = scale_of(size_of(proof) * NEAREST, size_of(proof), max(1, count))
     number, pieces = 0, list[Piece]()
     with precision(bits):
-        for finding in _findings_of_trapezoids(Reader(proof, scale), world, chosen, pieces, report):
+        reader, covering = Reader(proof, scale), _Covering(world)
+        for finding in _findings_of_trapezoids(reader, covering, chosen, pieces, report):
             findings.append(finding)
+        fits = IsolatedParts(stored, reader, covering.covers_place, world.size)
+        findings += fits.findings(ISOLATED)
         whole = len(pieces) == count
         if whole:
             findings += side_findings(pieces, scale, CLOSED, "trapezoid")
@@ -67,7 +71,9 @@ def round_boundary(
                 findings += [Finding(MISSING, where, text) for text in wrong]
                 number += parts
     report(1.0)
-    checks = _checks(world, proof, len(chosen), slices if whole else 0, number, whole=whole)
+    checks = _checks(
+        world, proof, len(chosen), slices if whole else 0, number, (fits.checked, len(stored.isolated)), whole=whole
+    )
     if deep:
         checks += (Check(DEEP, SKIPPED, "not among round shapes"),)
     kinds = {finding.kind for finding in findings}
@@ -109,14 +115,13 @@ def _findings_of_cores(cores: Cores, scene: Scene, world: RoundWorld) -> Iterato
 
 def _findings_of_trapezoids(
     reader: Reader,
-    world: RoundWorld,
+    covering: _Covering,
     chosen: Sequence[int],
     pieces: list[Piece],
     report: Callable[[float], object],
 ) -> Iterator[Finding]:
     """Findings about trapezoids; those that are sound go into `pieces`."""
     table = reader.proof.table
-    covering = _Covering(world)
     for done, k in enumerate(chosen):
         if done % BLOCK == 0:
             report(done / (2 * len(chosen)))
@@ -142,16 +147,19 @@ class _Covering:
 
     def covers(self, piece: Piece, scale: Scale) -> bool:
         turn = scale.turn(piece.chart, (piece.start + piece.stop) // 2)
-        place = _middle(piece, turn)
+        return self.covers_place(_middle(piece, turn), turn, scale.near)
+
+    def covers_place(self, place: Place, turn: Turn, near: arb) -> bool:
+        """True if two pieces overlap by more than a distance where the robot is at a place."""
         at, turned = (complex(*(float(c.mid()) for c in pair)) for pair in (place, (turn.cos, turn.sin)))
         here, there = self._centers
-        near = np.abs(there - turned * here - at) < self._reach + SURE * self._size
-        for k in np.flatnonzero(near):
+        is_near = np.abs(there - turned * here - at) < self._reach + SURE * self._size
+        for k in np.flatnonzero(is_near):
             robot, obstacle = self._pairs[k]
             pillar = pillar_of(robot, obstacle, turned)
             if pillar.distance(np.array([at]))[0] > pillar.radius + SURE * self._size:
                 continue
-            if not is_apart(robot, obstacle, turn, place, scale.near):
+            if not is_apart(robot, obstacle, turn, place, near):
                 return True
         return False
 
@@ -175,8 +183,23 @@ def _middle(piece: Piece, turn: Turn) -> tuple[arb, arb]:
     return p + far * (x - p), q + far * (y - q)
 
 
+def _of_fits(checked: int, total: int) -> Check:
+    """Check of the isolated parts, of which so many were looked at."""
+    if checked < total and not checked:
+        return Check(ISOLATED, SKIPPED, f"{counted(total, 'part')}, each at the limit of a curve")
+    some = counted(total, "part") if checked == total else f"{checked} of {counted(total, 'part')}"
+    return Check(ISOLATED, SAMPLED, f"{some}: free, and without room beside them, at one place each")
+
+
 def _checks(
-    world: RoundWorld, proof: RoundSeparation, count: int, slices: int, number: int, *, whole: bool
+    world: RoundWorld,
+    proof: RoundSeparation,
+    count: int,
+    slices: int,
+    number: int,
+    fits: tuple[int, int],
+    *,
+    whole: bool,
 ) -> tuple[Check, ...]:
     """Checks made, if nothing is wrong."""
     total = len(proof)
@@ -194,7 +217,7 @@ def _checks(
         ),
         Check(FREE, SAMPLED, free),
         Check(CLOSED, PROVED, closed) if whole else Check(CLOSED, SKIPPED, "needs every trapezoid"),
-        Check(ISOLATED, SKIPPED, "none are computed among round shapes"),
+        _of_fits(*fits),
         Check(MISSING, MEASURED, f"{counted(slices, 'slice')}, {counted(number, 'part')} of contacts, in doubles")
         if whole and slices
         else Check(MISSING, SKIPPED, "needs every trapezoid" if slices else "no slices wanted"),
