@@ -6,6 +6,7 @@ python tests/support/round_fits.py --count 40
 from __future__ import annotations
 
 import argparse
+import cmath
 import itertools
 import math
 import random
@@ -183,16 +184,26 @@ class Oracle:
         assert arcs is not None
         self.scene, self.arcs = where, arcs
         self.reach, self.size = robot_radius(where), size_of(where)
+        boxes = [[float(v) for v in (part.box if isinstance(part, Curved) else part.bounds)] for part in where.robot]
+        self.middle = sum(complex(b[0] + b[2], b[1] + b[3]) for b in boxes) / (2 * len(boxes))
+
+    def turned(self, at: Place, by: float) -> Place:
+        """The pose turned about the robot's middle, by a length at its reach."""
+        x, y, theta = at
+        there = theta + by / self.reach
+        moved = self.middle * (cmath.exp(1j * theta) - cmath.exp(1j * there))
+        return x + moved.real, y + moved.imag, there % math.tau
 
     def free_beside(self, at: Place, by: float, along: tuple[float, float] | None = None, *, turning: bool) -> int:
         """Number of free poses beside one, by two distances in 24 directions, turned or not; not along a segment."""
-        (x, y, theta), rows = at, []
+        rows = [self.turned(at, t * by) for t in (-1, 1) if turning]
         for d in (by, by / 64):
-            for u, v in WAYS:
-                if along is None or abs(u * along[1] - v * along[0]) > 0.02:
-                    rows += [(x + d * u, y + d * v, (theta + t * d / self.reach) % math.tau) for t in (-1, 0, 1)]
-        if turning:
-            rows += [(x, y, (theta + t * by / self.reach) % math.tau) for t in (-1, 1)]
+            for x, y, theta in (self.turned(at, t * d) for t in (-1, 0, 1)):
+                rows += [
+                    (x + d * u, y + d * v, theta)
+                    for u, v in WAYS
+                    if along is None or abs(u * along[1] - v * along[0]) > 0.02
+                ]
         return int(self.arcs.are_free(np.array(rows), 1).sum())
 
     def faults(self, found: Boundary) -> list[str]:
@@ -241,18 +252,15 @@ class Oracle:
         for u, v in itertools.islice(fits.tangents(pose, 1e-9 * self.size), 40):
             n = math.hypot(u, v)
             ways |= {(round(float(s * u) / n, 12), round(float(s * v) / n, 12)) for s in (1, -1)}
-        return any(
-            self.free_beside(
-                (at[0] + e * self.size * u, at[1] + e * self.size * v, at[2] + turn * e * self.size / self.reach),
-                self.size * e * e / k,
-                turning=False,
-            )
-            for e in (2.0**-9, 2.0**-13)
-            for u, v in ways
-            for turn in (-1, 0, 1)
-            for k in (8, 32)
-            if (u, v) != (0.0, 0.0) or turn
-        )
+        for e, turn in itertools.product((2.0**-9, 2.0**-13), (-1, 0, 1)):
+            x, y, theta = self.turned(at, turn * e * self.size)
+            for (u, v), k in itertools.product(ways, (8, 32)):
+                if not (turn or u or v):
+                    continue
+                there = x + e * self.size * u, y + e * self.size * v, theta
+                if self.free_beside(there, self.size * e * e / k, turning=False):
+                    return True
+        return False
 
 
 def nearest(found: Boundary, k: int, theta: float) -> tuple[float, float]:

@@ -125,7 +125,7 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
         return s == 0 ? 0 : s == slices.count ? 1 : intern({{}, {}, slices.at[s], slices.at[s]});
     };
     // nothing is left before the first part, or after the last one
-    double lo = 2, hi = -2;
+    double lo = first_end, hi = last_end;
     for (const auto* areas : {&live, &thin})
         for (const Area& x : *areas) lo = std::min(lo, events[x.from].lo), hi = std::max(hi, events[x.to].hi);
     int first = part.first, last = part.last;

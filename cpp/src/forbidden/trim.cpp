@@ -298,9 +298,12 @@ void Trimmer::keep_around(const Overlap& x, Index start, const Cover& cover) {
 // Keep curves of a covered area that are the band's own: bands are open, so these curves are free.
 void Trimmer::keep_touched_curves(const Overlap& x, Index start, Index end, const Cover& cover) {
     if (!cover.inside) return;
-    const auto is_touched = [&](Overlap::Which which, Index end_of_band) { return x.sign(which) == 0 && !goes_on_beyond(end_of_band); };
-    if (is_touched(Overlap::lower_to_lower, x.band.area.lower)) add_thin(start, end, x.area.lower, x.area.lower);
-    if (is_touched(Overlap::upper_to_upper, x.band.area.upper)) add_thin(start, end, x.area.upper, x.area.upper);
+    const auto keep = [&](Overlap::Which which, Index end_of_band, Index curve) {
+        if (x.sign(which) != 0) return;
+        if (goes_on_beyond(end_of_band)) stretch(start, end);
+        else add_thin(start, end, curve, curve);
+    };
+    keep(Overlap::lower_to_lower, x.band.area.lower, x.area.lower), keep(Overlap::upper_to_upper, x.band.area.upper, x.area.upper);
 }
 
 // Keep the parts without width that the band leaves of the area at an angle between two covered parts, or at the end of one.
@@ -368,7 +371,9 @@ bool Trimmer::compare(CurveOverlap& x) {
     x.to = before(band.to, curve.to) ? band.to : curve.to;
     if (!before(x.from, x.to)) return false;
     const auto order = [&](Index p, int beyond) {
-        if (!goes_on_beyond(p)) return decide.compare(curves[p], curves[curve.lower], events[x.from], events[x.to]);
+        Predicates::Order by_places = decide.compare(curves[p], curves[curve.lower], events[x.from], events[x.to]);
+        if (!goes_on_beyond(p)) return by_places;
+        if (by_places.is(0)) stretch(x.from, x.to);
         Predicates::Order always;
         always.sign[0] = beyond, always.strict = true;
         return always;

@@ -5,6 +5,7 @@
 // bounded by two angles and two curves. Areas are closed and bands are open, so that parts without width can remain: a curve,
 // a piece of the line at one angle, a point. Those are `thin`.
 #pragma once
+#include <algorithm>
 #include <initializer_list>
 #include <vector>
 
@@ -206,6 +207,8 @@ protected:
     bool covers_at(const Band& band, Index event);
     // True if a band's end is that of a quadrant: the pillar covers more of the circle beyond it.
     bool goes_on_beyond(Index end_of_band) const { return curves[end_of_band].feature.kind == Kind::seam; }
+    // Remember that something at the end of a quadrant, which a pillar covers, was between two angles.
+    void stretch(Index from, Index to) { first_end = std::min(first_end, events[from].lo), last_end = std::max(last_end, events[to].hi); }
     virtual bool crosses_at(const Band& band, Index event);
     virtual int order_at(Index event, Index p, Index q);
     // Order of a band's end and a curve at an angle; `beyond` if the end has no place there, but the band goes on.
@@ -250,6 +253,7 @@ protected:
     std::vector<Event> events;
     std::vector<Curve> curves;
     std::vector<Index> slots;  // hash table of curves; -1: empty
+    double first_end = 2, last_end = -2;  // see `stretch`: pillars are looked at there as well, so that angles keep their names
     bool has_changed = true;   // true if the live areas have changed since the last `left`
     std::vector<Area> live, next, open;  // areas now, areas of the next state, and those of the next state without end
     std::vector<Area> thin, fresh;
