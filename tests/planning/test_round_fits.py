@@ -105,3 +105,34 @@ def test_an_exact_fit_is_passed_and_one_too_narrow_by_a_hair_is_not(name: str, t
     proof = cfree.plan(wider, begin, end)
     assert isinstance(proof, cfree.Separated) and proof.of == "closed"
     assert cfree.verify.answer(wider, proof).verified
+
+
+HOLE = [(5, 0), (-3, 4), (-3, -4)]  # on a circle of radius 5, on all sides of its middle
+WALLS = [[(-5, y), (5, y), (5, y + 1), (-5, y + 1)] for y in (F(1, 2), F(-3, 2))]
+HELD = {
+    "along a slot": (Scene(stadium(F(0)), WALLS), Pose(-4, 0), Pose(4, 0)),
+    "out of a slot, and back turned": (Scene(stadium(F(0)), WALLS), Pose(0, 0), Pose(0, 0, "180deg")),
+    "in a hole": (
+        Scene(Curved.circle((0, 0), 2), [Curved.circle(at, 3) for at in HOLE]), Pose(0, 0), Pose(0, 0, "77deg")
+    ),
+    "discs around a disc": (
+        Scene([Curved.circle(at, 3) for at in HOLE], [Curved.circle((0, 0), 2)]), Pose(0, 0), Pose(0, 0, "200deg")
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", HELD)
+def test_a_path_joins_poses_on_isolated_parts(name: str) -> None:
+    scene, start, goal = HELD[name]
+    assert len(cfree.boundary(scene).isolated)
+    path = cfree.plan(scene, start, goal)
+    assert isinstance(path, cfree.Path) and (path.start, path.goal) == (start, goal)
+    assert cfree.verify.answer(scene, path).verified
+
+
+def test_no_path_leaves_a_point_or_a_curve_that_is_held_on_all_sides() -> None:
+    square = Curved([(-1, -1), (1, -1), (1, 1), (-1, 1)], grown=F(1, 2))
+    room = [(F(-3, 2), F(-3, 2)), (F(3, 2), F(-3, 2)), (F(3, 2), F(3, 2)), (F(-3, 2), F(3, 2))]
+    turned = cfree.plan(Scene(square, [], workspace=room), Pose(0, 0), Pose(0, 0, "90deg"))
+    assert isinstance(turned, cfree.Separated) and turned.of == "closed"

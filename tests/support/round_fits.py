@@ -185,13 +185,14 @@ class Oracle:
         self.scene, self.arcs = where, arcs
         self.reach, self.size = robot_radius(where), size_of(where)
         boxes = [[float(v) for v in (part.box if isinstance(part, Curved) else part.bounds)] for part in where.robot]
-        self.middle = sum(complex(b[0] + b[2], b[1] + b[3]) for b in boxes) / (2 * len(boxes))
+        self.poles = [complex(b[0] + b[2], b[1] + b[3]) / 2 for b in boxes]  # middles of the robot's parts
+        self.middle = sum(self.poles) / len(boxes)
 
-    def turned(self, at: Place, by: float) -> Place:
-        """The pose turned about the robot's middle, by a length at its reach."""
+    def turned(self, at: Place, by: float, pole: complex | None = None) -> Place:
+        """The pose turned about a point of the robot, or its middle, by a length at its reach."""
         x, y, theta = at
         there = theta + by / self.reach
-        moved = self.middle * (cmath.exp(1j * theta) - cmath.exp(1j * there))
+        moved = (self.middle if pole is None else pole) * (cmath.exp(1j * theta) - cmath.exp(1j * there))
         return x + moved.real, y + moved.imag, there % math.tau
 
     def free_beside(self, at: Place, by: float, along: tuple[float, float] | None = None, *, turning: bool) -> int:
@@ -252,8 +253,8 @@ class Oracle:
         for u, v in itertools.islice(fits.tangents(pose, 1e-9 * self.size), 40):
             n = math.hypot(u, v)
             ways |= {(round(float(s * u) / n, 12), round(float(s * v) / n, 12)) for s in (1, -1)}
-        for e, turn in itertools.product((2.0**-9, 2.0**-13), (-1, 0, 1)):
-            x, y, theta = self.turned(at, turn * e * self.size)
+        for e, turn, pole in itertools.product((2.0**-9, 2.0**-13), (-1, 0, 1), {self.middle, *self.poles}):
+            x, y, theta = self.turned(at, turn * e * self.size, pole)
             for (u, v), k in itertools.product(ways, (8, 32)):
                 if not (turn or u or v):
                     continue

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 from dataclasses import fields, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +14,10 @@ import pytest
 
 import cfree
 import cfree.verify
-from cfree import Scene, boundary
+from cfree import Polygon, Scene, boundary
 from cfree.forbidden.boundary import Boundary
-from cfree.forbidden.columns import Trapezoids
-from cfree.verify.result import MEASURED, PROVED, SKIPPED
+from cfree.forbidden.columns import IsolatedParts, Trapezoids
+from cfree.verify.result import MEASURED, PROVED, SAMPLED, SKIPPED
 from rounded_scenes import MIXED, ONE_RADIUS, SCENES, SQUARE, TRIANGLE, disc, grown, random_scene
 from rounded_ties import SCENES as TIES
 from rounded_ties import scene_of
@@ -70,6 +71,46 @@ def test_a_sample_says_what_it_leaves_out() -> None:
     assert result.verified
     assert ways["closed surfaces"] == ways["nothing missing"] == ways["Euler numbers again"] == SKIPPED
     assert {check.how for check in cfree.verify.boundary(boundary(MIXED), slices=1).checks} >= {PROVED, MEASURED}
+
+
+def peg() -> Boundary:
+    """A rounded square in a slot of its width: four segments."""
+    square = grown([(-1, -1), (1, -1), (1, 1), (-1, 1)], "1/2")
+    walls = [[(-5, y), (5, y), (5, y + 1), (-5, y + 1)] for y in (Fraction(3, 2), Fraction(-5, 2))]
+    return boundary(cfree.Scene(square, [Polygon(wall) for wall in walls]))
+
+
+def with_parts(result: Boundary, **table: Any) -> Boundary:
+    """The same boundary with other columns of isolated parts."""
+    columns = {field.name: np.array(getattr(result.isolated, field.name)) for field in fields(IsolatedParts)} | table
+    contacts = (np.array(getattr(result, f"contact_{name}")) for name in ("kind", "robot", "obstacle"))
+    return Boundary(
+        result.scene, result.features, *contacts, result.trapezoids, IsolatedParts(**columns),
+        replace(result.stats), np.array(result.trimmed),
+    )  # fmt: skip
+
+
+def test_exact_fits_are_free_and_without_room() -> None:
+    result = cfree.verify.boundary(peg(), slices=1)
+    found = next(check for check in result.checks if check.name == "isolated parts")
+    assert result.verified and (found.how, found.extent.partition(":")[0]) == (SAMPLED, "4 parts")
+
+
+def test_wrong_exact_fits_are_refuted() -> None:
+    right = peg()
+    parts, table = right.isolated, right.trapezoids
+    other = next(k for k in range(len(table)) if table.lower[k] not in (parts.lower[0], parts.upper[0]))
+    wrong = [
+        with_parts(right, lower=np.where(np.arange(4) == 0, table.lower[other], parts.lower)),
+        with_parts(right, upper=np.array(parts.lower), upper_patch=np.array(parts.lower_patch)),
+        with_parts(
+            right, **{f"to_{x}": np.roll(getattr(parts, f"to_{x}"), 1) for x in ("first", "second", "lo", "hi")}
+        ),
+        with_parts(right, patch=np.full(4, 7, np.int32), lower_patch=np.full(4, 7, np.int32)),
+    ]
+    for bad in wrong:
+        kinds = {finding.kind for finding in cfree.verify.boundary(bad, slices=0).findings}
+        assert kinds == {"isolated parts"}
 
 
 def changed(result: Boundary, table: dict[str, Any], kind: Any = None) -> Boundary:
