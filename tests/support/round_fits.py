@@ -24,13 +24,13 @@ from cfree.exact.number import ExactPoint, rational_root
 from cfree.exact.pose import Pose, pose_at
 from cfree.forbidden.isolated import isolated_at
 from cfree.planning.contact_fits import Fits
-from cfree.scene.scene import robot_radius
 
 Shape = Curved | Polygon
 Place = tuple[float, float, float]
 TURNS = [(F(1), F(0)), (F(3, 5), F(4, 5)), (F(-20, 29), F(21, 29)), (F(0), F(1)), (F(5, 13), F(-12, 13))]
 AROUND = [(5, 0), (-5, 0), (0, 5), (0, -5), *itertools.product((3, -3), (4, -4)), *itertools.product((4, -4), (3, -3))]
 BESIDE = 2.0**-19  # of the size
+SLIVERS = 20_000  # places at random
 WAYS = [(math.cos(0.123 + math.tau * k / 24), math.sin(0.123 + math.tau * k / 24)) for k in range(24)]
 
 
@@ -183,10 +183,11 @@ class Oracle:
         arcs = arcs_of(where)
         assert arcs is not None
         self.scene, self.arcs = where, arcs
-        self.reach, self.size = robot_radius(where), size_of(where)
+        self.size = size_of(where)
         boxes = [[float(v) for v in (part.box if isinstance(part, Curved) else part.bounds)] for part in where.robot]
         self.poles = [complex(b[0] + b[2], b[1] + b[3]) / 2 for b in boxes]  # middles of the robot's parts
         self.middle = sum(self.poles) / len(boxes)
+        self.reach = max(abs(complex(b[i], b[j]) - self.middle) for b in boxes for i in (0, 2) for j in (1, 3))
 
     def turned(self, at: Place, by: float, pole: complex | None = None) -> Place:
         """The pose turned about a point of the robot, or its middle, by a length at its reach."""
@@ -261,6 +262,17 @@ class Oracle:
                 there = x + e * self.size * u, y + e * self.size * v, theta
                 if self.free_beside(there, self.size * e * e / k, turning=False):
                     return True
+        return all(self._has_slivers(at, e) for e in (2.0**-5, 2.0**-7))
+
+    def _has_slivers(self, at: Place, e: float) -> bool:
+        """True if places at random beside a pose that is turned a little are free: room as wide as its square."""
+        numbers = np.random.default_rng(0)
+        for turn, pole in itertools.product((-1, 1), {self.middle, *self.poles}):
+            x, y, theta = self.turned(at, turn * e * self.size, pole)
+            steps = numbers.uniform(-e * self.size, e * self.size, (SLIVERS, 2))
+            table = np.column_stack([x + steps[:, 0], y + steps[:, 1], np.full(SLIVERS, theta)])
+            if self.arcs.are_free(table, 1).any():
+                return True
         return False
 
 

@@ -102,7 +102,6 @@ def test_wrong_exact_fits_are_refuted() -> None:
     other = next(k for k in range(len(table)) if table.lower[k] not in (parts.lower[0], parts.upper[0]))
     wrong = [
         with_parts(right, lower=np.where(np.arange(4) == 0, table.lower[other], parts.lower)),
-        with_parts(right, upper=np.array(parts.lower), upper_patch=np.array(parts.lower_patch)),
         with_parts(
             right, **{f"to_{x}": np.roll(getattr(parts, f"to_{x}"), 1) for x in ("first", "second", "lo", "hi")}
         ),
