@@ -179,7 +179,10 @@ class BoundaryRecord(Value):
 
     @cached_property
     def patch_radius(self) -> Floats:
-        """Radius of the circle of each arc-arc patch, (P,): the sum of both shapes' radii; 0 for other patches."""
+        """Radius of the circle of each arc-arc patch, (P,): the sum of both shapes' radii; 0 for other patches.
+
+        That of a concave arc is negative, and so is this sum: free space is inside the circle.
+        """
         return np.where(self.contact_kind & 15 == Kind.VERTEX_VERTEX, self._radii, 0.0)
 
     @property
@@ -269,6 +272,7 @@ class BoundaryRecord(Value):
         ----------
         patch : (k,) int
         t : (k,) float, along the edge; on a quadrant of a circle tan(psi / 2), psi counted from its beginning
+            If the radius is negative, psi counts clockwise from the quadrant's end.
         theta : (k,) float, radians
 
         Returns
@@ -286,8 +290,9 @@ class BoundaryRecord(Value):
         c, n = np.cos(theta), np.sin(theta)
         x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)
         if self.scene.curved:
-            psi = np.pi / 2 * (self.contact_kind[which] >> 4) + 2 * np.arctan(t)
             rho = self.patch_radius[which]
+            turns = np.pi / 2 * ((self.contact_kind[which] >> 4) + (rho < 0))
+            psi = turns + np.where(rho < 0, -2, 2) * np.arctan(t)
             x, y = x + rho * np.cos(psi), y + rho * np.sin(psi)
         return np.stack([x, y], axis=-1)
 
