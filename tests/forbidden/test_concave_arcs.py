@@ -146,9 +146,9 @@ def test_concave_arcs_that_meet_convex_ones_become_polygons_on_request() -> None
 
 def test_arcs_next_to_each_other_are_cut_until_their_triangles_are_apart() -> None:
     """Two bays from both sides, with a thin wall between them."""
-    wall = Fraction(1, 8)
-    ring = [(-4, -4), (-3, -4), Arc((3, -4), center=(0, -4), clockwise=True), (4, -4)]
-    top = 2 + wall
-    ring += [(4, top), (3, top), Arc((-3, top), center=(0, top), clockwise=True), (-3, top), (-4, top)]
-    form = rounded(Curved([*ring[:7], *ring[8:]]))
-    assert form is not None and len(form.arcs) > 4
+    for wall, count in ((Fraction(1, 8), 4), (Fraction(1, 64), 8)):
+        top = 2 + wall
+        below = [(-4, -4), (-3, -4), Arc((3, -4), center=(0, -4), clockwise=True), (4, -4)]
+        above = [(4, top), (3, top), Arc((-3, top), center=(0, top), clockwise=True), (-4, top)]
+        form = rounded(Curved([*below, *above]))
+        assert form is not None and len(form.arcs) == count

@@ -244,8 +244,11 @@ class BoundaryRecord(Value):
         """The first orientation of each patch, (P,) radians in [0, 2 pi) (paper, 3.1.1 and 3.2.1)."""
         a, b = self.features.robot, self.features.obstacles
         on_edge = self.contact_kind == Kind.VERTEX_EDGE
-        f = np.where(on_edge, self.contact_obstacle, b.previous[self.contact_obstacle])
-        g, f = (a.near[a.w] - a.near[a.v])[self.contact_robot], (b.near[b.w] - b.near[b.v])[f]
+        # along concave arcs normals turn clockwise
+        g, f, is_arc = self.contact_robot, self.contact_obstacle, self.patch_kind == PatchKind.ARC_ARC
+        g = np.where(is_arc & (a.turning[g] < 0), a.previous[g], g)
+        f = np.where(on_edge | (is_arc & (b.turning[f] < 0)), f, b.previous[f])
+        g, f = (a.near[a.w] - a.near[a.v])[g], (b.near[b.w] - b.near[b.v])[f]
         cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
         angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
         angle[self.phi_range == 2 * np.pi] = 0.0  # of a disc
@@ -260,7 +263,7 @@ class BoundaryRecord(Value):
         at_robot = self.features.robot.turning[self.contact_robot]
         at_obstacle = self.features.obstacles.turning[self.contact_obstacle]
         turning = np.where(self.contact_kind == Kind.VERTEX_EDGE, at_robot, at_obstacle)
-        both = np.minimum(at_robot + at_obstacle, 2 * np.pi)
+        both = np.minimum(np.abs(at_robot) + np.abs(at_obstacle), 2 * np.pi)
         turning = np.where(self.patch_kind == PatchKind.ARC_ARC, both, turning)
         return np.where(self.patch_kind == PatchKind.BOUND, 2 * np.pi, turning)
 
