@@ -125,7 +125,7 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
 std::vector<PatchTrimming::NearFillet> PatchTrimming::fillets_near(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     std::vector<NearFillet> result;
-    if ((A.fillets.empty() && O.fillets.empty()) || O.layer[contact.obstacle] != body_layer) return result;
+    if (A.fillets.empty() && O.fillets.empty()) return result;
     const Box around = grown(edge_box(O, contact.obstacle), reach());
     const auto vertices = [&](const Shape& s) {
         std::vector<Index> list;
