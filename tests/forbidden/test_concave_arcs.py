@@ -152,3 +152,34 @@ def test_arcs_next_to_each_other_are_cut_until_their_triangles_are_apart() -> No
         above = [(4, top), (3, top), Arc((-3, top), center=(0, top), clockwise=True), (-4, top)]
         form = rounded(Curved([*below, *above]))
         assert form is not None and len(form.arcs) == count
+
+
+def test_walls_thinner_than_arcs_may_be_cut_are_refused() -> None:
+    top = 2 + Fraction(1, 2**60)
+    below = [(-4, -4), (-3, -4), Arc((3, -4), center=(0, -4), clockwise=True), (4, -4)]
+    above = [(4, top), (3, top), Arc((-3, top), center=(0, top), clockwise=True), (-4, top)]
+    thin = Scene(SQUARE, [Curved([*below, *above])])
+    assert rounded_shapes(thin) is None and "obstacle 0: too thin beside an arc" in why_not_rounded(thin)
+
+
+def test_a_disc_as_wide_as_the_gap_beside_a_hole_does_not_pass_it() -> None:
+    """It touches the hole and a disc in it at once, at every orientation: that closes its ring of places."""
+    hole = Scene(Curved.circle((0, 0), "1/2"), [plate(), Curved.circle(("3/2", 0), "1/2")])
+    found = boundary(hole)
+    assert found.complex.euler.tolist() == [0, 0]
+    _, inside = free_space(found).volumes
+    assert math.isclose(inside, math.tau * math.pi * (2.5**2 - 1), rel_tol=1e-9)
+    turned = boundary(Scene(hole.obstacles, hole.robot))
+    assert math.isclose(free_space(turned).volumes[1], inside, rel_tol=1e-9)
+
+
+@pytest.mark.slow
+def test_fillets_trim_bounds_as_well() -> None:
+    scene = Scene(
+        [(0, 0), (1, 0), (0, 1)], [shape(BAY)], bounds=(-2, -2, 8, 8), workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)]
+    )
+    space = free_space(boundary(scene))
+    rng = random.Random(2)
+    for _ in range(200):
+        pose = Pose(rng.uniform(-2, 8), rng.uniform(-2, 8), rng.uniform(0, math.tau))
+        assert (space.locate(pose) >= 0) == is_free(scene, pose), pose

@@ -248,8 +248,8 @@ class BoundaryRecord(Value):
         g, f, is_arc = self.contact_robot, self.contact_obstacle, self.patch_kind == PatchKind.ARC_ARC
         g = np.where(is_arc & (a.turning[g] < 0), a.previous[g], g)
         f = np.where(on_edge | (is_arc & (b.turning[f] < 0)), f, b.previous[f])
-        g, f = (a.near[a.w] - a.near[a.v])[g], (b.near[b.w] - b.near[b.v])[f]
-        cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
+        along, past = (a.near[a.w] - a.near[a.v])[g], (b.near[b.w] - b.near[b.v])[f]
+        cross, dot = along[:, 0] * past[:, 1] - along[:, 1] * past[:, 0], (along * past).sum(axis=1)
         angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
         angle[self.phi_range == 2 * np.pi] = 0.0  # of a disc
         return np.where(self.patch_kind == PatchKind.BOUND, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))

@@ -58,25 +58,26 @@ def hull_triangle(start: ExactPoint, end: ExactPoint, arc: Span | None, wider: F
     return HullTriangle((start, end, far), (near, far))
 
 
-def are_apart(triangles: Sequence[HullTriangle]) -> bool:
-    """True if any two have at most a point in common, which is a corner of both.
+def meeting(triangles: Sequence[HullTriangle]) -> set[int]:
+    """Return the numbers of those that have more in common with another one than one corner of both.
 
     Examples
     --------
     >>> p, q, r = ((Fraction(x), Fraction(y)) for x, y in [(0, 0), (1, 0), (0, 1)])
-    >>> are_apart([HullTriangle((p, q)), HullTriangle((q, r))])
-    True
-    >>> are_apart([HullTriangle((p, q, r)), HullTriangle((q, r))])
-    False
+    >>> meeting([HullTriangle((p, q)), HullTriangle((q, r))])
+    set()
+    >>> meeting([HullTriangle((p, q, r)), HullTriangle((p, (p[0] - 1, p[1]))), HullTriangle((q, r))])
+    {0, 2}
     """
     boxes = sorted((_box(triangle.corners), k) for k, triangle in enumerate(triangles))
+    found = set()
     for n, ((_, x1, y0, y1), k) in enumerate(boxes):
         for (x2, _, y2, y3), other in boxes[n + 1 :]:
             if x2 > x1:
                 break
             if y2 <= y1 and y0 <= y3 and not _meet_in_a_corner(triangles[k].corners, triangles[other].corners):
-                return False
-    return True
+                found |= {k, other}
+    return found
 
 
 def _box(points: Sequence[ExactPoint]) -> tuple[float, float, float, float]:

@@ -23,7 +23,7 @@ from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, rational_root
 from cfree.exact.vectors import cross, dot, minus
 from cfree.polygons.polygon import Polygon
-from cfree.scene.hull_triangles import HullTriangle, are_apart, hull_triangle
+from cfree.scene.hull_triangles import HullTriangle, hull_triangle, meeting
 
 if TYPE_CHECKING:
     from cfree.scene.scene import AnyShape, Scene
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 FINEST_CUTS = 5  # of a quarter circle in halves, for chords that meet no other side
 RadiiByPlace = Mapping[ExactPoint, set[Fraction]]
+FINEST_FILLETS = 8  # the same where some are concave
 WIDENINGS = Fraction(1, 4), Fraction(1, 64)  # how far points are beyond the tangents of concave arcs
 
 
@@ -253,10 +254,10 @@ def _with_arcs(shape: Curved) -> Rounded | None:
         if sides is None:
             return None
         rings.append(sides)
-    is_convex = all(arc is None or arc.sense > 0 for ring in rings for *_, arc in ring)
-    on_sides = _on_chords if is_convex else _on_hulls
+    if any(arc and arc.sense < 0 for ring in rings for *_, arc in ring):
+        return _on_hulls(rings)
     for cuts in range(FINEST_CUTS + 1):
-        if (found := on_sides([list(_cut(ring, 2**cuts)) for ring in rings])) is not None:
+        if (found := _on_chords([list(_cut(ring, 2**cuts)) for ring in rings])) is not None:
             return found
     return None
 
@@ -331,13 +332,37 @@ def _on_chords(rings: Sequence[Sequence[Side]]) -> Rounded | None:
 
 
 def _on_hulls(rings: Sequence[Sequence[Side]]) -> Rounded | None:
-    """Return the polygon of chords of convex arcs, and of lines beyond concave ones; None if their triangles meet."""
-    sides = [side for ring in rings for side in ring]
-    for wider in WIDENINGS:
-        triangles = [hull_triangle(start, end, arc, wider) for start, end, arc in sides]
-        if are_apart(triangles):
-            return _with_fillets(rings, dict(zip(((start, end) for start, end, _ in sides), triangles, strict=True)))
-    return None
+    """Return the polygon of chords of convex arcs, and of lines beyond concave ones.
+
+    Arcs are cut in halves while their triangles meet others; None if they are as fine as may be.
+    """
+    sides = [(r, 0, side) for r, ring in enumerate(rings) for side in ring]  # ring, and number of cuts
+    while True:
+        for wider in WIDENINGS:
+            triangles = [hull_triangle(*side, wider) for *_, side in sides]
+            if not (found := meeting(triangles)):
+                cut = [[side for ring, _, side in sides if ring == r] for r in range(len(rings))]
+                return _with_fillets(cut, {side[:2]: one for (*_, side), one in zip(sides, triangles, strict=True)})
+        coarse = {n for n in found if sides[n][2][2] and sides[n][1] < FINEST_FILLETS}
+        if not coarse:
+            return None
+        sides = [part for n, one in enumerate(sides) for part in (_halves(*one) if n in coarse else [one])]
+
+
+def _halves(ring: int, cuts: int, side: Side) -> list[tuple[int, int, Side]]:
+    start, end, arc = side
+    assert arc is not None, "lines are not cut"
+    tangent = math.tan(arc.sweep / 4)
+    middle = arc.at(0, Fraction(tangent).limit_denominator(max(8, math.ceil(2 / tangent))))
+    return [(ring, cuts + 1, (p, q, _part(arc, p, q))) for p, q in ((start, middle), (middle, end))]
+
+
+def _part(arc: Span, start: ExactPoint, end: ExactPoint) -> Span:
+    """Return an arc from one of its points to another one, less than half a turn."""
+    u, w = minus(start, arc.center), minus(end, arc.center)
+    tangent = abs(cross(u, w)) / (dot(u, u) + dot(u, w))
+    v = (-arc.sense * u[1], arc.sense * u[0])
+    return Span(arc.center, u, v, 0, tangent) if tangent < 1 else Span(arc.center, u, v, 1, Fraction(0))
 
 
 def _with_fillets(
@@ -380,7 +405,7 @@ def why_not_rounded(scene: Scene) -> str:
     if isinstance(scene.workspace, Curved):
         return f"workspace: round; give it as a polygon, or {remedy}"
     names = [f"robot[{k}]" if len(scene.robot) > 1 else "robot" for k in range(len(scene.robot))]
-    shapes = zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True)
+    shapes = list(zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True))
     cores = [(name, rounded(shape)) for name, shape in shapes]
     name = next((name for name, core in cores if core is None), None)
     if name is None and known_cores(scene).fills_channel:
@@ -392,6 +417,9 @@ def why_not_rounded(scene: Scene) -> str:
         other = next(name for name, core in cores if core and core.has_convex_arcs and (name in names) != is_robot)
         what = f"concave arcs, which meet convex arcs of {other}; one of the two has to be of lines and whole discs"
         return f"{one}: {what}; {remedy}"
+    shape = next(shape for other, shape in shapes if other == name)
+    if isinstance(shape, Curved) and all(_sides(ring, is_hole=r > 0) for r, ring in enumerate(shape.curves)):
+        return f"{name}: too thin beside an arc for a polygon that leaves out the arcs; {remedy}"
     return f"{name}: not bounded by lines and arcs of rational radii, without cusps; {remedy}"
 
 
