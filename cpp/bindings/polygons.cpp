@@ -134,9 +134,12 @@ using GivenRounding = std::pair<nb::object, std::vector<std::vector<nb::object>>
 cfree::Rounding rounding_of(const GivenRounding& given) {
     cfree::Rounding result{::ratio_of(given.first), {}};
     for (const auto& arc : given.second) {
-        if (arc.size() != 7) throw nb::value_error("an arc has seven numbers: x and y of its ends and centre, and the radius");
+        if (arc.size() != 7 && arc.size() != 11)
+            throw nb::value_error("an arc has seven numbers: x and y of its ends and centre, and the radius; "
+                                  "a concave one four more, of two points beyond it");
         const auto number = [&](std::size_t k) { return ::ratio_of(arc[k]); };
         result.arcs.push_back({{number(0), number(1)}, {number(2), number(3)}, {number(4), number(5)}, number(6)});
+        if (arc.size() == 11) result.arcs.back().beyond = {cfree::RatioPoint{number(7), number(8)}, cfree::RatioPoint{number(9), number(10)}};
     }
     return result;
 }

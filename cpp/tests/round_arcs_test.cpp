@@ -1,4 +1,4 @@
-// Boundaries of shapes with convex arcs: closed surfaces, and cells against exact tests of poses.
+// Boundaries of shapes with convex and with concave arcs: closed surfaces, and cells against exact tests of poses.
 #include <cmath>
 
 #include "cfree/arcs/pose_checker.hpp"
@@ -9,10 +9,11 @@
 
 namespace {
 
-// A corner, and the centre of the arc from it to the next one, if that is no line.
+// A corner, and the centre of the arc from it to the next one, if that is no line; and the points beyond it if it is concave.
 struct Corner {
     long x, y;
     std::optional<std::pair<long, long>> centre = {};
+    std::optional<std::array<std::pair<long, long>, 2>> beyond = {};
 };
 struct Part {
     std::vector<Corner> ring;
@@ -25,6 +26,8 @@ Part moved(Part part, long dx, long dy, long factor = 1) {
     for (Corner& c : part.ring) {
         c.x = factor * c.x + dx, c.y = factor * c.y + dy;
         if (c.centre) c.centre = {factor * c.centre->first + dx, factor * c.centre->second + dy};
+        if (c.beyond)
+            for (auto& [x, y] : *c.beyond) x = factor * x + dx, y = factor * y + dy;
     }
     return part;
 }
@@ -37,12 +40,18 @@ Rounding rounding(const Part& part) {
         const auto [x, y] = *from.centre;
         const long radius = root((from.x - x) * (from.x - x) + (from.y - y) * (from.y - y));
         result.arcs.push_back({{{from.x, 1}, {from.y, 1}}, {{to.x, 1}, {to.y, 1}}, {{x, 1}, {y, 1}}, {radius, 1}});
+        if (!from.beyond) continue;
+        const auto point = [](const std::pair<long, long>& p) { return RatioPoint{{p.first, 1}, {p.second, 1}}; };
+        result.arcs.back().beyond = {point((*from.beyond)[0]), point((*from.beyond)[1])};
     }
     return result;
 }
 Polygon chords(const Part& part) {
     std::vector<std::pair<long, long>> points;
-    for (const Corner& c : part.ring) points.push_back({c.x, c.y});
+    for (const Corner& c : part.ring) {
+        points.push_back({c.x, c.y});
+        if (c.beyond) points.push_back((*c.beyond)[0]);
+    }
     return polygon(points);
 }
 ArcShape arc_shape_of(const Part& part) {
@@ -51,7 +60,7 @@ ArcShape arc_shape_of(const Part& part) {
     for (std::size_t k = 0; k < part.ring.size(); ++k) {
         const Corner &from = part.ring[k], &to = part.ring[(k + 1) % part.ring.size()];
         RoundEdge edge{{from.x * scale, from.y * scale}, {to.x * scale, to.y * scale}, {0, 0}, 0};
-        if (from.centre) edge.center = {from.centre->first * scale, from.centre->second * scale}, edge.turn = 1;
+        if (from.centre) edge.center = {from.centre->first * scale, from.centre->second * scale}, edge.turn = from.beyond ? -1 : 1;
         ring.push_back(edge);
     }
     return arc_shape({ring}, part.grown.n, scale, false);
@@ -116,6 +125,15 @@ bool check(const ByHand& scene) {
 
 std::pair<long, long> at(long x, long y) { return {x, y}; }
 
+// A corner from which a concave quarter circle leads to another place; its tangents meet in a third one.
+Corner concave(long x, long y, std::pair<long, long> centre, std::pair<long, long> to) {
+    const auto beyond = [&](long share) {
+        return std::pair{x + to.first - centre.first + (x + to.first - 2 * centre.first) / (2 * share),
+                         y + to.second - centre.second + (y + to.second - 2 * centre.second) / (2 * share)};
+    };
+    return {x, y, centre, std::array{beyond(8), beyond(4)}};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -126,6 +144,9 @@ int main(int argc, char** argv) {
     const Part corners{{{2, 0}, {9, 0, at(9, 1)}, {10, 1}, {10, 5, at(7, 5)}, {7, 8}, {0, 8}, {0, 2, at(2, 2)}}};
     const Part hat{{{-6, -3}, {6, -3}, {6, 0}, {5, 0, at(0, 0)}, {0, 5, at(0, 0)}, {-5, 0}, {-6, 0}}};
     const Part triangle{{{0, 0}, {3, 1}, {1, 2}}}, square{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}, bar{{{-3, -1}, {3, -1}, {3, 1}, {-3, 1}}};
+    const Part bay{{{-80, -80}, {80, -80}, {80, 48}, concave(48, 48, at(0, 48), at(0, 0)), concave(0, 0, at(0, 48), at(-48, 48)), {-48, 48}, {-80, 48}}};
+    const Part bracket{{{0, 0}, {144, 0}, {144, 32}, concave(80, 32, at(80, 80), at(32, 80)), {32, 80}, {32, 144}, {0, 144}}};
+    const auto large = [](const Part& p) { return moved(p, 0, 0, 16); };
     const auto grown = [](Part p, long n, long d) {
         p.grown = {n, d};
         return p;
@@ -142,6 +163,13 @@ int main(int argc, char** argv) {
         {"square, hat", {square}, {hat}},
         {"dome, grown hat", {dome}, {grown(hat, 1, 4)}},
         {"hat, hat", {hat}, {hat}},
+        {"square, bay", {large(square)}, {bay}},
+        {"grown triangle, bay", {grown(large(triangle), 4, 1)}, {bay}},
+        {"wide square, bay", {grown(large(square), 48, 1)}, {bay}},
+        {"square, bracket", {large(square)}, {bracket}},
+        {"bracket, grown square", {bracket}, {grown(large(square), 8, 1)}},
+        {"bay, bracket", {bay}, {bracket}},
+        {"bay, grown bracket", {bay}, {grown(bracket, 16, 1)}},
         {"two parts", {grown(square, 1, 2), moved(sector, 1, 0)}, {half, moved(triangle, 4, -4)}, 4, 3},
     };
     int good = 0, count = 0;

@@ -216,7 +216,7 @@ def test_smooth_rings_and_rational_corners_stay_round() -> None:
 
 
 def test_what_takes_polygons_only_still_refuses_round_shapes() -> None:
-    with pytest.raises(cfree.UnsupportedError, match="obstacle 0: not bounded by lines and convex arcs"):
+    with pytest.raises(cfree.UnsupportedError, match="obstacle 0: not bounded by lines and arcs"):
         boundary(Scene(disc("0.4"), [Curved.ellipse((3, 0), (1, 2))]))
     assert math.isinf(max_scale(Scene(disc(1), start=(0, 0, 0), goal=(1, 0, 0))).hi)
 

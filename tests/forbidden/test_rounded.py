@@ -262,9 +262,9 @@ def test_rounded_robot_stays_in_a_workspace_of_lines() -> None:
 
 REFUSED = {
     "ellipse": (Scene(disc(0, 0, 1), [Curved.ellipse((5, 0), (1, 2))]), "obstacle 0: not bounded by lines"),
-    "concave arc": (
+    "cusp": (
         Scene(disc(0, 0, 1), [Curved([(0, 0), (4, 0), Arc((0, 4), center=(4, 4), clockwise=True)])]),
-        "obstacle 0: not bounded by lines and convex arcs",
+        "obstacle 0: not bounded by lines and arcs of rational radii, without cusps",
     ),
     "round workspace": (Scene(disc(0, 0, 1), [], workspace=disc(0, 0, 3)), "workspace: round"),
     "irrational radius": (

@@ -170,7 +170,7 @@ void RoundCurve::join_branches() {
 void RoundCurve::meet_on_line(const Places& places, const Feature& on, const Feature& other) {
     const auto parts = places.parts(on);
     const Complex a2 = places.a(other.robot), b2 = places.b(other.obstacle), e = parts.edge;
-    radius = sum_of_radii(places.scene, other) * places.scene.unit();
+    radius = std::abs(sum_of_radii(places.scene, other)) * places.scene.unit();
     branch = is_smooth(places.scene, on, other) || radius == 0 ? 0 : other.branch;
     form = Form::on_line;
     if (on.kind == Kind::vertex_edge) {
@@ -183,10 +183,10 @@ void RoundCurve::meet_on_line(const Places& places, const Feature& on, const Fea
 }
 
 void RoundCurve::meet_on_circle(const Places& places, const Feature& on, const Feature& other, double from, double to) {
-    radius = sum_of_radii(places.scene, on) * places.scene.unit();
-    begin = 0.5 * pi * on.branch;
+    const double rho = sum_of_radii(places.scene, on) * places.scene.unit();
+    radius = std::abs(rho), begin = begin_of(on.branch, rho), side = rho < 0 ? -1 : 1;
     if (other.kind == Kind::seam) {
-        start = other.branch == on.branch ? 0 : 0.5 * pi;
+        start = (other.branch == on.branch) == (side > 0) ? 0 : 0.5 * pi;
         return;
     }
     const Complex a = places.a(on.robot), b = places.b(on.obstacle);
@@ -197,7 +197,7 @@ void RoundCurve::meet_on_circle(const Places& places, const Feature& on, const F
         const Complex inwards = i_unit * (turns ? -parts.edge : parts.edge);  // n = JV, of length 1
         if (is_smooth(places.scene, other, on)) {
             form = turns ? Form::turning : Form::still;
-            start = std::arg(-inwards) - begin;
+            start = side * (std::arg(-side * inwards) - begin);
             return;
         }
         form = Form::on_circle, square = {1, 0, 0}, meets_line = true;
@@ -209,7 +209,7 @@ void RoundCurve::meet_on_circle(const Places& places, const Feature& on, const F
         return;
     }
     const Complex db = places.b(other.obstacle) - b, da = places.a(other.robot) - a;
-    const double r = sum_of_radii(places.scene, other) * places.scene.unit();
+    const double r = std::abs(sum_of_radii(places.scene, other)) * places.scene.unit();
     form = Form::on_circle, still = db, moving = -da, other_radius = r;
     if (radius == r && std::abs(std::abs(db) - std::abs(da)) <= equal_share * std::abs(da)) {
         // n = -2 i sin((phi - meeting) / 2) exp(i (phi + meeting) / 2) da, and |n| / (2 radius) is the cosine
@@ -226,7 +226,7 @@ void RoundCurve::meet_on_circle(const Places& places, const Feature& on, const F
 double RoundCurve::position(double phi) const {
     switch (form) {
         case Form::still: return in_quadrant(start);
-        case Form::turning: return in_quadrant(start + phi);
+        case Form::turning: return in_quadrant(start + side * phi);
         case Form::line: {
             const Complex x = curve.at(phi) - origin;
             return is_saddle ? -dot(x, std::polar(1.0, phi) * direction) : dot(x, direction);
@@ -245,13 +245,13 @@ double RoundCurve::position(double phi) const {
     }
     q = std::clamp(q, -1.0, 1.0);
     const double root = is_equal ? std::sqrt((1 - q) * (1 + q)) : root_at(phi).s;
-    return in_quadrant(std::arg(n * Complex{q, branch * root}) - begin);
+    return in_quadrant(side * (std::arg(n * Complex{q, branch * root}) - begin));
 }
 
 RoundCurve::Motion RoundCurve::motion(double phi) const {
     const double s = position(phi);
     if (form == Form::still) return {s, 0, 0};
-    if (form == Form::turning) return {s, 1, 0};
+    if (form == Form::turning) return {s, side, 0};
     if (form == Form::line) {
         const Complex x = curve.at(phi) - origin, v = curve.velocity(phi), w = curve.acceleration(phi);
         if (!is_saddle) return {s, dot(v, direction), dot(w, direction)};
@@ -273,12 +273,12 @@ RoundCurve::Motion RoundCurve::motion(double phi) const {
         turned = {0, rate.s, rate.velocity};
         q = quotient(values((1 / radius) * delta, phi), root(n));
     }
-    if (branch == 0) return {s, turned.velocity, turned.acceleration};
+    if (branch == 0) return {s, side * turned.velocity, side * turned.acceleration};
     const Motion w = is_equal ? root(Motion{(1 - q.s) * (1 + q.s), -2 * q.s * q.velocity, -2 * (q.velocity * q.velocity + q.s * q.acceleration)})
                               : root_at(phi);
     // derivative of arccos q: w' / q or -q' / w
     const Motion slope = std::abs(q.s) > 0.5 ? quotient({w.velocity, w.acceleration, 0}, q) : quotient({-q.velocity, -q.acceleration, 0}, w);
-    return {s, turned.velocity + branch * slope.s, turned.acceleration + branch * slope.velocity};
+    return {s, side * (turned.velocity + branch * slope.s), side * (turned.acceleration + branch * slope.velocity)};
 }
 
 double RoundCurve::bow_of_line(double from, double to) const {

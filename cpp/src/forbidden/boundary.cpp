@@ -171,7 +171,8 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
         for (Trapezoids* rows : {&trapezoids, &thin}) use_names(scene, rows->features());
     tally.collect_seconds = lap();
     IsolatedParts isolated;
-    if (work.is_complete() && !task.regularized && !task.features)
+    const bool has_concave = scene.robot.has_concave() || scene.obstacles.has_concave();  // isolated parts there may be arcs
+    if (work.is_complete() && !task.regularized && !task.features && !has_concave)
         isolated = scene.is_round ? isolated_round_parts(scene, work.patches, trapezoids, thin, task.threads)
                                   : isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
     heed_stop();

@@ -24,6 +24,13 @@ Range range_of(const Scene& scene, const Feature& contact, Counters& counters) {
     return {2, {start.chart, end.chart}, {start.event, first_end}, {last_end, end.event}};
 }
 
+bool makes_circles(const Scene& scene, Index i, Index j) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (A.convex[i] && O.convex[j]) return A.vertex_radius[i] != 0 || O.vertex_radius[j] != 0;
+    const bool is_pair = A.convex[i] ? O.is_concave(j) : O.convex[j] && A.is_concave(i);
+    return is_pair && (A.radius_of(i).exact + O.radius_of(j).exact).sign() < 0;
+}
+
 CoincidentSurfaces::Groups::Groups(const std::vector<Index>& group, Index count) {
     Index last = -1;
     for (Index k = 0; k < count; ++k) last = std::max(last, group[k]);
@@ -54,7 +61,7 @@ bool CoincidentSurfaces::is_patch(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
     if (!O.emit[j] || A.layer[i] != O.layer[j]) return false;
-    if (contact.kind == Kind::vertex_vertex) return A.convex[i] && O.convex[j];
+    if (contact.kind == Kind::vertex_vertex) return makes_circles(scene, i, j);
     return contact.kind == Kind::vertex_edge ? A.convex[i] && O.makes_surfaces(j) : O.convex[j] && A.makes_surfaces(i);
 }
 

@@ -36,6 +36,10 @@ private:
     std::vector<std::unique_ptr<const Lines>> walls, prongs;
 };
 
+// True if vertex i of the robot and vertex j of the obstacles touch on a circle: both are convex, and one is an arc; or one is a
+// concave arc and the other a convex vertex of a smaller radius.
+bool makes_circles(const Scene& scene, Index i, Index j);
+
 class CoincidentSurfaces {
 public:
     // regularized: patches of one surface whose free sides face each other own nothing.

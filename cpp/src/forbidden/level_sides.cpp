@@ -223,8 +223,12 @@ std::vector<std::vector<Sheet*>> LevelGluer<At>::circles(std::vector<Sheet>& she
     for (Sheet& s : sheets) {
         if (!is_circle(s.contact)) continue;
         const auto same = std::find_if(result.begin(), result.end(), [&](const auto& circle) { return at.are_one_circle(circle[0]->contact, s.contact); });
-        if (same != result.end()) same->push_back(&s);
-        else result.push_back({&s});
+        if (same == result.end()) {
+            result.push_back({&s});
+            continue;
+        }
+        s.along = is_concave(scene, s.contact) == is_concave(scene, same->front()->contact) ? 1 : -1;
+        same->push_back(&s);
     }
     return result;
 }
@@ -343,8 +347,9 @@ template <class At>
 void LevelGluer<At>::pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q,
                                       At& at) {
     if (around == Around::all && live.size() <= 2) return parts.pair(live.front().second, live.back().second);
-    if (is_circle(live[0].first->contact)) {  // one surface before, and one after
-        if (live.size() == 2 && live[0].first->is_above != live[1].first->is_above) return parts.pair(live[0].second, live[1].second);
+    if (is_circle(live[0].first->contact)) {  // one surface before, and one after; or two that face each other
+        const bool is_pair = live.size() == 2 && (live[0].first->is_above != live[1].first->is_above) == (live[0].first->along == live[1].first->along);
+        if (is_pair) return parts.pair(live[0].second, live[1].second);
         return fail_to_glue("a circle with " + std::to_string(live.size()) + " sides", live[0].first->trapezoid, whole);
     }
     auto sorted = live;

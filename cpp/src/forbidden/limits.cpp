@@ -53,7 +53,7 @@ Limits::Line Limits::round_line(const Feature& contact, const Rotation<double>& 
 
 Vec<double> Limits::Line::at(double t) const {
     if (!is_circle()) return {p.x + t * u.x, p.y + t * u.y};
-    const Vec<double> outwards = on_quadrant(quadrant, t);
+    const Vec<double> outwards = on_quadrant(quadrant, radius, t);
     return {p.x + radius * outwards.x, p.y + radius * outwards.y};
 }
 
@@ -87,13 +87,15 @@ Limits::Meeting Limits::meets_round(const Feature& contact, const Line& l, const
     const auto dot_of = [](const Vec<double>& x, const Vec<double>& y) { return x.x * y.x + x.y * y.y; };
     const auto cross_of = [](const Vec<double>& x, const Vec<double>& y) { return x.x * y.y - x.y * y.x; };
     const auto root_of = [](double whole, double part) { return std::sqrt(std::max(0.0, (whole - part) * (whole + part))); };
-    if (f.kind == Kind::seam) return {f.branch == contact.branch ? 0.0 : 1.0, 1};
+    const bool is_back = is_circle(contact) && l.radius < 0;
+    if (f.kind == Kind::seam) return {(f.branch == contact.branch) == is_back ? 1.0 : 0.0, 1};
     const Line other = line(f, r);
     if (is_line(contact)) {
         if (is_smooth(scene, contact, f)) return {helix_at(contact, f), 1};
         const Vec<double> d = other.p - l.p;
         const double length = norm(l.u.x, l.u.y), root = root_of(other.radius, cross_of(l.u, d) / length);
-        return within(dot_of(d, l.u) / (length * length) + f.branch * root / length, other.radius > 0 ? root / other.radius : 1);
+        const double size = std::abs(other.radius);
+        return within(dot_of(d, l.u) / (length * length) + f.branch * root / length, size > 0 ? root / size : 1);
     }
     Vec<double> outwards, d = other.p - l.p;
     double sine = 1, more = other.radius - l.radius;
@@ -117,12 +119,13 @@ Limits::Meeting Limits::meets_round(const Feature& contact, const Line& l, const
         n = {n.x / length, n.y / length};
         const double delta = is_line(f) ? cross_of(other.u, d) / length
                                         : 0.5 * (length - more * (l.radius + other.radius) / length);
-        const double cosine = delta / l.radius, root = root_of(1, cosine);
+        const double cosine = delta / l.radius, root = l.radius < 0 ? -root_of(1, cosine) : root_of(1, cosine);
         outwards = {cosine * n.x - f.branch * root * n.y, cosine * n.y + f.branch * root * n.x};
-        sine = is_line(f) ? root : other.radius > 0 ? std::min(1.0, std::abs(cross_of(outwards, d)) / other.radius) : 1;
+        sine = is_line(f) ? std::abs(root) : other.radius != 0 ? std::min(1.0, std::abs(cross_of(outwards, d) / other.radius)) : 1;
     }
     for (int k = 0; k < l.quadrant; ++k) outwards = {outwards.y, -outwards.x};
-    return within(outwards.y / (1 + std::max(0.0, outwards.x)), sine);
+    const double t = outwards.y / (1 + std::max(0.0, outwards.x));
+    return within(is_back ? from_other_end(t) : t, sine);
 }
 
 }  // namespace cfree

@@ -98,7 +98,7 @@ Vec<double> place_on(const Scene& scene, const Surface& surface, double tau, dou
     const auto placed = [&](Index a, Index b) { return Vec<double>{O.x[b], O.y[b]} - R(Vec<double>{A.x[a], A.y[a]}); };
     const double rho = sum_of_radii(scene, contact);
     if (is_circle(contact)) {
-        const Vec<double> p = placed(i, j), unit = on_quadrant(contact.branch, t);
+        const Vec<double> p = placed(i, j), unit = on_quadrant(contact.branch, rho, t);
         return {p.x + rho * unit.x, p.y + rho * unit.y};
     }
     const bool on_edge = contact.kind == Kind::vertex_edge;

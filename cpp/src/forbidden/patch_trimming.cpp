@@ -28,8 +28,8 @@ Patches list_patches(const Scene& scene) {
             if (A.layer[i] == O.layer[j] && A.convex[i]) add(Kind::vertex_edge, i, j);
         for (Index i = 0; O.convex[j] && i < A.ring_vertices; ++i)
             if (A.layer[i] == O.layer[j] && A.makes_surfaces(i)) add(Kind::edge_vertex, i, j);
-        for (Index i = 0; scene.is_round && O.convex[j] && i < A.ring_vertices; ++i)
-            if (A.layer[i] == O.layer[j] && A.convex[i] && (A.vertex_radius[i] != 0 || O.vertex_radius[j] != 0))
+        for (Index i = 0; scene.is_round && i < A.ring_vertices; ++i)
+            if (A.layer[i] == O.layer[j] && makes_circles(scene, i, j))
                 for (const int quadrant : {0, 1, 2, 3}) {
                     add(Kind::vertex_vertex, i, j);
                     list.kind.back() = static_cast<std::uint8_t>(list.kind.back() | quadrant << 4);
@@ -120,6 +120,41 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
     count.live_patches += out.size() > before;
 }
 
+// The vertices that matter are the convex ones, and ends of concave arcs: those of the shape without its fillets. The circle of the
+// contact itself covers nothing of it.
+std::vector<PatchTrimming::NearFillet> PatchTrimming::fillets_near(const Feature& contact) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    std::vector<NearFillet> result;
+    if (A.fillets.empty() && O.fillets.empty()) return result;
+    const Box around = grown(edge_box(O, contact.obstacle), reach());
+    const auto vertices = [&](const Shape& s) {
+        std::vector<Index> list;
+        for (Index v = 0; v < s.ring_vertices; ++v)
+            if (s.convex[v] && s.layer[v] == body_layer) list.push_back(v);
+        list.insert(list.end(), s.fillet_ends.begin(), s.fillet_ends.end());
+        std::sort(list.begin(), list.end(), [&](Index v, Index w) { return std::pair(s.point[v], v) < std::pair(s.point[w], w); });
+        list.erase(std::unique(list.begin(), list.end(), [&](Index v, Index w) { return s.point[v] == s.point[w]; }), list.end());
+        return list;
+    };
+    for (const bool of_robot : {false, true}) {
+        const Shape &own = of_robot ? A : O, &other = of_robot ? O : A;
+        if (own.fillets.empty()) continue;
+        const std::vector<Index> list = vertices(other);
+        for (const Shape::Fillet& fillet : own.fillets)
+            for (const Index v : list) {
+                if (!(own.radius_of(fillet.vertex[0]).exact + other.radius_of(v).exact).is_zero()) continue;
+                const Feature circle{Kind::vertex_vertex, of_robot ? fillet.arc : v, of_robot ? v : fillet.arc, contact.branch};
+                if (is_circle(contact) && code(scene, circle) == code(scene, contact)) continue;
+                Box box;
+                if (of_robot) box.add(O.x[v], O.y[v]);
+                else
+                    for (const Index w : fillet.vertex) box.add(O.x[w], O.y[w]);
+                if (around.meets(box)) result.push_back({&fillet, of_robot, v});
+            }
+    }
+    return result;
+}
+
 // The same among grown shapes, by all pillars near the patch.
 void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vector<Feature>& before_it, std::vector<Trapezoid>& out,
                                std::vector<Trapezoid>& thin, Count& count) const {
@@ -127,7 +162,13 @@ void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vect
     const Range range = range_of(scene, contact, count.decisions);
     const std::size_t before = out.size();
     const std::vector<Index> edges = owners.edges_at(contact.obstacle);
-    RoundShadows shadows(scene, contact, near.pieces());
+    const std::vector<NearFillet> fillets = fillets_near(contact);
+    std::vector<RoundShadows::Sum> sums;
+    for (const auto& [fillet, of_robot, vertex] : fillets) {
+        const std::vector<Index> around(fillet->vertex.begin(), fillet->vertex.end());
+        sums.push_back(of_robot ? RoundShadows::Sum{std::vector{vertex}, around} : RoundShadows::Sum{around, std::vector{vertex}});
+    }
+    RoundShadows shadows(scene, contact, near.pieces(), sums);
     for (int r = 0; r < range.count; ++r) {
         RoundTrimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r], edges);
         for (const Feature& owner : before_it) {
@@ -149,6 +190,13 @@ void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vect
                 heed_stop();
                 trimmer.cover(p, k, shadows.slices, part);
             }
+        for (std::size_t n = 0; n < fillets.size() && !trimmer.empty(); ++n) {
+            const Slices::Part part = shadows.part_of_sum(n);
+            if (part.empty()) continue;
+            ++count.pairs;
+            heed_stop();
+            trimmer.cover_fillet(*fillets[n].fillet, fillets[n].of_robot, fillets[n].vertex, shadows.slices, part);
+        }
         trimmer.split_at_touches(near.pieces());
         trimmer.finish(patch, out, thin);
         count.decisions += trimmer.decide.counters;

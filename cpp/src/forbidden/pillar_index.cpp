@@ -8,7 +8,7 @@ namespace cfree {
 PillarIndex::PillarIndex(const Scene& s)
     : scene(s), boxes(piece_boxes(s.obstacles)), tree(boxes), robot_diagonal(diagonal(s.robot)) {
     for (const Shape* shape : {&s.robot, &s.obstacles})  // twice, rounded up: of both pieces, or of both vertices
-        if (s.is_round) robot_diagonal += (2 + 0x1p-20) * shape->radii.back().about.hi;
+        if (s.is_round) robot_diagonal += (2 + 0x1p-20) * shape->largest_radius();
 }
 
 void PillarIndex::near(Index j, std::vector<Index>& out) const {

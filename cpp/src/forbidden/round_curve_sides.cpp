@@ -36,6 +36,7 @@ private:
     void list_sides();
     std::vector<std::vector<Index>> one_curve(const std::vector<Run>& runs) const;
     void glue(std::vector<NamedSide>& sides_of_curve);
+    int compare_bends(const NamedSide& x, const NamedSide& y) const;
     void pair_around_point(const std::vector<const NamedSide*>& there, Index from, Index to);
     Index add(const NamedSide& s, Index from, Index to) {
         return parts.add(s.trapezoid(), s.on(), false, is_forwards(s.on()) ? from : to);
@@ -134,6 +135,20 @@ void RoundCurveGluer::glue(std::vector<NamedSide>& all) {
     }
 }
 
+// Sign of the difference of curvatures to the left, along two rays away from a point: 1 / rho on a circle of a side that leaves, less
+// than 0 on one that arrives.
+int RoundCurveGluer::compare_bends(const NamedSide& x, const NamedSide& y) const {
+    const auto radius = [&](const NamedSide& s) -> Int {  // 0 on a line
+        const Feature on = curve(s).on;
+        if (!is_circle(on)) return 0;
+        const Int rho = scene.robot.radius_of(on.robot).exact + scene.obstacles.radius_of(on.obstacle).exact;
+        return s.on() == Side::upper ? Int(-rho) : rho;
+    };
+    const Int r = radius(x), s = radius(y);
+    if (r.is_zero() || s.is_zero()) return r.sign() - s.sign();
+    return Int(s - r).sign() * r.sign() * s.sign();
+}
+
 // Pair rays from the point, counter-clockwise: after a segment that arrives (an upper end) there is a free sector.
 void RoundCurveGluer::pair_around_point(const std::vector<const NamedSide*>& there, Index from, Index to) {
     parts.begin_edge();
@@ -167,7 +182,8 @@ void RoundCurveGluer::pair_around_point(const std::vector<const NamedSide*>& the
         if (first != second) return first < second;
         if (first == 1 || first == 3)
             if (const int side = turn(rays[p], rays[q])[0]; side != 0) return side > 0;
-        // space between two rays of one direction is free, a cusp or a slit
+        if (const int bend = compare_bends(*rays[p].side, *rays[q].side); bend != 0) return bend < 0;
+        // space between two rays of one direction and curvature is free, a slit
         if (rays[p].arrives() != rays[q].arrives()) return rays[p].arrives();
         return p < q;
     });

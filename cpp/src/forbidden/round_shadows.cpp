@@ -28,8 +28,8 @@ Vec<double> RoundShadows::seen(const Shape& s, Index from, Index to) {
     return {dot(direction, d), cross(direction, d)};
 }
 
-RoundShadows::RoundShadows(const Scene& s, const Feature& on, const std::vector<Index>& pieces)
-    : scene(s), contact(on), near_pieces(pieces) {
+RoundShadows::RoundShadows(const Scene& s, const Feature& on, const std::vector<Index>& pieces, const std::vector<Sum>& more)
+    : scene(s), contact(on), near_pieces(pieces), rows(s.robot.pieces() + static_cast<Index>(more.size())) {
     const Shape &A = s.robot, &O = s.obstacles;
     const Index a = on.kind == Kind::edge_vertex ? A.v[on.robot] : on.robot, b = on.kind == Kind::vertex_edge ? O.v[on.obstacle] : on.obstacle;
     const double rho = A.radius_of(a).about.hi + O.radius_of(b).about.hi;
@@ -51,17 +51,33 @@ RoundShadows::RoundShadows(const Scene& s, const Feature& on, const std::vector<
         for (const auto& [x, y] : {std::pair{1.0, 0.0}, std::pair{1.0, eighth_turn}, std::pair{eighth_turn, 1.0}, std::pair{0.0, 1.0}})
             patch.add(rho * (x * first.x + y * last.x), rho * (x * first.y + y * last.y));
     }
+    const auto less_the_patch = [&](Octagon around) {
+        for (int i = 0; i < 4; ++i) {
+            const double low = around.low[i] - patch.high[i];
+            around.high[i] -= patch.low[i], around.low[i] = low;
+        }
+        still.push_back(around);
+    };
     for (const Index k : pieces) {
         Octagon around;
         for (Index n = O.piece[k]; n < O.piece[k + 1]; ++n) {
             const Vec<double> at = seen(O, b, O.piece_vertex[n]);
             around.add(at.x, at.y, O.radius_of(O.piece_vertex[n]).about.hi);
         }
-        for (int i = 0; i < 4; ++i) {
-            const double low = around.low[i] - patch.high[i];
-            around.high[i] -= patch.low[i], around.low[i] = low;
+        less_the_patch(around);
+    }
+    for (std::size_t n = 0; n < more.size(); ++n) {
+        Octagon around;
+        for (const Index v : more[n][0]) {
+            const Vec<double> at = seen(O, b, v);
+            around.add(at.x, at.y);
         }
-        still.push_back(around);
+        less_the_patch(around);
+        for (const Index v : more[n][1])
+            for (const Vec<double>& turned_too : patch_turning) {
+                const Vec<double> d = seen(A, a, v);
+                turning.push_back({A.pieces() + static_cast<Index>(n), {d.x + turned_too.x, d.y + turned_too.y}, 0});
+            }
     }
     for (Index p = 0; p < A.pieces(); ++p)
         for (Index n = A.piece[p]; n < A.piece[p + 1]; ++n)
@@ -69,14 +85,14 @@ RoundShadows::RoundShadows(const Scene& s, const Feature& on, const std::vector<
                 const Vec<double> d = seen(A, a, A.piece_vertex[n]);
                 turning.push_back({p, {d.x + more.x, d.y + more.y}, A.radius_of(A.piece_vertex[n]).about.hi});
             }
-    size += A.radii.back().about.hi + O.radii.back().about.hi;
+    size += A.largest_radius() + O.largest_radius();
 }
 
 // All values are at most 8 sizes, and within 200 u of that.
 void RoundShadows::cut(int chart, double lo, double hi) {
     slices.cut(lo, hi, chart);
     const double slack = 0x1p-42 * size + tiny;
-    const auto count = static_cast<std::size_t>(scene.robot.pieces());
+    const auto count = static_cast<std::size_t>(rows);
     turned.assign(count * static_cast<std::size_t>(slices.count), {});
     for (int s = 0; s < slices.count; ++s) {
         const double from = slices.at[s], to = slices.at[s + 1];
@@ -99,7 +115,7 @@ bool RoundShadows::is_own(Index p, std::size_t near) const {
 Slices::Part RoundShadows::part(Index p, std::size_t near) const {
     Slices::Part result{slices.count, -1, false};
     const Octagon* around = &turned[static_cast<std::size_t>(p)];
-    for (int s = 0; s < slices.count; ++s, around += scene.robot.pieces()) {
+    for (int s = 0; s < slices.count; ++s, around += rows) {
         bool meets = true;
         for (int i = 0; i < 4; ++i) meets &= still[near].low[i] <= around->high[i] && around->low[i] <= still[near].high[i];
         if (meets) result.first = std::min(result.first, s), result.last = s;

@@ -12,7 +12,9 @@ namespace cfree {
 class RoundShadows {
 public:
     // For the patches of one contact and obstacle pieces near it.
-    RoundShadows(const Scene& scene, const Feature& contact, const std::vector<Index>& pieces);
+    // And for more pillars of radius 0: vertices of the obstacles, and of the robot.
+    using Sum = std::array<std::vector<Index>, 2>;
+    RoundShadows(const Scene& scene, const Feature& contact, const std::vector<Index>& pieces, const std::vector<Sum>& more = {});
     // Cut a range of angles into slices.
     void cut(int chart, double lo, double hi);
     Slices slices;
@@ -20,6 +22,9 @@ public:
     bool is_own(Index p, std::size_t near) const;
     // Slices in which robot piece p and one of the obstacle pieces may touch the patch.
     Slices::Part part(Index p, std::size_t near) const;
+    Slices::Part part_of_sum(std::size_t n) const {
+        return part(scene.robot.pieces() + static_cast<Index>(n), near_pieces.size() + n);
+    }
 
 private:
     Vec<double> seen(const Shape& shape, Index from, Index to);
@@ -29,6 +34,7 @@ private:
     const std::vector<Index>& near_pieces;
     Vec<double> direction{1, 0};  // unit vector, rounded
     double size = 0;              // bound of all coordinates
+    Index rows;                   // the robot's pieces, and those of more pillars
     struct Vertex {
         Index piece;
         Vec<double> at;

@@ -4,6 +4,7 @@
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/scene/features.hpp"
+#include "forbidden/coincident_surfaces.hpp"
 #include "forbidden/round_trim.hpp"
 
 namespace cfree {
@@ -25,7 +26,8 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
     // the patch's feature of one shape against a vertex or an edge of this shape, at distances from the common place of the other
     const auto add = [&](const Shape& s, Index mine, Index other, bool is_edge, const Int& my_distance, const Int& other_distance,
                          const Feature& feature) {
-        const Int both = my_distance + other_distance;
+        const Int both = my_distance + other_distance;  // below 0 if one of them is a concave arc, and the other one touches it from inside
+        const bool is_inside = both.sign() < 0;
         const auto is_tangent = [&](Index e, Index v) {
             const Vec<Int> E = edge<Int>(s, e);
             const Int outwards = -cross(E, difference<Int>(s, v, s.v[e]));
@@ -33,11 +35,12 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
         };
         if (is_circle_here && is_edge) {
             const Vec<Int> E = edge<Int>(s, other);
-            if (is_tangent(other, mine)) result.push_back({feature, {-E.y, E.x}, &s == &A});
+            if (!is_inside && is_tangent(other, mine)) result.push_back({feature, {-E.y, E.x}, &s == &A});
         } else if (is_circle_here) {
             const Vec<Int> d = difference<Int>(s, other, mine);
-            if (dot(d, d) == both * both && !both.is_zero()) result.push_back({feature, d, &s == &A});
-        } else if (is_tangent(mine, other)) {
+            if (dot(d, d) == both * both && !both.is_zero())
+                result.push_back({feature, is_inside ? Vec<Int>{-d.x, -d.y} : d, &s == &A});
+        } else if (!is_inside && is_tangent(mine, other)) {
             result.push_back({feature, {}, &s == &A});
         }
     };
@@ -56,7 +59,7 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
             if (is_same_layer ? i2 != i || is_reference || A.has_extent(i) : A.X[i2] != A.X[i] || A.Y[i2] != A.Y[i]) continue;
             const auto add_at = [&](Index v) {
                 if (O.layer[v] != A.layer[i2] || !O.emit[v]) return;
-                if (O.convex[v] && A.convex[i2])
+                if ((O.convex[v] && A.convex[i2]) || makes_circles(scene, i2, v))
                     add(O, j, v, false, mine, A.radius_of(i2).exact + O.radius_of(v).exact, {Kind::vertex_vertex, i2, v, 1});
                 if (is_circle_here && O.makes_surfaces(v) && A.convex[i2])
                     add(O, j, v, true, mine, A.radius_of(i2).exact + O.radius_of(v).exact, {Kind::vertex_edge, i2, v, 1});
@@ -74,7 +77,7 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
         const Int mine = disc + (is_circle_here ? A.radius_of(i).exact : A.radius_of(A.v[i]).exact);
         for (Index v = 0; v < A.ring_vertices; ++v) {
             if (A.layer[v] != body_layer) continue;
-            if (A.convex[v]) add(A, i, v, false, mine, A.radius_of(v).exact + disc, {Kind::vertex_vertex, v, j, 1});
+            if (A.convex[v] || makes_circles(scene, v, j)) add(A, i, v, false, mine, A.radius_of(v).exact + disc, {Kind::vertex_vertex, v, j, 1});
             if (is_circle_here && A.makes_surfaces(v)) add(A, i, v, true, mine, A.radius_of(v).exact + disc, {Kind::edge_vertex, v, j, 1});
         }
     }

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "cfree/contact/contact_line.hpp"
 #include "predicates/round_junction.hpp"
 
 namespace cfree {
 
 RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to, const std::vector<Index>& edges)
-    : Trimmer(s, on), orders(s, on), edges_at_centre(edges), has_arcs(s.robot.has_arcs() || s.obstacles.has_arcs()) {
+    : Trimmer(s, on), orders(s, on), edges_at_centre(edges), has_arcs(s.robot.has_arcs() || s.obstacles.has_arcs()),
+      has_concave(s.robot.has_concave() || s.obstacles.has_concave()), is_concave(cfree::is_concave(s, on.contact)) {
     events = {from, to};
     if (is_circle(on.contact)) {
         live = in_cones(on.contact);
@@ -46,11 +48,11 @@ std::array<Feature, 2> RoundTrimmer::ends_of_quadrant() const {
 }
 
 // Spans of the range between angles that cut it, in any order.
-std::vector<Trimmer::Span> RoundTrimmer::spans_between(std::vector<Event> cuts) {
+std::vector<Trimmer::Span> RoundTrimmer::spans_between(std::vector<Event> cuts, Index first, Index last) {
     std::sort(cuts.begin(), cuts.end(), [&](const Event& p, const Event& q) { return decide.order(p, q) < 0; });
-    cuts.push_back(events[1]);
+    cuts.push_back(events[last]);
     std::vector<Span> spans;
-    Index from = 0;
+    Index from = first;
     for (const Event& cut : cuts) {
         if (decide.order(events[from], cut) == 0) continue;
         spans.push_back({from, intern(cut)});
@@ -68,7 +70,9 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     const auto seams = quadrant();
     std::vector<std::array<Feature, 2>> cones;  // first and last direction
     if (O.has_extent(j)) cones.push_back({Feature{Kind::vertex_edge, i, O.previous[j]}, Feature{Kind::vertex_edge, i, j}});
+    if (O.is_concave(j)) std::swap(cones.back()[0], cones.back()[1]);
     if (A.has_extent(i)) cones.push_back({Feature{Kind::edge_vertex, A.previous[i], j}, Feature{Kind::edge_vertex, i, j}});
+    if (A.is_concave(i)) std::swap(cones.back()[0], cones.back()[1]);
     if (O.has_extent(j)) {  // a cone that does not turn
         const Sample any{events[0].lo, {}};
         const auto of = [&](const Feature& f) { return orders.direction(f, any); };
@@ -109,7 +113,7 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
                 if (is_inside(of_cones[k][end])) limits[end] = cones[k][end];
         }
         if (limits[0] && limits[1] && orders.turn(orders.direction(*limits[0], at), orders.direction(*limits[1], at), at) > 0)
-            areas.push_back({from, to, curve_of(*limits[0], false), curve_of(*limits[1], false), 0, 1});
+            areas.push_back({from, to, curve_of(*limits[is_concave], false), curve_of(*limits[!is_concave], false), 0, 1});
     }
     for (Area& area : areas) bounds(area);
     return areas;
@@ -120,6 +124,72 @@ void RoundTrimmer::cede_circle(const Feature& owner) {
 }
 
 void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& part) {
+    Pillar pillar;
+    cover_by(p, k, slices, part, [&](const Sample& at, Cover& out) {
+        pillar.arcs.clear(), pillar.edges.clear();
+        if (!shape(p, k, at, pillar)) return false;
+        out = is_line(surface.contact) ? on_line(pillar, at) : on_circle(pillar, at);
+        return true;
+    });
+}
+
+// All of the quadrangle that is outside the circle.
+void RoundTrimmer::cover_fillet(const Shape::Fillet& fillet, bool of_robot, Index vertex, const Slices& slices, const Slices::Part& part) {
+    Pillar around, circle;
+    for (std::size_t n = 0; n < 4; ++n) {
+        around.arcs.push_back(of_robot ? Arc{fillet.vertex[n], vertex} : Arc{vertex, fillet.vertex[n]});
+        around.edges.push_back({of_robot ? Feature{Kind::edge_vertex, fillet.edge[n], vertex} : Feature{Kind::vertex_edge, vertex, fillet.edge[n]},
+                                {-1, -1}});
+    }
+    circle.arcs.push_back(of_robot ? Arc{fillet.arc, vertex} : Arc{vertex, fillet.arc});
+    around.has_arcs = circle.has_arcs = true;
+    cover_by(-1, -1, slices, part, [&](const Sample& at, Cover& out) {
+        const auto cover_of = [&](const Pillar& pillar) {
+            return is_line(surface.contact) ? on_line(pillar, at) : on_any_circle(pillar, joint_signs(pillar, at), at);
+        };
+        out = cover_of(around);
+        if (out.bands.empty()) return true;
+        Cover inside = cover_of(circle);
+        out.left_out = std::move(inside.bands);
+        out.watched.insert(out.watched.end(), inside.watched.begin(), inside.watched.end());
+        return true;
+    });
+}
+
+// Take what is left of a band between orders that change.
+void RoundTrimmer::take_without(const std::array<Feature, 2>& band, const Cover& cover, const Span& span) {
+    static const State crossing{Meets::crosses, {}, {}, {}, 0, 0, {}, {}};
+    const auto curve = [&](const Feature& f) { return curves[static_cast<std::size_t>(curve_of(f, false))]; };
+    std::vector<Event> cuts;
+    for (const Feature& end : band)
+        for (const auto& part : cover.left_out)
+            for (const Feature& other : part) {
+                const auto order = decide.compare(curve(end), curve(other), events[span.from], events[span.to]);
+                for (const Event& at : order.at)
+                    if (!at.is_touch) cuts.push_back(at);
+            }
+    for (const Span& some : spans_between(std::move(cuts), span.from, span.to)) {
+        const Sample at = decide.between(events[some.from], events[some.to]);
+        const auto order = [&](const Feature& p, const Feature& q) {
+            return code(scene, p) == code(scene, q) ? 0 : orders.order_at(p, q, at);
+        };
+        const auto add = [&](const Feature& lower, const Feature& upper) {
+            if (order(lower, upper) >= 0) return;
+            Area area{some.from, some.to, curve_of(lower, false), curve_of(upper, false), 0, 1};
+            bounds(area);
+            take({area, -1, -1, &crossing});
+        };
+        Feature from = band[0];
+        for (const auto& [lower, upper] : cover.left_out) {
+            add(from, order(lower, band[1]) < 0 ? lower : band[1]);
+            if (order(upper, from) > 0) from = upper;
+        }
+        add(from, band[1]);
+    }
+}
+
+template <class Find>
+void RoundTrimmer::cover_by(Index p, Index k, const Slices& slices, const Slices::Part& part, const Find& find) {
     static const State crossing{Meets::crosses, {}, {}, {}, 0, 0, {}, {}};
     const auto limit = [&](int s) {
         return s == 0 ? 0 : s == slices.count ? 1 : intern({{}, {}, slices.at[s], slices.at[s]});
@@ -133,7 +203,6 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
     while (first <= last && slices.at[last] > hi) --last;
     if (first > last) return;
     todo.assign(1, {limit(first), limit(last + 1)});
-    Pillar pillar;
     while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();
@@ -142,12 +211,14 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
         for (int attempt = 0;; ++attempt) {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no sample decides a pillar's state");
             const Sample at = decide.between(events[whole.from], events[whole.to], attempt);
-            pillar.arcs.clear(), pillar.edges.clear();
             span = whole;
             is_critical = false;
-            if (!shape(p, k, at, pillar)) continue;
-            found = is_line(surface.contact) ? on_line(pillar, at) : on_circle(pillar, at);
+            if (!find(at, found)) continue;
             if (!is_critical && narrow(found, at, span)) break;
+        }
+        if (!found.left_out.empty()) {
+            for (const auto& band : found.bands) take_without(band, found, span);
+            found.bands.clear();
         }
         for (const auto& [lower, upper] : found.bands) {
             Area band{span.from, span.to, curve_of(lower, false), curve_of(upper, false), 0, 1};
@@ -220,6 +291,7 @@ RoundTrimmer::Joint RoundTrimmer::joint(const Pillar& pillar, int k) const {
 }
 
 bool RoundTrimmer::has_extent(const Feature& circle) const {
+    if (has_concave) return !(scene.robot.radius_of(circle.robot).exact + scene.obstacles.radius_of(circle.obstacle).exact).is_zero();
     return scene.robot.vertex_radius[circle.robot] != 0 || scene.obstacles.vertex_radius[circle.obstacle] != 0;
 }
 
@@ -229,8 +301,8 @@ Feature RoundTrimmer::circle_of(const Pillar& pillar, const Joint& j) const {
     return has_arcs ? circle_at_end(scene, line, smooth_end(scene, line, circle)) : circle;
 }
 
-// Sign of a joint that its features prove to be the same at every angle: of those on the line 0, of those on the circle, where it
-// is inside of the pillar, -1.
+// Sign of a joint that its features prove to be the same at every angle: of those on the line 0; of those on the circle -1, where it
+// is inside of the pillar, or 1, where it is outside, that of a concave arc.
 std::optional<int> RoundTrimmer::known_sign(const Feature& line, const Feature& circle) const {
     const Feature& x = surface.contact;
     if (is_line(x)) {  // two tangents of one circle, or two lines through a point
@@ -239,8 +311,9 @@ std::optional<int> RoundTrimmer::known_sign(const Feature& line, const Feature& 
     }
     if (!has_arcs) return {};
     const int end = smooth_end(scene, line, x);
-    if (end >= 0 && end == smooth_end(scene, line, circle)) return -1;
-    return !has_extent(circle) && line_of_joint(scene, x, circle) ? std::optional(-1) : std::nullopt;  // a point of the arc
+    const int side = is_concave ? 1 : -1;
+    if (end >= 0 && end == smooth_end(scene, line, circle)) return side;
+    return !has_extent(circle) && line_of_joint(scene, x, circle) ? std::optional(side) : std::nullopt;  // a point of the arc
 }
 
 // Sign of a joint: 1 left of the line or outside the circle; of others that are on it at every angle 0.
@@ -411,7 +484,7 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
     out.watched.reserve(16);
     const Feature& x = surface.contact;
     const int count = pillar.count();
-    if (pillar.has_arcs) return on_any_circle(pillar, joint_signs(pillar, at), at);
+    if (pillar.has_arcs || is_concave) return on_any_circle(pillar, joint_signs(pillar, at), at);
     for (int k = 0; k < count; ++k)  // the circle is one of its own: all but that arc is inside
         if (code(scene, with_branch(pillar.circle(k), x.branch)) == code(scene, x)) {
             watch_arc(pillar, k, out);
@@ -530,7 +603,7 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     }
     const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
                            (count == 0 && orders.compare_radius(pillar.circle(0)) > 0);
-    if (!is_apart && !is_around) out.bands.push_back(quadrant());
+    if (!is_apart && !is_around) out.bands.push_back(quadrant()), turn_bands(out);
     return out;
 }
 
@@ -554,7 +627,8 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
                 out.watched.push_back({with_branch(other, side), {}, touches, touches == 0});
             }
         }
-        const int ahead = orders.coordinate_sign(c.curve, 0, at), back = orders.coordinate_sign(c.curve, 1, at);
+        const int first = orders.coordinate_sign(c.curve, 0, at), second = orders.coordinate_sign(c.curve, 1, at);
+        const int ahead = is_concave ? -second : first, back = is_concave ? -first : second;
         placed.push_back({c, ahead >= 0 ? (back <= 0 ? 0 : 1) : (back > 0 ? 2 : 3)});
     }
     if (is_critical) return;
@@ -562,7 +636,7 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
         if (p.quadrant != q.quadrant) return p.quadrant - q.quadrant;
         Surface there = surface;
         there.contact.branch = static_cast<std::int8_t>((x.branch + p.quadrant) & 3);
-        return RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, at);
+        return (is_concave ? -1 : 1) * RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, at);
     };
     std::sort(placed.begin(), placed.end(), [&](const Placed& p, const Placed& q) {
         const int sign = order(p, q);
@@ -583,6 +657,14 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
         is_covered = crossing.enters, from = crossing.curve;
     }
     if (is_covered) out.bands.push_back({from, seams[1]});
+    turn_bands(out);
+}
+
+// Bands in the order of t, which is clockwise on the circle of a concave arc.
+void RoundTrimmer::turn_bands(Cover& out) const {
+    if (!is_concave) return;
+    for (auto& [lower, upper] : out.bands) std::swap(lower, upper);
+    std::reverse(out.bands.begin(), out.bands.end());
 }
 
 // Narrow a span to the angles at which a state holds; false if the sample is critical.
@@ -616,6 +698,7 @@ bool RoundTrimmer::narrow(Cover& cover, const Sample& sample, Span& span) {
 // or if the two curves do not meet there.
 bool RoundTrimmer::crosses_at(const Band& band, Index event) {
     if (!is_line(surface.contact)) return order_at(event, band.area.lower, band.area.upper) != 0;
+    if (band.p < 0) return true;  // of a fillet
     const Event& e = events[event];
     const Shape &A = scene.robot, &O = scene.obstacles;
     bool left = false, right = false;

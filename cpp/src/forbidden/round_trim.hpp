@@ -16,6 +16,8 @@ public:
     RoundTrimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to, const std::vector<Index>& edges_at_centre);
     // Subtract the pillar of robot piece p and obstacle piece k, which covers nothing outside these slices.
     void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
+    // Subtract what is forbidden by a fillet, of the robot or else of the obstacles, and a vertex of the other shape.
+    void cover_fillet(const Shape::Fillet& fillet, bool of_robot, Index vertex, const Slices& slices, const Slices::Part& part);
     // Subtract what another pair of vertices with the same circle owns of the quadrant.
     void cede_circle(const Feature& owner);
     // Cut what is live along curves that others touch from the free side at every angle; these are of the pieces near the patch.
@@ -59,7 +61,11 @@ private:
     struct Cover {
         std::vector<std::array<Feature, 2>> bands;
         std::vector<Watch> watched;
+        std::vector<std::array<Feature, 2>> left_out = {};  // parts that the bands do not cover, in order
     };
+    template <class Find>
+    void cover_by(Index p, Index k, const Slices& slices, const Slices::Part& part, const Find& find);
+    void take_without(const std::array<Feature, 2>& band, const Cover& cover, const Span& span);
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
     bool has_extent(const Feature& circle) const;  // its radius is not 0
     bool is_stub(const Feature& line) const;
@@ -81,12 +87,13 @@ private:
     int foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at);
     void watch_cone(const Pillar& pillar, int k, Cover& out) const;
     void clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out);
+    void turn_bands(Cover& out) const;
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);
     std::array<Feature, 2> quadrant() const;
     std::array<Feature, 2> ends_of_quadrant() const;
     std::vector<Area> in_cones(const Feature& contact);
-    std::vector<Span> spans_between(std::vector<Event> cuts);
+    std::vector<Span> spans_between(std::vector<Event> cuts, Index first = 0, Index last = 1);
     bool crosses_at(const Band& band, Index event) override;
     int order_at(Index event, Index p, Index q) override;
     int order_of_end(Index event, Index end_of_band, Index curve, int beyond) override;
@@ -97,6 +104,8 @@ private:
     RoundOrders orders;
     const std::vector<Index>& edges_at_centre;
     const bool has_arcs;       // true if a shape has
+    const bool has_concave;    // true if a shape has concave ones
+    const bool is_concave;     // true if the surface is of one: its circle is free inside
     bool is_critical = false;  // true if the sample is itself a critical angle
 };
 

@@ -88,8 +88,10 @@ Slicer::Segments Slicer::near(int c, double tau) const {
             result.xy.insert(result.xy.end(), {p.x, p.y});
         }
         if (scene.is_round) {
-            const double begin = 0.5 * std::numbers::pi * l.quadrant;
-            if (l.is_circle()) result.arcs.push_back({l.p, l.radius, begin + 2 * arc_tangent(ends[0]), begin + 2 * arc_tangent(ends[1])});
+            const int turn = l.radius < 0 ? -1 : 1;
+            const double begin = 0.5 * std::numbers::pi * (l.quadrant + (turn < 0));
+            if (l.is_circle())
+                result.arcs.push_back({l.p, l.radius, begin + 2 * turn * arc_tangent(ends[0]), begin + 2 * turn * arc_tangent(ends[1])});
             else result.arcs.push_back({});
         }
         result.trapezoid.push_back(x);
@@ -163,7 +165,7 @@ std::vector<double> Slicer::trace(const Segments& s, const std::vector<Index>& n
             result.bend.push_back(s.arcs.empty() ? 0 : s.arcs[x].radius);
             if (result.bend.back() == 0) continue;
             const auto& [centre, radius, from, to] = s.arcs[x];
-            const int chords = std::max(2, static_cast<int>(std::ceil((to - from) / chord)));
+            const int chords = std::max(2, static_cast<int>(std::ceil(std::abs(to - from) / chord)));
             for (int m = 1; m < chords; ++m) {
                 const auto [c, n] = cosine_sine(from + (to - from) * m / chords);
                 result.xy.insert(result.xy.end(), {centre.x + radius * c, centre.y + radius * n});

@@ -118,7 +118,7 @@ Integral round_flux(const Boundary& boundary, const Limits& limits, Index which,
         size = std::max({size, norm(p.x, p.y), norm(q.x, q.y)});
         if (!line.is_circle()) return 0.5 * (p.x * q.y - p.y * q.x);
         const auto centre = line.p - origin, chord = q - p;
-        const double turn = 2 * (arc_tangent(at.upper) - arc_tangent(at.lower));
+        const double turn = (line.radius < 0 ? -2 : 2) * (arc_tangent(at.upper) - arc_tangent(at.lower));
         return 0.5 * (centre.x * chord.y - centre.y * chord.x + line.radius * line.radius * turn);
     };
     const auto f = over_roots(area, from, to);

@@ -77,7 +77,7 @@ int RoundView::height(const Feature& contact, const Feature& curve, bool is_afte
 
 bool RoundView::is_right_of(const Feature& circle) {
     const int beyond_centre = sign([&]<class K>(const RoundSurfaces<K>& of, const K&) { return dot(from<K>(circle), of.axis(0)); });
-    const bool is_right_half = circle.branch == 0 || circle.branch == 3;
+    const bool is_right_half = (circle.branch == 0 || circle.branch == 3) != is_concave(scene, circle);
     return is_right_half ? beyond_centre > 0 && side(circle) < 0 : beyond_centre >= 0 || side(circle) > 0;
 }
 
@@ -94,9 +94,11 @@ bool RoundView::is_between(const Feature& contact, const Feature& lower, const F
     if (is_line(contact)) {
         t = {value(dot(of.along(contact), d)), w * of.square_of_length(contact).c[0]};
     } else {
-        const Int start = value(dot(d, of.axis(contact.branch))), end = value(dot(d, of.axis(contact.branch + 1)));
+        const Quadrant ends = quadrant_of(scene, contact);
+        const int sign = is_concave(scene, contact) ? -1 : 1;  // d points against u
+        const Int start = sign * value(dot(d, of.axis(ends.begin))), end = sign * value(dot(d, of.axis(ends.end)));
         if (start.sign() < 0 || end.sign() < 0) return false;
-        t = {end, w * of.rho(contact).c[0]};
+        t = {end, w * of.size(contact).c[0]};
     }
     const RoundSpot here{contact, {}, 0, false, is_after, false, t};
     return at.order(contact, at.spot(contact, lower, is_after), here) <= 0 && at.order(contact, here, at.spot(contact, upper, is_after)) <= 0;

@@ -47,8 +47,10 @@ std::optional<CircleAt> circle_at(const Boundary& boundary, const Limits& limits
     if (contact.kind != Kind::vertex_vertex) return {};
     const auto [c, s] = cosine_sine(at.theta);
     const Limits::Line l = limits.line(contact, {c, s, 1});
-    const double begin = 0.5 * std::numbers::pi * l.quadrant;
-    return CircleAt{Complex{c, s} * Places{*boundary.scene}.a(contact.robot), l.radius, begin + 2 * arc_tangent(at.lower), begin + 2 * arc_tangent(at.upper)};
+    const bool is_back = l.radius < 0;  // psi falls
+    const double begin = 0.5 * std::numbers::pi * (l.quadrant + is_back), twice = is_back ? -2 : 2;
+    return CircleAt{Complex{c, s} * Places{*boundary.scene}.a(contact.robot), l.radius, begin + twice * arc_tangent(at.lower),
+                    begin + twice * arc_tangent(at.upper)};
 }
 
 // Integrals over psi of v = rho sqrt(w^2 + s^2), and of K v, whose primitive is -s / sqrt(w^2 + s^2).
@@ -119,7 +121,8 @@ public:
         const Feature lower = unpacked(table.lower[k]), upper = unpacked(table.upper[k]);
         if (is_circle) {
             a = places.a(on.robot), b = places.b(on.obstacle);
-            radius = sum_of_radii(*boundary.scene, on) * boundary.scene->unit(), begin = 0.5 * pi * on.branch;
+            const double rho = sum_of_radii(*boundary.scene, on) * boundary.scene->unit();
+            radius = std::abs(rho), begin = begin_of(on.branch, rho), turn_of_t = rho < 0 ? -1 : 1;
         } else {
             const auto parts = places.parts(on);
             turns = on.kind == Kind::edge_vertex;
@@ -176,7 +179,7 @@ private:
         const auto [s, v, acceleration] = round_curves[upper].motion(phi);
         const Complex z = std::polar(1.0, phi), za = z * a;
         if (is_circle) {
-            const Complex u = std::polar(1.0, begin + s), tangent = i_unit * u;
+            const Complex u = std::polar(1.0, begin + turn_of_t * s), tangent = turn_of_t * i_unit * u;
             return {b - za + radius * u, radius * v * tangent - i_unit * za, za + radius * (acceleration * tangent - v * v * u)};
         }
         const Complex normal = -i_unit * edge;
@@ -191,7 +194,7 @@ private:
     Complex ruling(Complex x, double phi) const {
         if (is_circle) {
             const Complex u = x - (b - std::polar(1.0, phi) * a);
-            return i_unit * u / std::abs(u);
+            return turn_of_t * i_unit * u / std::abs(u);
         }
         return turns ? -std::polar(1.0, phi) * edge : edge;
     }
@@ -202,13 +205,13 @@ private:
         const Complex x{cells.xy[2 * v] - (c * scene.frame[2] - s * scene.frame[3]),
                         cells.xy[2 * v + 1] - (s * scene.frame[2] + c * scene.frame[3])};
         const Complex u = x - (b - Complex{c, s} * a);
-        return in_quadrant(std::arg(u) - begin);
+        return in_quadrant(turn_of_t * (std::arg(u) - begin));
     }
     // Geodesic curvature along an arc at one orientation.
     Integral along_arc(double phi, double start, double stop) const {
         const Complex turned = i_unit * std::polar(1.0, phi) * a;
         const auto f = [&](double psi) {
-            const double s = dot(turned, std::polar(1.0, begin + psi));
+            const double s = dot(turned, std::polar(1.0, begin + turn_of_t * psi));
             return s / norm(w, s);
         };
         return integral(f, start, stop, over_nodes(f, start, stop), 1);
@@ -245,7 +248,7 @@ private:
     Feature on;
     bool turns = false, is_round, is_circle;
     Complex a, b, edge;
-    double radius = 0, begin = 0;  // of a circle
+    double radius = 0, begin = 0, turn_of_t = 1;  // of a circle
     std::array<ContactCurve, 2> curves;
     std::array<RoundCurve, 2> round_curves;
     Index first, last;

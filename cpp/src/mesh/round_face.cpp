@@ -28,7 +28,8 @@ RoundFace::RoundFace(const Places& places, const Feature& on, const Feature& low
         return;
     }
     a = places.a(on.robot), b = places.b(on.obstacle);
-    radius = sum_of_radii(places.scene, on) * places.scene.unit(), begin = 0.5 * pi * on.branch;
+    const double rho = sum_of_radii(places.scene, on) * places.scene.unit();
+    radius = std::abs(rho), begin = begin_of(on.branch, rho), side = rho < 0 ? -1 : 1;
     // errors are radius ds^2 + |a| dphi^2
     unit = std::clamp(std::sqrt(std::abs(a) / radius), 0.1, 10.0) / (usual_stretch * usual_stretch);
 }
@@ -36,12 +37,12 @@ RoundFace::RoundFace(const Places& places, const Feature& on, const Feature& low
 double RoundFace::position(Complex x, double phi) const {
     if (line) return line->position(x, phi);
     const Complex u = x - (b - std::polar(1.0, phi) * a);
-    return in_quadrant(std::arg(u) - begin);
+    return in_quadrant(side * (std::arg(u) - begin));
 }
 
 Complex RoundFace::at(double s, double phi) const {
     if (line) return line->at(s, phi);
-    return b - std::polar(1.0, phi) * a + radius * std::polar(1.0, begin + s);
+    return b - std::polar(1.0, phi) * a + radius * std::polar(1.0, begin + side * s);
 }
 
 double RoundFace::within(const Corners& c) const {

@@ -178,10 +178,15 @@ Interval RoundJunction::offset(const Feature& x, const Feature& y) const {
     return {found.lo, found.hi};
 }
 
+bool RoundJunction::have_one_sense(const Feature& x, const Feature& y) const { return is_concave(scene, x) == is_concave(scene, y); }
+
+// Points of one circle that is that of a concave arc are in the opposite quadrant of another one.
 bool RoundJunction::are_one_circle(const Feature& x, const Feature& y) {
-    if (x.branch != y.branch) return false;
-    if (code(scene, x) == code(scene, y)) return true;
-    if ((RoundSurfaces<RootSum>(scene).rho(x) - RoundSurfaces<RootSum>(scene).rho(y)).sign() != 0) return false;
+    const bool is_same = have_one_sense(x, y);
+    if (x.branch != ((y.branch + (is_same ? 0 : 2)) & 3)) return false;
+    if (is_same && code(scene, x) == code(scene, y)) return true;
+    const RootSum first = RoundSurfaces<RootSum>(scene).rho(x), second = RoundSurfaces<RootSum>(scene).rho(y);
+    if ((is_same ? first - second : first + second).sign() != 0) return false;
     const auto is_zero_along = [&](int axis) {
         return sign([&]<class K>(const RoundSurfaces<K>& of) { return dot(of.between(x, y), of.axis(axis)); }) == 0;
     };
@@ -192,7 +197,7 @@ RoundSpot RoundJunction::spot(const Feature& on, const Feature& curve, bool is_a
     Spot result{on, curve, code(scene, curve), false, is_after, false, {}};
     if (is_circle(on) && is_circle(curve)) {
         Feature circle = curve;
-        circle.branch = on.branch;
+        circle.branch = static_cast<std::int8_t>((on.branch + (have_one_sense(on, curve) ? 0 : 2)) & 3);
         result.jumps = are_one_circle(on, circle);
     }
     if (is_line(on) && is_line(curve)) result.is_limit = turn(on, curve) == 0;
@@ -201,9 +206,12 @@ RoundSpot RoundJunction::spot(const Feature& on, const Feature& curve, bool is_a
     return result;
 }
 
-// The place on its own surface; t on another line that is the same here.
+// The place on its own surface; t on another line that is the same here. On a circle of the other sense u is opposite, and the axes
+// change places.
 template <class K, class Ring>
 auto RoundJunction::place(const Feature& surface, const Spot& p, int axis, const Ring& in) const {
+    const bool is_turned = is_circle(surface) && is_circle(p.on) && !have_one_sense(surface, p.on);
+    if (is_turned) axis = 1 - axis;
     const RoundSurfaces<K> of(scene);
     const auto constant = [&](const K& k) { return in(RoundSurfaces<K>::constant(k)); };
     using V = decltype(constant(whole<K>(1)));
@@ -218,6 +226,7 @@ auto RoundJunction::place(const Feature& surface, const Spot& p, int axis, const
         else return {constant(K(p.given->n)), zero, zero, constant(K(p.given->d)), false};
     };
     CurvePlace<V> result = own();
+    if (is_turned) result.a = in.number(whole<K>(0)) - result.a, result.b = in.number(whole<K>(0)) - result.b;
     if (is_circle(p.on) || have_one_edge(p.on, surface)) return result;
     const auto U = of.along(surface);
     const V start = in(dot(of.between(p.on, surface), U)), step = in(dot(of.along(p.on), U));
@@ -230,12 +239,15 @@ auto RoundJunction::place(const Feature& surface, const Spot& p, int axis, const
 CurvePlace<SurdPoly> RoundJunction::place_exactly(const Feature& surface, const Spot& p, int axis) const {
     const AsSurdPoly in{kappa};
     if (p.jumps) {
+        const bool is_turned = is_circle(surface) && !have_one_sense(surface, p.on);
+        if (is_turned) axis = 1 - axis;
         // the centres part in the direction d', and the circles meet in the two directions +-J d'
         const RoundSurfaces<RootSum> of(scene);
         const Vec<RootSum> d = of.between(p.curve, p.on).p;
-        const MovingVector<RootSum> e = axis == 0 ? of.axis(p.on.branch + 1) : of.axis(p.on.branch + 2);
-        const RootSum along = dot(d, e.p), square = dot(d, d);
-        const RootSum signed_along = (p.is_after ? 1 : -1) * p.curve.branch > 0 ? along : -along;
+        const Quadrant ends = quadrant_of(scene, p.on);
+        const MovingVector<RootSum> e = axis == 0 ? of.axis(ends.end) : of.axis(ends.begin + 2);
+        const RootSum along = is_turned ? -dot(d, e.p) : dot(d, e.p), square = dot(d, d);
+        const RootSum signed_along = (p.is_after ? 1 : -1) * p.curve.branch * of.rho(p.on).sign() > 0 ? along : -along;
         const SurdPoly zero = in.number(RootSum(0));
         return {in.number(signed_along), zero, zero, in.number(RootSum::root(square.c[0])), false};
     }

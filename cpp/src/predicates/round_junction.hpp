@@ -83,6 +83,7 @@ private:
     std::optional<LongRoot> root;  // computed when needed, as the next
     std::optional<std::optional<Predicates::Bracket>> bracket;
     std::optional<Ball> near_ball();
+    bool have_one_sense(const Feature& x, const Feature& y) const;  // of circles
     std::optional<Feature> common_circle(const Feature& x, const Feature& y);
     bool are_one_line(const Feature& x, const Feature& y);
     bool are_one_curve(const Spot& p, const Spot& q);

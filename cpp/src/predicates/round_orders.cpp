@@ -43,6 +43,8 @@ int RoundOrders::compare_radius(const Feature& circle) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index own[] = {A.vertex_radius[surface.contact.robot], O.vertex_radius[surface.contact.obstacle]};
     const Index other[] = {A.vertex_radius[circle.robot], O.vertex_radius[circle.obstacle]};
+    if (A.has_concave() || O.has_concave())
+        return Int(abs(rho<Int>(scene, own[0], own[1])) - abs(rho<Int>(scene, other[0], other[1]))).sign();
     if (own[0] == other[0] || own[1] == other[1]) {  // classes rise
         const Index difference = own[0] - other[0] + own[1] - other[1];
         return (difference > 0) - (difference < 0);
@@ -246,12 +248,12 @@ int RoundOrders::joint_sign(const Feature& line, const Feature& circle, double t
     const auto fixed = cfree::difference<Approx>(scene.obstacles, to.obstacle, from.obstacle);
     const Vector turning = turned(cfree::difference<Approx>(scene.robot, to.robot, from.robot)), V = along(line);
     const double r = of.rho(circle).v / of.length(line).v, rho = of.rho(x).v;
-    const Vector joint{fixed.x.v - turning.x + r * V.y, fixed.y.v - turning.y - r * V.x, fixed.x.m + fixed.y.m + turning.m + r * V.m};
+    const Vector joint{fixed.x.v - turning.x + r * V.y, fixed.y.v - turning.y - r * V.x, fixed.x.m + fixed.y.m + turning.m + std::abs(r) * V.m};
     double value, most;
     if (is_line(x)) {
         const Vector U = along(x);
         const double offset = rho * of.length(x).v;
-        value = U.x * joint.y - U.y * joint.x + offset, most = U.m * joint.m + offset;
+        value = U.x * joint.y - U.y * joint.x + offset, most = U.m * joint.m + std::abs(offset);
     } else {
         value = joint.x * joint.x + joint.y * joint.y - rho * rho, most = joint.m * joint.m + rho * rho;
     }

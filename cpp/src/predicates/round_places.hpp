@@ -93,8 +93,8 @@ auto limit_of_line(const Scene& scene, const Feature& x, const Feature& f, const
     return CurvePlace<V>{slope(N), zero, zero, slope(D), false};
 }
 
-// Place of a curve f on a surface x: t on a line; on a circle a coordinate of u that grows counter-clockwise over the quadrant,
-// along the axis at its end (axis 0), or against that at its beginning (1).
+// Place of a curve f on a surface x: t on a line; on a circle a coordinate of u that grows with t over the quadrant, along the axis
+// at its end (axis 0), or against that at its beginning (1).
 template <class K, class Ring>
 auto place_of_curve(const Scene& scene, const Feature& x, const Feature& f, int axis, const Ring& in) {
     const RoundSurfaces<K> of(scene);
@@ -114,7 +114,8 @@ auto place_of_curve(const Scene& scene, const Feature& x, const Feature& f, int 
         return CurvePlace<V>{in(dot(of.between(f, x), U)), in.number(whole<K>(f.branch)), constant(sigma * sigma * square) * w - M * M,
                         constant(square), true};
     }
-    const MovingVector<K> e = axis == 0 ? of.axis(x.branch + 1) : of.axis(x.branch + 2);
+    const Quadrant ends = quadrant_of(scene, x);
+    const MovingVector<K> e = axis == 0 ? of.axis(ends.end) : of.axis(ends.begin + 2);
     if (f.kind == Kind::seam) return CurvePlace<V>{in(dot(of.axis(f.branch), e)), zero, zero, w, false};
     if (is_smooth(scene, f, x))
         return CurvePlace<V>{in(-dot(quarter_turn(of.along(f)), e)), zero, zero, constant(of.length(f)), false};
@@ -162,8 +163,9 @@ PlanePoint<V> plane_point(const Scene& scene, const Feature& x, const CurvePlace
         return {coordinate(0), coordinate(1), t.d, length * constant(whole<K>(1)) * t.c, t.has_root};
     }
     const V rho = constant(of.rho(x));
+    const Quadrant ends = quadrant_of(scene, x);
     const auto coordinate = [&](int axis) -> typename PlanePoint<V>::Coordinate {
-        const int turns = (axis - x.branch - 1) & 3;  // from the axis at the quadrant's end
+        const int turns = (ends.end > ends.begin ? axis - ends.end : ends.end - axis) & 3;  // from the axis at the quadrant's end
         const CurvePlace<V>& place = turns % 2 == 0 ? t : from_start;
         const V a = rho * place.a, b = rho * place.b, centre = in(dot(start, of.axis(axis))) * t.c;
         if (turns < 2) return {centre + a, b};

@@ -28,7 +28,7 @@ Reach RoundPoints::reach(const CurveOf& c, double lo, double hi) const {
         return outwards(std::min(first.lo, last.lo) - slack, std::max(first.hi, last.hi) + slack);
     };
     const MovingVector<Approx> start = position<Approx>(scene, of.site(c.on));
-    const Bounds rho = Between{lo, hi, kappa}.number(of.rho(c.on)), round{-rho.hi, rho.hi};
+    const Bounds rho = Between{lo, hi, kappa}.number(of.size(c.on)), round{-rho.hi, rho.hi};
     const auto coordinate = [&](int axis) {
         Bounds x = range(dot(start, of.axis(axis))) + round;
         if (is_line(c.on)) x = x + along * range(dot(of.along(c.on), of.axis(axis)));
@@ -59,7 +59,7 @@ Ball RoundPoints::crossing(const Feature& f, const Vec<Ball>& low, const Vec<Bal
     const MovingVector<Ball> centre = position<Ball>(scene, of.site(f));
     const auto coordinate = [&](int axis) { return quotient(in(dot(centre, of.axis(axis))), in.w); };
     const Ball rho = of.rho(f), rise = y - coordinate(1), run = sqrt((rho - rise) * (rho + rise));
-    return f.branch == 0 || f.branch == 3 ? coordinate(0) + run : coordinate(0) - run;
+    return (f.branch == 0 || f.branch == 3) != is_concave(scene, f) ? coordinate(0) + run : coordinate(0) - run;
 }
 
 bool RoundPoints::may_be_one(const CurveOf& c, const CurveOf& d, const Dyadic& tau) const {
@@ -91,14 +91,20 @@ bool RoundPoints::are_one(const CurveOf& c, const CurveOf& d, const Dyadic& tau)
     return !differ(p.x, q.x) && !differ(p.y, q.y);
 }
 
-// Directions are U on a line, and J (P - C) at the point P of a circle: products of two are linear in P.
 std::array<int, 2> RoundPoints::turn(const CurveOf& at, const Feature& x, const Feature& y, const Dyadic& tau) const {
+    const std::array<int, 2> signs = counter_clockwise_turn(at, x, y, tau);
+    if (is_concave(scene, x) == is_concave(scene, y)) return signs;
+    return {-signs[0], -signs[1]};
+}
+
+// Directions are U on a line, and J (P - C) at the point P of a circle: products of two are linear in P.
+std::array<int, 2> RoundPoints::counter_clockwise_turn(const CurveOf& at, const Feature& x, const Feature& y, const Dyadic& tau) const {
     const AsSurdPoly in{kappa};
     const RoundSurfaces<RootSum> of(scene);
     const auto sign_of = [&](const Trig<RootSum>& f) { return sign_at(in(f), tau); };
     if (is_line(x) && is_line(y)) return {sign_of(cross(of.along(x), of.along(y))), sign_of(dot(of.along(x), of.along(y)))};
     if (is_line(x)) {
-        const auto [cross_of, dot_of] = turn(at, y, x, tau);
+        const auto [cross_of, dot_of] = counter_clockwise_turn(at, y, x, tau);
         return {-cross_of, dot_of};
     }
     const auto p = point<RootSum>(scene, at, in);

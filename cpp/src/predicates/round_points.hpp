@@ -31,6 +31,7 @@ public:
     std::array<int, 2> turn(const CurveOf& at, const Feature& x, const Feature& y, const Dyadic& tau) const;
 
 private:
+    std::array<int, 2> counter_clockwise_turn(const CurveOf& at, const Feature& x, const Feature& y, const Dyadic& tau) const;
     const Scene& scene;
     int chart;
     double kappa;

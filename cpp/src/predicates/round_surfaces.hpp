@@ -13,6 +13,9 @@
 //     t |U|^2 = B + b sqrt(sigma^2 |U|^2 - M^2),      b = -1 where the line enters, b = 1 where it leaves.
 // A line is smooth with a circle if they are contacts of an edge and of its end: they touch at every orientation, in a joint. At
 // the end of an arc two circles have one joint with a line: that about the arc's centre, and that about its end.
+//
+// A concave arc has a negative radius, and so has its circle with a vertex, if that is not as large: u is the outward normal of the
+// shapes, and points from C + rho u to the centre. All of the above holds; inside of the circle is free.
 #pragma once
 #include <optional>
 
@@ -81,6 +84,21 @@ K whole(int n) {
     else return K(n);
 }
 
+// Quarter turns from the x axis to where t is 0 and 1 on a quadrant of a circle: t rises counter-clockwise, on that of a concave
+// arc clockwise, so that forbidden is on the left.
+struct Quadrant {
+    int begin, end;
+};
+inline Quadrant quadrant_of(const Scene& scene, const Feature& circle) {
+    return is_concave(scene, circle) ? Quadrant{circle.branch + 1, circle.branch} : Quadrant{circle.branch, circle.branch + 1};
+}
+
+// True if a sum of two radii is below 0; it is rational, and doubles are certain.
+inline bool is_below_zero(const Approx& x) { return x.v < 0; }
+inline bool is_below_zero(const Ball& x) { return x.hi < 0; }
+inline bool is_below_zero(const RootSum& x) { return x.sign() < 0; }
+inline bool is_below_zero(const Int& x) { return x.sign() < 0; }
+
 // The surfaces' data in a number type.
 template <class K>
 class RoundSurfaces {
@@ -95,6 +113,11 @@ public:
     K rho(const Feature& f) const {
         const Site at = site(f);
         return cfree::rho<K>(scene, scene.robot.vertex_radius[at.robot], scene.obstacles.vertex_radius[at.obstacle]);
+    }
+    // The radius of a circle, that of a concave arc as well.
+    K size(const Feature& circle) const {
+        const K r = rho(circle);
+        return is_below_zero(r) ? -r : r;
     }
     // Vector V of a line, and its length.
     MovingVector<K> along(const Feature& f) const {
@@ -134,10 +157,10 @@ public:
     // Quadratic of the angles at which two surfaces touch: on the left (1) or right (-1) of the first line; two circles, of which
     // none is a line, touch from outside (1) or inside (-1).
     Trig<K> tangency(const Feature& f, const Feature& g, int side) const {
-        if (is_line(f)) return offset(f, g) + whole<K>(side) * rho(g) * length(f);
+        if (is_line(f)) return offset(f, g) + whole<K>(side) * size(g) * length(f);
         if (is_line(g)) return tangency(g, f, side);
         const MovingVector<K> d = between(g, f);
-        const K sum = rho(f) + whole<K>(side) * rho(g);
+        const K sum = size(f) + whole<K>(side) * size(g);
         return dot(d, d) - sum * sum;
     }
     // Quadratic of the angles at which the joint of a line and a circle is on another surface, positive on a line's left and

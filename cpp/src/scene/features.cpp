@@ -57,6 +57,9 @@ struct ArcEdge {
     Index ring = -1;  // of a piece: its number as an edge of a ring, if it is one
 };
 
+// Order of radii: from 0 on, then those below 0.
+bool is_before(const Int& x, const Int& y) { return (x.sign() < 0) != (y.sign() < 0) ? y.sign() < 0 : x < y; }
+
 // Builder of a shape from polygons. Its rings' vertices come first; others, ends of arcs and of stubs, are put behind them in the
 // end, and are numbered from -1 downwards until then.
 struct Builder {
@@ -74,6 +77,10 @@ struct Builder {
     std::map<Index, ArcEdge> ring_edges;
     std::map<std::size_t, ArcEdge> piece_edges;
     std::vector<Index> arcs;
+    // Of concave arcs: their vertices, the vertices at their ends, their fillets without edges, and stubs at their ends.
+    std::vector<Index> concave, concave_ends;
+    std::vector<Shape::Fillet> fillets;
+    std::vector<ArcEdge> more_stubs;
 
     explicit Builder(const Int& common) : scale(common) {}
 
@@ -85,19 +92,36 @@ struct Builder {
 
     Index count() const { return static_cast<Index>(x.size()); }
 
-    // Number the radii that occur; before polygons are added.
-    void number_radii(const std::vector<Rounding>& all) {
+    // Number the radii that occur, and those of the other shape times -1 where there are fillets; before polygons are added.
+    void number_radii(const std::vector<Rounding>& all, const std::vector<Rounding>& opposite) {
+        bool has_fillets = false;
         for (const Rounding& rounding : all) {
             radii.push_back(scaled(rounding.radius, scale));
-            for (const Arc& arc : rounding.arcs) radii.push_back(scaled(rounding.radius, scale) + scaled(arc.radius, scale));
+            for (const Arc& arc : rounding.arcs) {
+                const Int radius = scaled(arc.radius, scale);
+                radii.push_back(scaled(rounding.radius, scale) + (arc.beyond ? Int(-radius) : radius));
+                has_fillets |= arc.beyond.has_value();
+            }
         }
-        std::sort(radii.begin(), radii.end());
+        if (has_fillets) {
+            for (const Rounding& rounding : opposite) {
+                if (std::any_of(rounding.arcs.begin(), rounding.arcs.end(), [](const Arc& arc) { return !arc.beyond; }))
+                    throw BrokenInvariant("concave arcs that meet convex ones");
+                other_radii.push_back(scaled(rounding.radius, scale));
+            }
+            other_radii.push_back(0);
+            std::sort(other_radii.begin(), other_radii.end());
+            other_radii.erase(std::unique(other_radii.begin(), other_radii.end()), other_radii.end());
+            for (const Int& radius : other_radii) radii.push_back(-radius);
+        }
+        std::sort(radii.begin(), radii.end(), is_before);
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
     }
+    std::vector<Int> other_radii;  // of the other shape's corners, if this one has fillets: it has no convex arcs
     bool is_round() const { return radii.size() > 1; }
     const Int& radius(Index v) const { return radii[vertex_radius[v]]; }
     Index class_of(const Int& radius) const {
-        return static_cast<Index>(is_round() ? std::lower_bound(radii.begin(), radii.end(), radius) - radii.begin() : 0);
+        return static_cast<Index>(is_round() ? std::lower_bound(radii.begin(), radii.end(), radius, is_before) - radii.begin() : 0);
     }
 
     // Set the class of the radius of the latest vertices.
@@ -173,10 +197,14 @@ void Builder::number_others() {
     for (Index& v : piece_vertex) numbered(v);
     for (auto& [e, edge] : ring_edges) numbered(edge.v), numbered(edge.w);
     for (auto& [k, edge] : piece_edges) numbered(edge.v), numbered(edge.w), numbered(edge.first), numbered(edge.last);
+    for (ArcEdge& edge : more_stubs) numbered(edge.v), numbered(edge.w), numbered(edge.first), numbered(edge.last);
+    for (Shape::Fillet& fillet : fillets)
+        for (Index& v : fillet.vertex) numbered(v);
+    for (Index& v : concave_ends) numbered(v);
 }
 
 // The ring has a vertex for each corner and for each arc, its centre. Where an arc is smooth with its neighbour there is no corner.
-// A convex piece for each arc, between it and its chord, joins those of the polygon.
+// A convex piece for each convex arc, between it and its chord, joins those of the polygon; a concave arc has a fillet.
 void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, Index owner) {
     const Int factor = scale / polygon.denominator, grown = scaled(rounding.radius, scale);
     const Index at_corner = class_of(grown), count_of_points = polygon.vertices.size();
@@ -185,27 +213,42 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
     const auto place = [&](const RatioPoint& p) { return Vec<Int>{scaled(p.x, scale), scaled(p.y, scale)}; };
     const auto key = [](const Vec<Int>& p, const Vec<Int>& q) { return std::array{p.x, p.y, q.x, q.y}; };
     std::map<std::array<Int, 4>, const Arc*> arc_of;
-    for (const Arc& arc : rounding.arcs) arc_of[key(place(arc.from), place(arc.to))] = &arc;
+    for (const Arc& arc : rounding.arcs) arc_of[key(place(arc.from), place(arc.beyond ? (*arc.beyond)[0] : arc.to))] = &arc;
     struct Side {
-        Index from, to;  // points
+        Index from, to;  // points; to is -1 if from is the vertex between the sides of a concave arc
         const Arc* arc;
         Vec<Int> centre;
         Index vertex = 0;                // of the arc
         std::array<Vec<Int>, 2> towards;  // directions at its ends
     };
     std::vector<Side> sides;  // by their first points
-    std::vector<Index> before(static_cast<std::size_t>(count_of_points));
-    std::size_t matched = 0;
+    std::vector<char> is_beyond(static_cast<std::size_t>(count_of_points));
     for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r)
         for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
             const Index to = k + 1 < polygon.offsets[r + 1] ? k + 1 : polygon.offsets[r];
             const auto arc = arc_of.find(key(points[k], points[to]));
+            is_beyond[to] = arc != arc_of.end() && arc->second->beyond;
+        }
+    std::vector<Index> before(static_cast<std::size_t>(count_of_points));
+    std::size_t matched = 0;
+    for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r)
+        for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
+            const auto after = [&](Index p) { return p + 1 < polygon.offsets[r + 1] ? p + 1 : polygon.offsets[r]; };
+            if (is_beyond[k]) {
+                sides.push_back({k, -1, nullptr, {}, 0, {}});
+                continue;
+            }
+            Index to = after(k);
+            const auto arc = arc_of.find(key(points[k], points[to]));
+            if (arc != arc_of.end() && arc->second->beyond) to = after(to);
             Side side{k, to, arc == arc_of.end() ? nullptr : arc->second, {}, 0, {points[to] - points[k], points[to] - points[k]}};
             if (side.arc) {
                 side.centre = place(side.arc->centre);
                 for (const int end : {0, 1}) {
                     const Vec<Int> from_centre = points[end ? to : k] - side.centre;
-                    side.towards[static_cast<std::size_t>(end)] = {-from_centre.y, from_centre.x};
+                    Vec<Int>& towards = side.towards[static_cast<std::size_t>(end)];
+                    towards = {-from_centre.y, from_centre.x};
+                    if (side.arc->beyond) towards = {-towards.x, -towards.y};
                 }
                 ++matched;
             }
@@ -219,6 +262,7 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
     for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
         const Index start = count();
         for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
+            if (is_beyond[k]) continue;
             Side &in = sides[before[k]], &out = sides[k];
             const Int turn = cross(in.towards[1], out.towards[0]);
             is_corner[k] = (!in.arc && !out.arc) || !turn.is_zero() || dot(in.towards[1], out.towards[0]).sign() < 0;
@@ -227,9 +271,12 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
                 vertex_radius.push_back(at_corner);
             }
             if (!out.arc) continue;
-            out.vertex = add_vertex(out.centre.x, out.centre.y, true, true, owner, count() - first);
-            vertex_radius.push_back(class_of(grown + scaled(out.arc->radius, scale)));
+            const bool is_convex = !out.arc->beyond;
+            out.vertex = add_vertex(out.centre.x, out.centre.y, is_convex, true, owner, count() - first);
+            const Int radius = scaled(out.arc->radius, scale);
+            vertex_radius.push_back(class_of(is_convex ? Int(grown + radius) : Int(grown - radius)));
             arcs.push_back(out.vertex);
+            if (!is_convex) concave.push_back(out.vertex);
         }
         close_ring(start);
     }
@@ -240,6 +287,7 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
     };
     const auto begin = [&](const Side& side) { return is_corner[side.from] ? vertex[side.from] : sides[before[side.from]].vertex; };
     for (const Side& in : sides) {  // edges of the rings
+        if (in.to < 0) continue;
         const Index to = in.to;
         const Side& out = sides[to];
         const Index last = is_corner[to] ? vertex[to] : out.vertex;
@@ -258,6 +306,19 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
     }
     for (const Side& side : sides) {
         if (!side.arc) continue;
+        if (side.arc->beyond) {
+            more_stubs.push_back(stub(side.from, side.towards[0], vertex[side.from], side.vertex));
+            more_stubs.push_back(stub(side.to, side.towards[1], side.vertex, vertex[side.to]));
+            concave_ends.insert(concave_ends.end(), {vertex[side.from], vertex[side.to]});
+            const std::array corners{side.centre, points[side.to], place((*side.arc->beyond)[1]), points[side.from]};
+            for (const Int& radius : other_radii) {
+                if (radius + grown >= scaled(side.arc->radius, scale)) break;
+                Shape::Fillet fillet{side.vertex, {}, {}};
+                for (std::size_t n = 0; n < 4; ++n) fillet.vertex[n] = add_other(corners[n], class_of(-radius), owner);
+                fillets.push_back(fillet);
+            }
+            continue;
+        }
         piece_edges[piece_vertex.size()] = stub(side.to, side.towards[1], side.vertex, vertex[side.to]);
         piece_vertex.push_back(side.vertex);
         piece_edges[piece_vertex.size()] = {vertex[side.to], vertex[side.from], vertex[side.to], vertex[side.from]};
@@ -380,6 +441,25 @@ Shape finished(Builder&& from, int shift, bool is_round) {
                 if (!from.arcs.empty()) s.first.push_back(v), s.last.push_back(w), s.stub.push_back(0);
             }
         }
+    const auto add_edge = [&](const ArcEdge& edge) {
+        for (auto* column : {&s.v, &s.w, &s.first, &s.last}) column->push_back(0);
+        s.stub.push_back(0);
+        set_edge(static_cast<Index>(s.v.size()) - 1, edge);
+    };
+    for (const ArcEdge& edge : from.more_stubs) add_edge(edge);
+    for (Shape::Fillet& fillet : from.fillets)
+        for (std::size_t n = 0; n < 4; ++n) {
+            const Index v = fillet.vertex[n], w = fillet.vertex[(n + 1) % 4];
+            fillet.edge[n] = static_cast<Index>(s.v.size());
+            add_edge({v, w, v, w});
+        }
+    if (!from.concave.empty()) {
+        s.concave.assign(static_cast<std::size_t>(s.ring_vertices), 0);
+        for (const Index v : from.concave) s.concave[v] = 1;
+    }
+    s.fillets = std::move(from.fillets), s.fillet_ends = std::move(from.concave_ends);
+    std::sort(s.fillet_ends.begin(), s.fillet_ends.end());
+    s.fillet_ends.erase(std::unique(s.fillet_ends.begin(), s.fillet_ends.end()), s.fillet_ends.end());
     const std::vector<Index> place = place_orders(points);
     const auto low = [&](Index e) { return place[s.v[e]] < place[s.w[e]] ? s.v[e] : s.w[e]; };
     const auto high = [&](Index e) { return place[s.v[e]] < place[s.w[e]] ? s.w[e] : s.v[e]; };
@@ -519,6 +599,8 @@ void for_each_number(const Rounding& rounding, Use use) {
     for (const Arc& arc : rounding.arcs) {
         for (const RatioPoint* p : {&arc.from, &arc.to, &arc.centre}) use(p->x), use(p->y);
         use(arc.radius);
+        if (!arc.beyond) continue;
+        for (const RatioPoint& p : *arc.beyond) use(p.x), use(p.y);
     }
 }
 
@@ -584,7 +666,7 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     }
     Builder robot(scale), obstacles(scale);
     robot.reserve(shapes.robot), obstacles.reserve(shapes.obstacles);
-    robot.number_radii(shapes.robot_rounding), obstacles.number_radii(shapes.obstacle_rounding);
+    robot.number_radii(shapes.robot_rounding, shapes.obstacle_rounding), obstacles.number_radii(shapes.obstacle_rounding, shapes.robot_rounding);
     const bool is_round = whole.is_round || robot.is_round() || obstacles.is_round();
     const auto own = [](std::size_t, Index k) { return k; };
     for (std::size_t k = 0; k < shapes.robot.size(); ++k)

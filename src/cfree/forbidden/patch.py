@@ -268,11 +268,13 @@ class Patch:
     def surface(self, t: ArrayLike, phi: ArrayLike) -> NDArray[np.float64]:
         """Return points S(t, phi) = (x, y, phi) of the contact surface, eqs. (5) and (8), like a call of `Surface`.
 
-        On an arc-arc patch t in [0, 1] is tan(psi / 2), psi counted from the beginning of its quadrant.
+        On an arc-arc patch t in [0, 1] is tan(psi / 2), psi counted from the beginning of its quadrant; clockwise from
+        the end if one of the arcs is concave.
         """
         points = evaluate(self._ruled, t, phi)
         if self.quadrant is not None:
-            psi = np.pi / 2 * self.quadrant + 2 * np.arctan(np.asarray(t, float))
+            is_back = self._radius < 0
+            psi = np.pi / 2 * (self.quadrant + is_back) + (-2 if is_back else 2) * np.arctan(np.asarray(t, float))
             points[..., 0] += self._radius * np.cos(psi)
             points[..., 1] += self._radius * np.sin(psi)
         return points

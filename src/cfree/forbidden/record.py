@@ -179,7 +179,10 @@ class BoundaryRecord(Value):
 
     @cached_property
     def patch_radius(self) -> Floats:
-        """Radius of the circle of each arc-arc patch, (P,): the sum of both shapes' radii; 0 for other patches."""
+        """Radius of the circle of each arc-arc patch, (P,): the sum of both shapes' radii; 0 for other patches.
+
+        That of a concave arc is negative, and so is this sum: free space is inside the circle.
+        """
         return np.where(self.contact_kind & 15 == Kind.VERTEX_VERTEX, self._radii, 0.0)
 
     @property
@@ -241,9 +244,12 @@ class BoundaryRecord(Value):
         """The first orientation of each patch, (P,) radians in [0, 2 pi) (paper, 3.1.1 and 3.2.1)."""
         a, b = self.features.robot, self.features.obstacles
         on_edge = self.contact_kind == Kind.VERTEX_EDGE
-        f = np.where(on_edge, self.contact_obstacle, b.previous[self.contact_obstacle])
-        g, f = (a.near[a.w] - a.near[a.v])[self.contact_robot], (b.near[b.w] - b.near[b.v])[f]
-        cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
+        # along concave arcs normals turn clockwise
+        g, f, is_arc = self.contact_robot, self.contact_obstacle, self.patch_kind == PatchKind.ARC_ARC
+        g = np.where(is_arc & (a.turning[g] < 0), a.previous[g], g)
+        f = np.where(on_edge | (is_arc & (b.turning[f] < 0)), f, b.previous[f])
+        along, past = (a.near[a.w] - a.near[a.v])[g], (b.near[b.w] - b.near[b.v])[f]
+        cross, dot = along[:, 0] * past[:, 1] - along[:, 1] * past[:, 0], (along * past).sum(axis=1)
         angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
         angle[self.phi_range == 2 * np.pi] = 0.0  # of a disc
         return np.where(self.patch_kind == PatchKind.BOUND, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))
@@ -257,7 +263,7 @@ class BoundaryRecord(Value):
         at_robot = self.features.robot.turning[self.contact_robot]
         at_obstacle = self.features.obstacles.turning[self.contact_obstacle]
         turning = np.where(self.contact_kind == Kind.VERTEX_EDGE, at_robot, at_obstacle)
-        both = np.minimum(at_robot + at_obstacle, 2 * np.pi)
+        both = np.minimum(np.abs(at_robot) + np.abs(at_obstacle), 2 * np.pi)
         turning = np.where(self.patch_kind == PatchKind.ARC_ARC, both, turning)
         return np.where(self.patch_kind == PatchKind.BOUND, 2 * np.pi, turning)
 
@@ -269,6 +275,7 @@ class BoundaryRecord(Value):
         ----------
         patch : (k,) int
         t : (k,) float, along the edge; on a quadrant of a circle tan(psi / 2), psi counted from its beginning
+            If the radius is negative, psi counts clockwise from the quadrant's end.
         theta : (k,) float, radians
 
         Returns
@@ -286,8 +293,9 @@ class BoundaryRecord(Value):
         c, n = np.cos(theta), np.sin(theta)
         x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)
         if self.scene.curved:
-            psi = np.pi / 2 * (self.contact_kind[which] >> 4) + 2 * np.arctan(t)
             rho = self.patch_radius[which]
+            turns = np.pi / 2 * ((self.contact_kind[which] >> 4) + (rho < 0))
+            psi = turns + np.where(rho < 0, -2, 2) * np.arctan(t)
             x, y = x + rho * np.cos(psi), y + rho * np.sin(psi)
         return np.stack([x, y], axis=-1)
 

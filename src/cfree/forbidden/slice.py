@@ -79,7 +79,7 @@ class Slice(Value, Shown):
         result: NDArray[np.float64] = np.hypot(*(self.segments[:, 1] - self.segments[:, 0]).T)
         arcs = np.flatnonzero(self.boundary.patch_kind[self.patches] == PatchKind.ARC_ARC)
         lower, upper = self._angles(arcs)
-        result[arcs] = self.boundary.patch_radius[self.patches[arcs]] * (upper - lower)
+        result[arcs] = np.abs(self.boundary.patch_radius[self.patches[arcs]]) * (upper - lower)
         return result
 
     def _angles(self, arcs: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -99,7 +99,7 @@ class Slice(Value, Shown):
         >>> 4 * math.pi - 1e-3 < cut.forbidden.area < 4 * math.pi, cut.error < 1e-3
         (True, True)
         """
-        radius = float(self.boundary.patch_radius[self.patches].max(initial=0.0))
+        radius = float(np.abs(self.boundary.patch_radius[self.patches]).max(initial=0.0))
         return radius * (1 - math.cos(CHORD / 2))
 
     @cached_property

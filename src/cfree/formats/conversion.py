@@ -14,7 +14,7 @@ from cfree.formats.drawings.source import CURVE_SHARE, SCENE_ALONE
 from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, save_scene
 from cfree.formats.shapes import Shapes
 from cfree.scene.reading import Note, together
-from cfree.scene.rounded import rounded, rounded_shapes
+from cfree.scene.rounded import known_cores, rounded, rounded_shapes
 from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_polygons, with_reading
 
 
@@ -134,8 +134,11 @@ def as_exact(scene: Scene, error: float | None, *, remedy: str = "") -> tuple[Sc
     if not scene.curved or rounded_shapes(scene) is not None:
         return scene, ()
     error = error or largest_of(scene) / CURVE_SHARE
-    parts = [None if rounded(shape) else error for shape in scene.robot]
-    others = [None if rounded(shape) else error for shape in scene.obstacles]
+    are_refused = known_cores(scene).is_refused
+    parts, others = (
+        [None if (core := rounded(shape)) and not (are_refused and core.has_concave) else error for shape in shapes]
+        for shapes in (scene.robot, scene.obstacles)
+    )
     result = with_polygons(scene, [*parts, *others, error], outward=True)
     replaced = round_count(shapes_of(scene)) - round_count(shapes_of(result))
     return result, (Note("near", "polygon around a round shape", "near", replaced, size=error, remedy=remedy),)

@@ -1,16 +1,17 @@
 """Rounded shapes, which the core trims exactly: points, segments, and polygons with arcs as sides, grown by discs.
 
-Polygons, grown polygons, discs, and shapes of lines and convex arcs of rational radii are rounded shapes.
+Polygons, grown polygons, discs, and shapes of lines and arcs of rational radii are rounded shapes.
 docs/theory/rounded-shapes.md.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import TYPE_CHECKING
 
 import cfree._core as _core
@@ -22,27 +23,41 @@ from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, rational_root
 from cfree.exact.vectors import cross, dot, minus
 from cfree.polygons.polygon import Polygon
+from cfree.scene.hull_triangles import HullTriangle, hull_triangle, meeting
 
 if TYPE_CHECKING:
     from cfree.scene.scene import AnyShape, Scene
 
 
 FINEST_CUTS = 5  # of a quarter circle in halves, for chords that meet no other side
+RadiiByPlace = Mapping[ExactPoint, set[Fraction]]
+FINEST_FILLETS = 8  # the same where some are concave
+WIDENINGS = Fraction(1, 4), Fraction(1, 64)  # how far points are beyond the tangents of concave arcs
 
 
 @dataclass(frozen=True, slots=True)
 class CoreArc:
-    """A convex arc in place of a side of a core, counter-clockwise and at most a quarter circle."""
+    """An arc in place of a side of a core, counter-clockwise and at most a quarter circle.
+
+    A concave arc is clockwise, and in place of two sides that meet in `beyond[0]`. The triangle of its ends and
+    `beyond[1]` is in the shape but for the disc; `beyond[0]` is inside it.
+    """
 
     start: ExactPoint
     end: ExactPoint
     center: ExactPoint
     radius: Fraction
+    beyond: tuple[ExactPoint, ExactPoint] | None = None
+
+    @property
+    def is_convex(self) -> bool:
+        return self.beyond is None
 
     @property
     def numbers(self) -> tuple[Fraction, ...]:
         """All of its numbers, in the core's order."""
-        return *self.start, *self.end, *self.center, self.radius
+        more = (*self.beyond[0], *self.beyond[1]) if self.beyond else ()
+        return *self.start, *self.end, *self.center, self.radius, *more
 
 
 @dataclass(frozen=True)
@@ -60,6 +75,16 @@ class Rounded:
     core: Polygon | tuple[ExactPoint, ...]
     radius: Fraction
     arcs: tuple[CoreArc, ...] = ()
+
+    @property
+    def has_concave(self) -> bool:
+        """True if a side of the core is a concave arc."""
+        return any(not arc.is_convex for arc in self.arcs)
+
+    @property
+    def has_convex_arcs(self) -> bool:
+        """True if a side of the core is a convex arc."""
+        return any(arc.is_convex for arc in self.arcs)
 
     @property
     def handle(self) -> _core.Polygon:
@@ -94,10 +119,57 @@ class Cores:
         return any(shape.arcs for shape in (*self.robot, *self.obstacles))
 
     @property
+    def has_concave(self) -> bool:
+        """True if a side of a core is a concave arc."""
+        return any(shape.has_concave for shape in (*self.robot, *self.obstacles))
+
+    @property
+    def faces_arcs(self) -> bool:
+        """True if the robot has concave arcs and the obstacles have convex ones, or the other way round."""
+        return any(
+            any(shape.has_concave for shape in some) and any(shape.has_convex_arcs for shape in others)
+            for some, others in ((self.robot, self.obstacles), (self.obstacles, self.robot))
+        )
+
+    @property
+    def fills_channel(self) -> bool:
+        """True if a disc of one shape fits exactly between a convex and a concave arc of the other about one center."""
+        convex, concave = zip(*(_radii_by_place(shapes) for shapes in (self.robot, self.obstacles)), strict=True)
+        return any(
+            radius + other + rest + away == 0
+            for own in (0, 1)
+            for at, aways in concave[own].items()
+            for radii in convex[1 - own].values()
+            for away, other in product(aways, convex[own].get(at, ()))
+            for radius, rest in product(radii, radii)
+        )
+
+    @property
+    def is_refused(self) -> bool:
+        """True if concave arcs keep these out of boundaries."""
+        return self.has_concave and (self.faces_arcs or self.fills_channel)
+
+    @property
     def robot_radius(self) -> Fraction | None:
         """The radius of all parts of the robot; None if they have several."""
         radii = {part.radius for part in self.robot}
         return radii.pop() if len(radii) == 1 else None
+
+
+def _radii_by_place(shapes: Sequence[Rounded]) -> tuple[RadiiByPlace, RadiiByPlace]:
+    """Return radii of corners and of convex arcs by place, and those of concave arcs, which mostly are below 0."""
+    convex, concave = defaultdict[ExactPoint, set[Fraction]](set), defaultdict[ExactPoint, set[Fraction]](set)
+    for shape in shapes:
+        beyond = {arc.beyond[0] for arc in shape.arcs if arc.beyond}
+        for corner in shape.core.exact_vertices if isinstance(shape.core, Polygon) else shape.core:
+            if corner not in beyond:
+                convex[corner].add(shape.radius)
+        for arc in shape.arcs:
+            if arc.is_convex:
+                convex[arc.center].add(shape.radius + arc.radius)
+            else:
+                concave[arc.center].add(shape.radius - arc.radius)
+    return convex, concave
 
 
 def rounded(shape: AnyShape) -> Rounded | None:
@@ -175,13 +247,15 @@ Side = tuple[ExactPoint, ExactPoint, Span | None]
 
 
 def _with_arcs(shape: Curved) -> Rounded | None:
-    """Return a shape of lines and convex arcs, as the polygon of their chords; None if it is none."""
+    """Return a shape of lines and arcs, as a polygon of chords and of lines beyond concave arcs; None if it is none."""
     rings: list[list[Side]] = []
     for r, ring in enumerate(shape.curves):
         sides = _sides(ring, is_hole=r > 0)
         if sides is None:
             return None
         rings.append(sides)
+    if any(arc and arc.sense < 0 for ring in rings for *_, arc in ring):
+        return _on_hulls(rings)
     for cuts in range(FINEST_CUTS + 1):
         if (found := _on_chords([list(_cut(ring, 2**cuts)) for ring in rings])) is not None:
             return found
@@ -189,7 +263,7 @@ def _with_arcs(shape: Curved) -> Rounded | None:
 
 
 def _sides(ring: Sequence[Piece], *, is_hole: bool) -> list[Side] | None:
-    """Return lines and quarters of convex arcs, the shape on their left; None if there are others, or cusps."""
+    """Return lines and quarters of arcs, the shape on their left; None if there are others, or cusps."""
     sides: list[Side] = []
     for piece in ring:
         if isinstance(piece, Line):
@@ -206,7 +280,7 @@ def _sides(ring: Sequence[Piece], *, is_hole: bool) -> list[Side] | None:
         sides = [(end, start, arc and _reversed(arc)) for start, end, arc in reversed(sides)]
     for before, after in zip([sides[-1], *sides[:-1]], sides, strict=True):
         into, out = _towards(before, at_end=True), _towards(after, at_end=False)
-        if (after[2] and after[2].sense < 0) or (cross(into, out) == 0 and dot(into, out) < 0):
+        if cross(into, out) == 0 and dot(into, out) < 0:
             return None
     return sides
 
@@ -257,6 +331,61 @@ def _on_chords(rings: Sequence[Sequence[Side]]) -> Rounded | None:
     return Rounded(core, Fraction(0), tuple(arcs))
 
 
+def _on_hulls(rings: Sequence[Sequence[Side]]) -> Rounded | None:
+    """Return the polygon of chords of convex arcs, and of lines beyond concave ones.
+
+    Arcs are cut in halves while their triangles meet others; None if they are as fine as may be.
+    """
+    sides = [(r, 0, side) for r, ring in enumerate(rings) for side in ring]  # ring, and number of cuts
+    while True:
+        for wider in WIDENINGS:
+            triangles = [hull_triangle(*side, wider) for *_, side in sides]
+            if not (found := meeting(triangles)):
+                cut = [[side for ring, _, side in sides if ring == r] for r in range(len(rings))]
+                return _with_fillets(cut, {side[:2]: one for (*_, side), one in zip(sides, triangles, strict=True)})
+        coarse = {n for n in found if sides[n][2][2] and sides[n][1] < FINEST_FILLETS}
+        if not coarse:
+            return None
+        sides = [part for n, one in enumerate(sides) for part in (_halves(*one) if n in coarse else [one])]
+
+
+def _halves(ring: int, cuts: int, side: Side) -> list[tuple[int, int, Side]]:
+    start, end, arc = side
+    assert arc is not None, "lines are not cut"
+    tangent = math.tan(arc.sweep / 4)
+    middle = arc.at(0, Fraction(tangent).limit_denominator(max(8, math.ceil(2 / tangent))))
+    return [(ring, cuts + 1, (p, q, _part(arc, p, q))) for p, q in ((start, middle), (middle, end))]
+
+
+def _part(arc: Span, start: ExactPoint, end: ExactPoint) -> Span:
+    """Return an arc from one of its points to another one, less than half a turn."""
+    u, w = minus(start, arc.center), minus(end, arc.center)
+    tangent = abs(cross(u, w)) / (dot(u, u) + dot(u, w))
+    v = (-arc.sense * u[1], arc.sense * u[0])
+    return Span(arc.center, u, v, 0, tangent) if tangent < 1 else Span(arc.center, u, v, 1, Fraction(0))
+
+
+def _with_fillets(
+    rings: Sequence[Sequence[Side]], triangles: dict[tuple[ExactPoint, ExactPoint], HullTriangle]
+) -> Rounded:
+    corners: list[list[ExactPoint]] = []
+    arcs = []
+    for ring in rings:
+        corners.append([])
+        for start, end, arc in ring:
+            corners[-1].append(start)
+            if arc is None:
+                continue
+            beyond = triangles[start, end].beyond if arc.sense < 0 else None
+            if beyond is not None:
+                corners[-1].append(beyond[0])
+            radius = rational_root(dot(arc.u, arc.u))
+            assert radius is not None, "it has been looked at"
+            arcs.append(CoreArc(start, end, arc.center, radius, beyond))
+    outer, *holes = corners
+    return Rounded(Polygon(outer, holes), Fraction(0), tuple(arcs))
+
+
 def is_disc_about_reference(scene: Scene) -> bool:
     """True if all of the robot's shapes are discs about its reference point: nothing depends on its orientation."""
     paths = [shape.path if isinstance(shape, Curved) and not shape.holes else None for shape in scene.robot]
@@ -270,21 +399,40 @@ def why_not_rounded(scene: Scene) -> str:
     --------
     >>> from cfree.scene.scene import Scene
     >>> print(why_not_rounded(Scene(Curved.circle((0, 0), 1), [Curved.ellipse((3, 0), (1, 2))])))
-    obstacle 0: not bounded by lines and convex arcs of rational radii; ...
+    obstacle 0: not bounded by lines and arcs of rational radii, without cusps; ...
     """
     remedy = "give scene.outer(error) or scene.inner(error), on the command line what cfree convert --outer writes"
     if isinstance(scene.workspace, Curved):
         return f"workspace: round; give it as a polygon, or {remedy}"
     names = [f"robot[{k}]" if len(scene.robot) > 1 else "robot" for k in range(len(scene.robot))]
-    shapes = zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True)
-    name = next(name for name, shape in shapes if rounded(shape) is None)
-    return f"{name}: not bounded by lines and convex arcs of rational radii; {remedy}"
+    shapes = list(zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True))
+    cores = [(name, rounded(shape)) for name, shape in shapes]
+    name = next((name for name, core in cores if core is None), None)
+    if name is None and known_cores(scene).fills_channel:
+        what = "a disc that fits exactly between two arcs about one center at all orientations is not computed"
+        return f"robot and obstacles: {what}; make it larger or smaller, or {remedy}"
+    if name is None:
+        one = next(name for name, core in cores if core and core.has_concave)
+        is_robot = one in names
+        other = next(name for name, core in cores if core and core.has_convex_arcs and (name in names) != is_robot)
+        what = f"concave arcs, which meet convex arcs of {other}; one of the two has to be of lines and whole discs"
+        return f"{one}: {what}; {remedy}"
+    shape = next(shape for other, shape in shapes if other == name)
+    if isinstance(shape, Curved) and all(_sides(ring, is_hole=r > 0) for r, ring in enumerate(shape.curves)):
+        return f"{name}: too thin beside an arc for a polygon that leaves out the arcs; {remedy}"
+    return f"{name}: not bounded by lines and arcs of rational radii, without cusps; {remedy}"
+
+
+def known_cores(scene: Scene) -> Cores:
+    """Return the cores of those shapes of a scene's robot and obstacles that are rounded."""
+    robot, obstacles = ([rounded(shape) for shape in shapes] for shapes in (scene.robot, scene.obstacles))
+    return Cores(tuple(filter(None, robot)), tuple(filter(None, obstacles)))
 
 
 def rounded_shapes(scene: Scene) -> Cores | None:
-    """Return the cores of a scene's robot and obstacles; None if a shape is not rounded."""
+    """Return the cores of a scene's robot and obstacles; None if a shape is not rounded, or arcs keep it out."""
     if isinstance(scene.workspace, Curved):
         return None
-    robot, obstacles = ([rounded(shape) for shape in shapes] for shapes in (scene.robot, scene.obstacles))
-    parts, others = [x for x in robot if x], [x for x in obstacles if x]
-    return Cores(tuple(parts), tuple(others)) if len(parts + others) == len(robot + obstacles) else None
+    cores = known_cores(scene)
+    is_whole = len(cores.robot) == len(scene.robot) and len(cores.obstacles) == len(scene.obstacles)
+    return cores if is_whole and not cores.is_refused else None

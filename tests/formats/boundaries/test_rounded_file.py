@@ -103,7 +103,7 @@ def test_other_columns_than_the_scenes_are_refused(saved: Path, result: Boundary
 
 def test_a_scene_without_rounded_shapes_is_refused(saved: Path, tmp_path: Path) -> None:
     oval = '{"robot": [[0, 0], [1, 0], [0, 1]], "obstacles": [{"ellipse": {"center": [3, 3], "radii": [2, 1]}}]}'
-    with pytest.raises(FormatError, match="obstacle 0: not bounded by lines and convex arcs"):
+    with pytest.raises(FormatError, match="obstacle 0: not bounded by lines and arcs"):
         load(rewritten(saved, tmp_path / "x.npz", scene=np.frombuffer(oval.encode(), np.uint8)))
 
 

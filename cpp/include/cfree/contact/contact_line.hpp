@@ -81,8 +81,13 @@ inline void move_outwards(ContactLine<double>& line, double by) {
     at = at - Vec<double>{-scale * line.E.y, scale * line.E.x};
 }
 
-// Direction from the centre of a circle at t, the tangent of half the angle from the beginning of a quadrant.
-inline Vec<double> on_quadrant(int quadrant, double t) {
+// The tangent of half the angle from the other end of a quadrant.
+inline double from_other_end(double t) { return (1 - t) / (1 + t); }
+
+// Direction of u on a circle of radius rho at t, the tangent of half the angle from the beginning of a quadrant: if rho is negative,
+// from its end.
+inline Vec<double> on_quadrant(int quadrant, double rho, double t) {
+    if (rho < 0) t = from_other_end(t);
     Vec<double> u{(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)};
     for (int k = 0; k < quadrant; ++k) u = {-u.y, u.x};
     return u;

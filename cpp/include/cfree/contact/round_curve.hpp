@@ -2,7 +2,8 @@
 // theory, "Meshes among rounded shapes".
 //
 // A position on a line counts as in mesh_face.hpp: on an e-v surface from the foot of the perpendicular from the reference point, on a
-// v-e surface from the origin. On a circle it is psi, the angle from the beginning of the patch's quadrant.
+// v-e surface from the origin. On a circle it is psi, the angle from the beginning of the patch's quadrant; on that of a concave arc
+// it counts clockwise, and the circle's points are opposite to its normals.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -16,6 +17,9 @@ inline double in_quadrant(double psi) {
     using std::numbers::pi;
     return 0.25 * pi + std::remainder(psi - 0.25 * pi, 2 * pi);
 }
+
+// Direction of the point from the centre of a circle of radius rho at which t is 0 on its quadrant.
+inline double begin_of(int quadrant, double rho) { return 0.5 * std::numbers::pi * (rho < 0 ? quadrant - 1 : quadrant); }
 
 // a + b cos + c sin
 struct Harmonic {
@@ -55,7 +59,7 @@ private:
     double other_radius = 0;      // of a circle that meets this one
     bool meets_line = false;      // true on a circle that meets a line
     Complex still = 0, moving = 0;  // n = still + exp(i phi) moving
-    double begin = 0;             // direction from which psi counts
+    double begin = 0, side = 1;   // direction from which psi counts; -1 if it counts clockwise
     bool is_equal = false;        // circles of one radius that coincide at the angle `meeting`
     double meeting = 0;
     // two lines

@@ -47,7 +47,7 @@ private:
     double eps, w, unit = 1;
     std::optional<MeshSheet> line;
     Complex a = 0, b = 0;
-    double radius = 0, begin = 0;
+    double radius = 0, begin = 0, side = 1;  // of a circle; -1 if s counts clockwise
 };
 
 }  // namespace cfree

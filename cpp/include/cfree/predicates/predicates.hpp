@@ -39,6 +39,11 @@ struct Feature {
 // Equal features have equal codes: vertices by point, edges by line (parallels: by direction).
 using Code = std::uint64_t;
 Code code(const Scene& scene, const Feature& f);
+
+// True if a surface is that of a concave arc.
+inline bool is_concave(const Scene& scene, const Feature& f) {
+    return f.kind == Kind::vertex_vertex && (scene.robot.is_concave(f.robot) || scene.obstacles.is_concave(f.obstacle));
+}
 // Helix of a surface at t = 0 or t = 1.
 Feature end_helix(const Scene& scene, const Feature& contact, int end);
 

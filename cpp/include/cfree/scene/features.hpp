@@ -20,10 +20,14 @@
 
 namespace cfree {
 
-// A convex arc, counter-clockwise and of less than half a turn, in place of a polygon's side between two of its vertices.
+// An arc in place of a polygon's side between two of its vertices, or of two sides if it is concave. A convex arc is
+// counter-clockwise, and of less than half a turn.
 struct Arc {
     RatioPoint from, to, centre;
     Ratio radius;
+    // Of a concave arc, which is clockwise and of a quarter turn at most: the vertex between its two sides, and a point beyond it.
+    // Less the disc, the triangle of the ends and that point is in the shape, and has the vertex inside.
+    std::optional<std::array<RatioPoint, 2>> beyond = {};
 };
 
 // How a polygon is rounded: some of its sides are arcs, then it is grown. A thin one has a radius above 0.

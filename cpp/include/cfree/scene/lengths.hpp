@@ -13,7 +13,7 @@ T radius(const Shape& s, Index radius_class);
 template <>
 inline Approx radius(const Shape& s, Index radius_class) {
     const double r = s.radii[radius_class].about.hi;
-    return {r, r};
+    return {r, std::abs(r)};
 }
 template <>
 inline Ball radius(const Shape& s, Index radius_class) { return s.radii[radius_class].about; }
@@ -22,7 +22,7 @@ inline Int radius(const Shape& s, Index radius_class) { return s.radii[radius_cl
 template <>
 inline RootSum radius(const Shape& s, Index radius_class) { return s.radii[radius_class].exact; }
 
-// Sum of a radius of the robot and one of the obstacles, by their classes; it is 0 if both are class 0, and only then.
+// Sum of a radius of the robot and one of the obstacles, by their classes; negative if it is that of a concave arc's surface.
 template <class T>
 T rho(const Scene& scene, Index robot_class, Index obstacle_class) {
     return radius<T>(scene.robot, robot_class) + radius<T>(scene.obstacles, obstacle_class);

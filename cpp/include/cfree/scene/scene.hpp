@@ -11,8 +11,13 @@
 // Sides of a polygon may be convex arcs. The ring then has the arc's centre as a vertex, with the arc's radius; a vertex where an
 // arc meets its neighbour smoothly is none of the ring's. The edge between an arc and a corner, or another arc, is a stub: it has
 // no length, and the arc's direction at its end.
+//
+// An arc may be concave: its radius is negative, and its vertex is not convex. The pieces leave out the fillet at it, the part of
+// the shape between the arc and two edges of pieces; theory, "Concave arcs".
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <compare>
 #include <memory>
 #include <optional>
@@ -54,8 +59,8 @@ struct Shape {
     // Convex pieces, counter-clockwise; piece k has vertices piece_vertex[piece[k] .. piece[k + 1]) and as many edges,
     // none when it is a single point.
     std::vector<Index> piece, piece_vertex, piece_edge, piece_layer;
-    // Only in scenes with a radius, else empty: different radii by class, which rise from 0, the radius of class 0; class of the
-    // radius of each vertex; lengths of edges. An edge has the radius of its ends.
+    // Only in scenes with a radius, else empty: different radii by class, which rise from 0, the radius of class 0, and then those
+    // below 0; class of the radius of each vertex; lengths of edges. An edge has the radius of its ends.
     std::vector<Radius> radii;
     std::vector<Index> vertex_radius;
     std::vector<Length> lengths;
@@ -72,6 +77,23 @@ struct Shape {
         auto operator<=>(const Touch&) const = default;
     };
     std::vector<Touch> touches;
+    // The convex quadrangle of a concave arc's centre, its ends and a point beyond it, counter-clockwise. Its radius is that of the
+    // other shape's vertices for which it is meant, times -1: the two have the sum 0.
+    struct Fillet {
+        Index arc;  // vertex of a ring
+        std::array<Index, 4> vertex, edge;
+    };
+    std::vector<Fillet> fillets;
+    std::vector<Index> fillet_ends;  // vertices at the ends of concave arcs
+    std::vector<char> concave;       // of each vertex of a ring: true if it is a concave arc's; empty if there is none
+    bool is_concave(Index vertex) const { return !concave.empty() && concave[static_cast<std::size_t>(vertex)] != 0; }
+    bool has_concave() const { return !concave.empty(); }
+    // A bound of all radii, in doubles: that of the last class where none is below 0.
+    double largest_radius() const {
+        double most = 0;
+        for (const Radius& radius : radii) most = std::max(most, std::abs(radius.about.hi));
+        return most;
+    }
     // Stub in whose joint the circles of two vertices touch; -1 if there is none.
     Index stub_between(Index vertex, Index other) const;
 
