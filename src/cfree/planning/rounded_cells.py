@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
 
@@ -18,11 +18,12 @@ from cfree.exact.pose import Pose
 from cfree.libraries import np
 from cfree.planning.options import Options
 from cfree.planning.separation import Pieces, Separated
+from cfree.planning.smaller_shapes import smaller
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import SceneFeatures, features_of_cores
 from cfree.scene.frame import frame_of
-from cfree.scene.rounded import Cores, Rounded, rounded_shapes
-from cfree.scene.scene import Bounds, Scene, grown_scene
+from cfree.scene.rounded import Cores, rounded_shapes
+from cfree.scene.scene import Bounds, Scene, grown_scene, robot_radius
 
 SMALLER = 100  # least power of 1/2 by which discs are smaller; or twice the digits of the scene's numbers
 WORK = 15_000  # most pairs of a patch and a pillar near it for which cells are computed: some seconds
@@ -98,17 +99,16 @@ def round_cells(scene: Scene, options: Options, most: int = WORK) -> RoundCells 
     """
     clearance = options.clearance
     shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
-    if shapes is None or shapes.has_arcs or (radius := shapes.robot_radius) is None:
-        return None
-    has_discs = bool(shapes.obstacles) and all(other.radius for other in shapes.obstacles)
-    if not radius and (scene.workspace or not has_discs):
+    if shapes is None or not shapes.is_round:
         return None
     by = Fraction(1, 2 ** max(SMALLER, 2 * _digits(scene, shapes)))
-    cores, bounds = _smaller(shapes, by), None
+    cores, bounds = _smaller(shapes, by, is_in_workspace=scene.workspace is not None), None
+    if cores is None:
+        return None
     if scene.bounds:
-        least = min(shape.radius for shape in (shapes.robot if shapes.robot[0].radius else shapes.obstacles))
+        far = by * Fraction(robot_radius(scene))
         x0, y0, x1, y1 = scene.bounds
-        bounds = x0 - by * least, y0 - by * least, x1 + by * least, y1 + by * least
+        bounds = x0 - far, y0 - far, x1 + far, y1 + far
     end = None if options.max_seconds is None else time.monotonic() + options.max_seconds
     features = features_of_cores(cores, scene, bounds)
     if work_for(features) > most:
@@ -132,19 +132,24 @@ def separated_by_cells(scene: Scene, start: Pose, goal: Pose, options: Options) 
     return None if cells is None else cells.proof(start, goal)
 
 
-def _smaller(shapes: Cores, by: Fraction) -> Cores:
-    def less(shape: Rounded) -> Rounded:
-        return replace(shape, radius=shape.radius * (1 - by))
-
-    if shapes.robot[0].radius:
-        return Cores(tuple(map(less, shapes.robot)), shapes.obstacles)
-    return Cores(shapes.robot, tuple(map(less, shapes.obstacles)))
+def _smaller(shapes: Cores, by: Fraction, *, is_in_workspace: bool) -> Cores | None:
+    """Make the robot or all obstacles smaller, preferably by their discs; None if neither can be."""
+    robot = shapes.robot, lambda parts: Cores(parts, shapes.obstacles)
+    others = shapes.obstacles, lambda parts: Cores(shapes.robot, parts)
+    sides = [robot] if is_in_workspace or not shapes.obstacles else [robot, others]
+    for side, with_parts in sorted(sides, key=lambda pair: not all(shape.radius for shape in pair[0])):
+        parts = [smaller(shape, by) for shape in side]
+        if all(parts):
+            return with_parts(tuple(filter(None, parts)))
+    return None
 
 
 def _digits(scene: Scene, shapes: Cores) -> int:
     """Return the most bits of a denominator among the numbers of a scene."""
-    most = [shape.radius.denominator for shape in (*shapes.robot, *shapes.obstacles)]
-    for core in (shape.core for shape in (*shapes.robot, *shapes.obstacles)):
+    all_shapes = (*shapes.robot, *shapes.obstacles)
+    most = [shape.radius.denominator for shape in all_shapes]
+    most += [number.denominator for shape in all_shapes for arc in shape.arcs for number in arc.numbers]
+    for core in (shape.core for shape in all_shapes):
         most += [core.denominator] if isinstance(core, Polygon) else [c.denominator for point in core for c in point]
     most += [Fraction(bound).denominator for bound in scene.bounds or ()]
     most += [scene.workspace.denominator] if isinstance(scene.workspace, Polygon) else []

@@ -45,6 +45,13 @@ class CoreArc:
         return *self.start, *self.end, *self.center, self.radius
 
 
+def is_arc(arc: CoreArc) -> bool:
+    """True if an arc has its radius, is counter-clockwise, and has at most a quarter of its circle."""
+    first, last = minus(arc.start, arc.center), minus(arc.end, arc.center)
+    squares = {dot(first, first), dot(last, last), arc.radius**2}
+    return len(squares) == 1 and arc.radius > 0 and cross(first, last) > 0 and dot(first, last) >= 0
+
+
 @dataclass(frozen=True)
 class Rounded:
     """A core grown by a disc.
@@ -92,6 +99,11 @@ class Cores:
     def has_arcs(self) -> bool:
         """True if a core has sides that are arcs."""
         return any(shape.arcs for shape in (*self.robot, *self.obstacles))
+
+    @property
+    def is_round(self) -> bool:
+        """True if a shape is no polygon."""
+        return any(shape.arcs or shape.radius for shape in (*self.robot, *self.obstacles))
 
     @property
     def robot_radius(self) -> Fraction | None:

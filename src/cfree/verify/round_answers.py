@@ -1,4 +1,4 @@
-"""Check a separation among grown cores in an answer: `round_separation.py` checks the surface."""
+"""Check a separation among rounded shapes in an answer: `round_separation.py` checks the surface."""
 
 from __future__ import annotations
 
@@ -45,10 +45,8 @@ def _surface(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation | 
     if robot is None or obstacle is None:
         return None
     return RoundSeparation(
-        [part.core for part in cores.robot],
-        cores.robot[0].radius,
-        [other.core for other in cores.obstacles],
-        [other.radius for other in cores.obstacles],
+        cores.robot,
+        cores.obstacles,
         Features.numbered(features.robot),
         Features.numbered(features.obstacles),
         proof.pieces.kind,

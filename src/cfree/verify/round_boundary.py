@@ -14,7 +14,6 @@ from fractions import Fraction
 import numpy as np
 from flint import arb
 
-from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.scene.rounded import Cores, rounded_shapes
@@ -43,9 +42,6 @@ def round_boundary(
     begin = time.perf_counter()
     cores = rounded_shapes(stored.scene)
     assert cores is not None, "the boundary has its features"
-    if cores.has_arcs or cores.robot_radius is None:
-        what = "arcs as sides of shapes" if cores.has_arcs else "a robot whose parts have several radii"
-        raise UnsupportedError(f"verify.boundary: {what}; of polygons, segments and points grown by discs only")
     count = len(stored.trapezoids)
     chosen = range(count) if sample is None else sorted(random.Random(seed).sample(range(count), min(sample, count)))
     proof, world = _as_pieces(stored, cores), RoundWorld(stored.scene, cores)
@@ -79,10 +75,8 @@ def _as_pieces(stored: Boundary, cores: Cores) -> RoundSeparation:
     """Return the trapezoids in the form of the pieces of a separation, whose poses have no meaning here."""
     features, patch, scene = stored.features, stored.trapezoids.patch, stored.scene
     return RoundSeparation(
-        [part.core for part in cores.robot],
-        cores.robot_radius or Fraction(0),
-        [other.core for other in cores.obstacles],
-        [other.radius for other in cores.obstacles],
+        cores.robot,
+        cores.obstacles,
         Features.numbered(features.robot),
         Features.numbered(features.obstacles),
         stored.contact_kind[patch],

@@ -136,7 +136,12 @@ def _parts(code: int) -> list[int]:
 
 
 def _rounded_record(shape: Rounded) -> dict[str, Any]:
-    radius = {"radius": str(shape.radius)}
+    radius: dict[str, Any] = {"radius": str(shape.radius)}
+    if shape.arcs:
+        names = ("start", "end", "center")
+        radius["arcs"] = [
+            {name: [*map(str, getattr(arc, name))] for name in names} | {"radius": str(arc.radius)} for arc in shape.arcs
+        ]
     if isinstance(shape.core, Polygon):
         return polygon_record(shape.core) | radius
     return {"points": [[str(x), str(y)] for x, y in shape.core]} | radius
