@@ -20,7 +20,7 @@ from cfree.scene.rounded import Cores, rounded_shapes
 from cfree.scene.scene import Scene
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.round_algebra import Turn, precision
-from cfree.verify.round_inside import largest_radius
+from cfree.verify.round_inside import is_same
 from cfree.verify.round_pieces import Piece, Reader, Scale
 from cfree.verify.round_proof import Features, RoundSeparation
 from cfree.verify.round_separation import scale_of, side_findings, size_of
@@ -95,7 +95,7 @@ def _findings_of_cores(cores: Cores, scene: Scene, world: RoundWorld) -> Iterato
     for name, core, shape in zip(
         names, [*cores.robot, *cores.obstacles], [*scene.robot, *scene.obstacles], strict=True
     ):
-        if largest_radius(core.core, shape) != core.radius:
+        if not is_same(core, shape):
             yield Finding(PIECES, name, "it is not its core, grown by its radius")
     for name in world.untiled:
         yield Finding(PIECES, name, "its convex pieces do not tile it")
@@ -143,7 +143,7 @@ class _Covering:
         for k in np.flatnonzero(near):
             robot, obstacle = self._pairs[k]
             pillar = pillar_of(robot, obstacle, turned)
-            if pillar.distance(np.array([at]))[0] > pillar.radius + SURE * self._size:
+            if pillar.room(np.array([at]))[0] > SURE * self._size:
                 continue
             if not is_apart(robot, obstacle, turn, place, scale.near):
                 return True
@@ -153,7 +153,7 @@ class _Covering:
 def _around(part: Part) -> tuple[complex, float]:
     """Center and radius of a disc around a piece."""
     center = complex(part.rough.mean())
-    return center, float(np.abs(part.rough - center).max()) + float(part.radius)
+    return center, float((np.abs(part.rough - center) + part.radii).max())
 
 
 def _middle(piece: Piece, turn: Turn) -> tuple[arb, arb]:

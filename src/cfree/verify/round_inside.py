@@ -18,7 +18,7 @@ from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
 from cfree.scene.rounded import Rounded, is_arc
 from cfree.scene.scene import AnyShape
-from cfree.verify.arcs import Part, Spot, exact, is_near, is_nearer, is_of_arcs, rational, region_of
+from cfree.verify.arcs import Part, Region, Spot, exact, is_near, is_nearer, is_of_arcs, rational, region_of
 from cfree.verify.curves import _Arc, _parts
 from cfree.verify.round_proof import RoundSeparation
 
@@ -132,16 +132,42 @@ def room(smaller: Rounded, shape: AnyShape) -> Fraction | None:
         return None
     if not smaller.arcs and (largest := largest_radius(smaller.core, shape)) is not None:
         return largest - smaller.radius if smaller.radius <= largest else None
-    if not is_of_arcs(shape) or not all(map(is_arc, smaller.arcs)):
+    base, grown = _base(shape)
+    if not is_of_arcs(base) or not all(map(is_arc, smaller.arcs)):
         return None
-    grown = shape.grown if isinstance(shape, Curved) else Fraction(0)
-    region = region_of(shape if not isinstance(shape, Curved) or shape.is_polygon else shape._grown_by(-grown))
-    rings = [*_rings_of(smaller)]
-    if all(any(_is_part(f, g) for g in region.parts) for ring in rings for f in ring):
+    region, rings = region_of(base), [*_rings_of(smaller)]
+    if _is_on(rings, region):
         return grown - smaller.radius if smaller.radius <= grown else None
     if not all(region.holds(Spot.of(ring[0].p)) for ring in rings):
         return None
     return _distance([f for ring in rings for f in ring], region.parts, smaller.radius - grown)
+
+
+def is_same(one: Rounded, shape: AnyShape) -> bool:
+    """True if a rounded shape is just that shape.
+
+    A ring whose vertices are different, and which is on another ring that has no other vertices, is all of it.
+    """
+    if not one.arcs:
+        return largest_radius(one.core, shape) == one.radius
+    base, grown = _base(shape)
+    if not is_of_arcs(base) or not all(map(is_arc, one.arcs)):
+        return False
+    region, rings = region_of(base), [*_rings_of(one)]
+    corners = {f.p for ring in rings for f in ring}
+    return grown == one.radius and _is_on(rings, region) and all(g.p in corners for g in region.parts)
+
+
+def _base(shape: AnyShape) -> tuple[AnyShape, Fraction]:
+    """Shape without the disc by which it is grown, unless it is a polygon, and the disc's radius."""
+    if not isinstance(shape, Curved):
+        return shape, Fraction(0)
+    return (shape if shape.is_polygon or not shape.grown else shape._grown_by(-shape.grown)), shape.grown
+
+
+def _is_on(rings: Sequence[Sequence[Part]], region: Region) -> bool:
+    """True if rings are on the rim of a region."""
+    return all(any(_is_part(f, g) for g in region.parts) for ring in rings for f in ring)
 
 
 def _rings_of(shape: Rounded) -> Iterator[list[Part]]:
