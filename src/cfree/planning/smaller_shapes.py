@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import chain
 
 from cfree.exact.number import ExactPoint
 from cfree.exact.vectors import cross, dot, minus
@@ -16,24 +17,38 @@ PLACE_BITS = 10  # of a center of scaling, in the core's size
 FLAT = 1e-9  # share of a core's size that a kernel has at least
 
 
-def smaller(shape: Rounded, by: Fraction) -> Rounded | None:
-    """Return a shape that is smaller by about a part of its size, and strictly inside; None if none is known.
+def smaller(shapes: Sequence[Rounded], by: Fraction) -> tuple[Rounded, ...] | None:
+    """Return shapes that are smaller by about a part of their sizes, each strictly inside; None if one has none.
 
-    Discs of a grown core are smaller. A core without a disc is scaled about a point from which all of its rim is seen.
-    A polygon without such a point has its edges moved inwards.
+    Discs of a grown core are smaller. A core without a disc is scaled about a point from which all of its rim is seen,
+    if possible about one for all of them. A polygon without such a point has its edges moved inwards.
 
     Examples
     --------
     >>> triangle = Rounded(Polygon([(0, 0), (4, 0), (0, 4)]), Fraction(0))
-    >>> smaller(triangle, Fraction(1, 8)).core.exact_area
+    >>> [part] = smaller([triangle], Fraction(1, 8))
+    >>> part.core.exact_area
     Fraction(49, 8)
-    >>> smaller(Rounded(triangle.core, Fraction(1)), Fraction(1, 8)).radius
+    >>> [part] = smaller([Rounded(triangle.core, Fraction(1))], Fraction(1, 8))
+    >>> part.radius
     Fraction(7, 8)
     """
-    if shape.radius:
-        return replace(shape, radius=shape.radius * (1 - by))
+    sharp = [shape for shape in shapes if not shape.radius]
+    common = center_of_view(sharp) if len(sharp) > 1 else None
+    result = list[Rounded]()
+    for shape in shapes:
+        if shape.radius:
+            result.append(replace(shape, radius=shape.radius * (1 - by)))
+        elif (part := _without_disc(shape, by, common)) is not None:
+            result.append(part)
+        else:
+            return None
+    return tuple(result)
+
+
+def _without_disc(shape: Rounded, by: Fraction, center: ExactPoint | None) -> Rounded | None:
     assert isinstance(shape.core, Polygon), "other cores have a radius"
-    center = center_of_view(shape)
+    center = center or center_of_view([shape])
     if center is not None:
         return _scaled(shape, center, 1 - by)
     if shape.arcs:
@@ -59,25 +74,24 @@ def _scaled(shape: Rounded, center: ExactPoint, factor: Fraction) -> Rounded:
     return Rounded(Polygon(outer, holes), Fraction(0), tuple(arcs))
 
 
-def center_of_view(shape: Rounded) -> ExactPoint | None:
-    """Return a point on the inner side of all tangents of a polygon with arcs; None if there is none, or hardly.
+def center_of_view(shapes: Sequence[Rounded]) -> ExactPoint | None:
+    """Return a point on the inner side of all tangents of polygons with arcs; None if there is none, or hardly.
 
     Examples
     --------
-    >>> center_of_view(Rounded(Polygon([(0, 0), (4, 0), (4, 2), (0, 2)]), Fraction(0)))
+    >>> center_of_view([Rounded(Polygon([(0, 0), (4, 0), (4, 2), (0, 2)]), Fraction(0))])
     (Fraction(2, 1), Fraction(1, 1))
     >>> horseshoe = [(0, 0), (3, 0), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2)]
-    >>> center_of_view(Rounded(Polygon(horseshoe), Fraction(0))) is None
+    >>> center_of_view([Rounded(Polygon(horseshoe), Fraction(0))]) is None
     True
     """
-    assert isinstance(shape.core, Polygon)
-    x0, y0, x1, y1 = shape.core.bounds
-    size = max(x1 - x0, y1 - y0)
-    for arc in shape.arcs:  # beyond its chord
-        size = max(size, 2 * float(arc.radius))
+    boxes = [shape.core.bounds for shape in shapes if isinstance(shape.core, Polygon)]
+    lefts, bottoms, rights, tops = zip(*boxes, strict=True)
+    x0, y0, x1, y1 = min(lefts), min(bottoms), max(rights), max(tops)
+    size = max(x1 - x0, y1 - y0, *(2 * float(arc.radius) for shape in shapes for arc in shape.arcs), 0.0)
     kernel = [complex(x0 - size, y0 - size), complex(x1 + size, y0 - size)]
     kernel += [complex(x1 + size, y1 + size), complex(x0 - size, y1 + size)]
-    for place, along in _tangents(shape):
+    for place, along in chain.from_iterable(map(_tangents, shapes)):
         kernel = _cut(kernel, place, along / abs(along))
         if not kernel:
             return None
@@ -86,7 +100,7 @@ def center_of_view(shape: Rounded) -> ExactPoint | None:
     if min(abs(p - middle) for p in kernel) < FLAT * size:
         return None
     center = round(Fraction(middle.real) / unit) * unit, round(Fraction(middle.imag) / unit) * unit
-    return center if _sees_all(center, shape) else None
+    return center if all(_sees_all(center, shape) for shape in shapes) else None
 
 
 def _tangents(shape: Rounded) -> Iterator[tuple[complex, complex]]:
