@@ -7,10 +7,10 @@ from pathlib import Path as FilePath
 from typing import Any
 
 import pytest
-from arc_rings import shape
 
 import cfree
 import cfree.verify
+from arc_rings import shape
 from cfree import Curved, Pose, Scene
 from cfree.planning.options import Options
 from cfree.planning.rounded_cells import separated_by_cells

@@ -1,8 +1,8 @@
 """Proofs by the exact cells of rounded shapes: docs/theory/rounded-shapes.md.
 
-The robot, or all obstacles, become a little smaller, and bounds a little larger. If start and goal are then in different
-cells, a closed surface of contacts of the smaller shapes separates them, and at each of its poses the true shapes
-overlap.
+The robot, or all obstacles, become a little smaller, and bounds a little larger. If start and goal are then in
+different cells, a closed surface of contacts of the smaller shapes separates them, and at each of its poses the true
+shapes overlap.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Shapes that are smaller by a hair, strictly inside of rounded ones: docs/theory/rounded-shapes.md, "Smaller shapes"."""
+"""Shapes that are smaller by a hair, strictly inside of rounded ones: docs/theory/rounded-shapes.md."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from cfree.verify.round_proof import Features, RoundSeparation
 from cfree.verify.round_separation import CONTACTS, INSIDE, round_separation_findings
 
 TEXTS = {
-    INSIDE: "{far}the cores are the scene's, and discs about them are smaller",
+    INSIDE: "{far}all shapes of the proof are in the scene's, and those of one side strictly",
     CONTACTS: "{count}: the smaller shapes touch at every pose of them, so that the scene's overlap",
 }
 

@@ -237,7 +237,7 @@ class Reader:
         for last, on in enumerate(surfaces, 1 - len(surfaces)):
             try:
                 curves = [self.curve(on, quadrant, int(code)) for code in (t.lower[k], t.upper[k])]
-                piece = Piece(k, on, quadrant, chart, start, stop, *curves)
+                piece = Piece(k, on, quadrant, chart, start, stop, curves[0], curves[1])
                 self._check(piece)
             except Fault:
                 if last == 0:
@@ -354,7 +354,7 @@ class Rim:
         return cls({*_outline(shape.core)} - chords, shape.radius, tuple(filter(is_arc, shape.arcs)))
 
     def directions(self, points: tuple[ExactPoint, ...], radius: Fraction) -> list[Cone]:
-        """Cones of directions in which a point, or an edge, grown by a radius is in the shape; none if it is no part."""
+        """Cones of directions in which a point, or an edge, grown by a radius, is in the shape."""
         if radius == self.radius and points in self.outline:
             return [()]
         r = radius - self.radius

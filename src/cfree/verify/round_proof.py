@@ -1,4 +1,4 @@
-"""A separation among rounded shapes as data: cores, arcs, radii, features, the pieces of a closed surface, two poses."""
+"""A separation among rounded shapes as data: cores with arcs, features, the pieces of a closed surface, two poses."""
 
 from __future__ import annotations
 

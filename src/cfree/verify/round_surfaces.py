@@ -105,7 +105,10 @@ class Surface:
         (f, g), more = self.edge, circle.radius - self.radius
         for k in (0, 1):
             a, b = self.end(k)
-            fixed, d, e = (circle.a == a, _minus(circle.b, b), f) if f != NIL else (circle.b == b, _minus(circle.a, a), g)
+            on_robot = f == NIL
+            fixed, d, e = (
+                (circle.b == b, _minus(circle.a, a), g) if on_robot else (circle.a == a, _minus(circle.b, b), f)
+            )
             height = e[0] * d[1] - e[1] * d[0]
             if fixed and e[0] * d[0] + e[1] * d[1] == 0 and d[0] ** 2 + d[1] ** 2 == more**2 and height * more >= 0:
                 return k

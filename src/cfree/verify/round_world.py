@@ -26,7 +26,7 @@ Complexes = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Disc:
-    """A vertex of a convex piece, grown; of an arc only the part in directions from the first normal to the last one."""
+    """A vertex of a convex piece, grown; of an arc only directions from the first normal to the last one."""
 
     x: arb
     y: arb
@@ -205,9 +205,7 @@ def _corners_with_arcs(shape: Rounded) -> Iterator[Corner]:
             place = complex(*p)
             along = 0 if other else complex(*out)
             is_convex = cross(into, out) > 0
-            yield Corner(
-                place - complex(*into), place, place + complex(*out), width, is_convex, place, along, width
-            )
+            yield Corner(place - complex(*into), place, place + complex(*out), width, is_convex, place, along, width)
             if other:
                 center = complex(*other.center)
                 first, last = place - center, complex(*after) - center
@@ -255,7 +253,7 @@ def _is_between(u: Place, robot: Sequence[Disc], obstacle: Sequence[Disc], near:
     return all(top - near * length < bottom for top in tops for bottom in bottoms)
 
 
-def _height(disc: Disc, u: Place, length: arb) -> arb:
+def _height(disc: Disc, u: Place, length: Ball) -> Ball:
     return disc.x * u[0] + disc.y * u[1] + _ball(disc.radius) * length
 
 
