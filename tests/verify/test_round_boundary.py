@@ -13,6 +13,7 @@ import pytest
 
 import cfree
 import cfree.verify
+from arc_rings import random_arcs
 from cfree import Scene, boundary
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import Trapezoids
@@ -39,6 +40,16 @@ def test_boundaries_of_random_rounded_scenes_are_verified(seed: int) -> None:
     scene = random_scene(seed)
     result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
     assert result.verified, result
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2, 12))
+def test_boundaries_of_random_shapes_with_arcs_are_verified(seed: int) -> None:
+    """One robot, or two parts of different radii, among shapes some of whose sides are arcs."""
+    scene = random_arcs(seed)
+    result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
+    assert result.verified, result
+    assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
 
 
 @pytest.mark.slow
@@ -172,7 +183,7 @@ MUTANTS: list[Callable[[Boundary, random.Random], Boundary]] = [
 @pytest.mark.slow
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda f: f.__name__)
 def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random], Boundary]) -> None:
-    for seed, scene in enumerate([MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3)]):
+    for seed, scene in enumerate([MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3), random_arcs(4)]):
         result, rng = boundary(scene), random.Random(seed)
         if mutant is on_the_other_branch and seed in (0, 2):
             continue  # no lower curve has one

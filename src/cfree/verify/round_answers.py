@@ -28,14 +28,14 @@ def rounded_findings(
     true = grown_scene(scene, proof.clearance) if proof.clearance else scene
     world = ArcWorld(scene)
     yield from end_findings(proof, world.with_robot(proof.clearance) if proof.clearance else world)
-    surface = _surface(proof, cores, scene)
+    surface = surface_of(proof, cores, scene)
     if surface is None:
         yield Finding(CONTACTS, "pieces", "one names a feature that no core has")
         return
     yield from round_separation_findings(surface, true, report)
 
 
-def _surface(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation | None:
+def surface_of(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation | None:
     """Return a separation in the form that is checked; None if a piece names no vertex of a core."""
     features = features_of_cores(cores, scene, proof.bounds)
     robot, obstacle = (
