@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 from dataclasses import fields, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import pytest
 
 import cfree
 import cfree.verify
-from arc_rings import random_arcs
+from arc_rings import RINGS, random_arcs, shape
 from cfree import Scene, boundary
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import Trapezoids
@@ -195,3 +196,12 @@ def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random
 def test_a_trapezoid_that_is_left_out_is_refuted() -> None:
     result = cfree.verify.boundary(dropped(boundary(MIXED), random.Random(1)), MIXED, slices=2)
     assert {finding.kind for finding in result.findings} >= {"closed surfaces"}
+
+
+@pytest.mark.slow
+def test_a_boundary_of_arcs_with_long_numbers_is_verified() -> None:
+    """Places are decided with as many bits as the numbers need."""
+    by = Fraction(1, 5) + Fraction(1, 5 * 2**60)
+    scene = Scene(shape(RINGS["half"], "1/3", 0, by), [disc(0, 2, 1), grown(SQUARE, "1/7", 2, 1)])
+    result = cfree.verify.boundary(boundary(scene), scene, slices=2)
+    assert result.verified, result

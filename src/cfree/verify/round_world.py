@@ -58,7 +58,8 @@ class Part:
     @cached_property
     def radii(self) -> NDArray[np.float64]:
         """Radius of each of these."""
-        return np.array([float(disc.radius) for disc in self.discs])
+        arc = [self.arc.radius] if self.arc else []
+        return np.array([float(self.radius + r) for r in [*[Fraction(0)] * len(self.points), *arc]])
 
     @cached_property
     def edges(self) -> list[int]:
@@ -67,7 +68,7 @@ class Part:
 
     @cached_property
     def discs(self) -> list[Disc]:
-        """Discs, and the arc, of which it is the convex hull."""
+        """Discs, and the arc, of which it is the convex hull, with as many bits as there are at the first call."""
         discs = [Disc(_ball(x), _ball(y), self.radius) for x, y in self.points]
         if self.arc:
             (x, y), r = self.arc.center, self.arc.radius
@@ -124,7 +125,7 @@ class RoundWorld:
             obstacle_corners += _corners_of(shape)
         reach = max(abs(c) for part in robot for p in part.points for c in p)
         far = reach + max((abs(c) for part in obstacles for p in part.points for c in p), default=Fraction(0))
-        far += max(disc.radius for part in robot + obstacles for disc in part.discs)
+        far += max(part.radius + (part.arc.radius if part.arc else 0) for part in robot + obstacles)
         if isinstance(scene.workspace, Polygon):
             x0, y0, x1, y1 = map(Fraction, scene.workspace.bounds)
             margin = 1 + 4 * far + x1 - x0 + y1 - y0
