@@ -96,20 +96,9 @@ class Cores:
     obstacles: tuple[Rounded, ...]
 
     @property
-    def has_arcs(self) -> bool:
-        """True if a core has sides that are arcs."""
-        return any(shape.arcs for shape in (*self.robot, *self.obstacles))
-
-    @property
     def is_round(self) -> bool:
         """True if a shape is no polygon."""
         return any(shape.arcs or shape.radius for shape in (*self.robot, *self.obstacles))
-
-    @property
-    def robot_radius(self) -> Fraction | None:
-        """The radius of all parts of the robot; None if they have several."""
-        radii = {part.radius for part in self.robot}
-        return radii.pop() if len(radii) == 1 else None
 
 
 def rounded(shape: AnyShape) -> Rounded | None:
