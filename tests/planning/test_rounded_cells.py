@@ -10,6 +10,7 @@ import pytest
 
 import cfree
 import cfree.verify
+from arc_rings import shape
 from cfree import Curved, Pose, Scene
 from cfree.planning.options import Options
 from cfree.planning.rounded_cells import separated_by_cells
@@ -193,17 +194,24 @@ def test_shapes_that_cannot_be_smaller_have_no_cells() -> None:
     from cfree.planning.rounded_cells import round_cells
 
     square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    room = [(-9, -9), (9, -9), (9, 9), (-9, 9)]
+    horseshoe = shape([(0, 0), (6, 0), (6, 4, (5, 4)), (4, 4), (4, 2), (2, 2), (2, 4, (1, 4)), (0, 4)], -8)
     disc = Curved.circle((4, 0), 1)
     for scene in (
         Scene(square, [], bounds=(-9, -9, 9, 9)),
         Scene(square, [square]),
-        Scene(square, [disc, square]),
-        Scene(square, [disc], workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)]),
+        Scene(horseshoe, [disc], workspace=room),
+        Scene(horseshoe, [disc, horseshoe]),
         Scene(square, [Curved.ellipse((4, 0), (1, 2))]),
     ):
         assert round_cells(scene, Options()) is None
-    assert round_cells(Scene(square, [disc], bounds=(-9, -9, 9, 9)), Options()) is not None
-    assert round_cells(Scene(disc, [], bounds=(-9, -9, 9, 9)), Options()) is not None
+    for scene in (
+        Scene(square, [disc, square]),
+        Scene(horseshoe, [disc]),
+        Scene(square, [disc], workspace=room),
+        Scene(disc, [], bounds=(-9, -9, 9, 9)),
+    ):
+        assert round_cells(scene, Options()) is not None
 
 
 def test_cells_are_not_computed_where_they_take_long() -> None:

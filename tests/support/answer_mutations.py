@@ -329,6 +329,47 @@ def move_an_end(rng: random.Random, answer: Answer) -> bool:
     return True
 
 
+# --- separations among rounded shapes ---
+
+
+def arc_of(rng: random.Random, answer: Answer) -> tuple[Answer, int]:
+    """A core, and the number of one of its arcs."""
+    parts = [part for parts in answer["rounded"].values() for part in parts if part.get("arcs")]
+    part = rng.choice(parts)
+    return part, rng.randrange(len(part["arcs"]))
+
+
+def drop_an_arc(rng: random.Random, answer: Answer) -> bool:
+    part, k = arc_of(rng, answer)
+    part["arcs"].pop(k)
+    return True
+
+
+def move_a_center(rng: random.Random, answer: Answer) -> bool:
+    part, k = arc_of(rng, answer)
+    center, by = part["arcs"][k]["center"], rng.choice([Fraction(1, 2**100), Fraction(1, 99)])
+    center[rng.randrange(2)] = moved(rng, center[0], by)
+    return True
+
+
+def enlarge_an_arc(rng: random.Random, answer: Answer) -> bool:
+    """Make its center, ends and radius larger in proportion, with the core's vertices."""
+    part, k = arc_of(rng, answer)
+    arc, factor = part["arcs"][k], 1 + rng.choice([Fraction(1, 2**60), Fraction(1, 9)])
+    arc["radius"] = str(Fraction(arc["radius"]) * factor)
+    for name in ("start", "end", "center"):
+        larger = [str(Fraction(c) * factor) for c in arc[name]]
+        part["outer"] = [larger if point == arc[name] else point for point in part["outer"]]
+        arc[name] = larger
+    return True
+
+
+def grow_a_core(rng: random.Random, answer: Answer) -> bool:
+    part = rng.choice([part for parts in answer["rounded"].values() for part in parts])
+    part["radius"] = str(Fraction(part["radius"]) + rng.choice([Fraction(1, 2**60), Fraction(1, 9)]))
+    return True
+
+
 OF_PATHS: tuple[Mutation, ...] = (
     change_a_vector, change_two_vectors, change_a_pole, change_an_angle, turn_the_other_way, drop_a_motion,
     repeat_a_motion, swap_two_motions, change_an_end, change_start_and_goal, change_a_decimal,

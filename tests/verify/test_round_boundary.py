@@ -14,6 +14,7 @@ import pytest
 
 import cfree
 import cfree.verify
+from arc_rings import RINGS, random_arcs, shape
 from cfree import Polygon, Scene, boundary
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import IsolatedParts, Trapezoids
@@ -40,6 +41,16 @@ def test_boundaries_of_random_rounded_scenes_are_verified(seed: int) -> None:
     scene = random_scene(seed)
     result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
     assert result.verified, result
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2, 12))
+def test_boundaries_of_random_shapes_with_arcs_are_verified(seed: int) -> None:
+    """One robot, or two parts of different radii, among shapes some of whose sides are arcs."""
+    scene = random_arcs(seed)
+    result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
+    assert result.verified, result
+    assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
 
 
 @pytest.mark.slow
@@ -212,7 +223,7 @@ MUTANTS: list[Callable[[Boundary, random.Random], Boundary]] = [
 @pytest.mark.slow
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda f: f.__name__)
 def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random], Boundary]) -> None:
-    for seed, scene in enumerate([MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3)]):
+    for seed, scene in enumerate([MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3), random_arcs(4)]):
         result, rng = boundary(scene), random.Random(seed)
         if mutant is on_the_other_branch and seed in (0, 2):
             continue  # no lower curve has one
@@ -224,3 +235,12 @@ def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random
 def test_a_trapezoid_that_is_left_out_is_refuted() -> None:
     result = cfree.verify.boundary(dropped(boundary(MIXED), random.Random(1)), MIXED, slices=2)
     assert {finding.kind for finding in result.findings} >= {"closed surfaces"}
+
+
+@pytest.mark.slow
+def test_a_boundary_of_arcs_with_long_numbers_is_verified() -> None:
+    """Places are decided with as many bits as the numbers need."""
+    by = Fraction(1, 5) + Fraction(1, 5 * 2**60)
+    scene = Scene(shape(RINGS["half"], "1/3", 0, by), [disc(0, 2, 1), grown(SQUARE, "1/7", 2, 1)])
+    result = cfree.verify.boundary(boundary(scene), scene, slices=2)
+    assert result.verified, result

@@ -150,10 +150,8 @@ def proof_of(parts: Any, others: Any, features: Any, boundary: Any, radius: Frac
     columns = {name: getattr(table, name)[faces] for name in COLUMNS}
     columns["patch"] = np.arange(len(faces), dtype=np.int32)
     return RoundSeparation(
-        [part.core for part in parts],
-        radius,
-        [other.core for other in others],
-        [other.radius for other in others],
+        [replace(part, radius=radius) for part in parts],
+        others,
         Features.numbered(features.robot),
         Features.numbered(features.obstacles),
         np.asarray(patches.kind)[patch],
@@ -235,9 +233,9 @@ def test_sides_agree_with_distances_of_cores(name: str) -> None:
         for _ in range(60):
             pose = cfree.Pose(rng.uniform(-3, 4), rng.uniform(-3, 4), rng.uniform(0, 6.28))
             gaps = [
-                flat(body, pose).distance(flat(other)) - float(radius + s)
+                flat(body.core, pose).distance(flat(other.core)) - float(radius + other.radius)
                 for body in proofs[0].robot
-                for other, s in zip(proofs[0].obstacles, proofs[0].radii, strict=True)
+                for other in proofs[0].obstacles
             ]
             if min(map(abs, gaps)) > 1e-6:
                 tried += 1
@@ -282,6 +280,12 @@ def rows(proof: RoundSeparation, chosen: Any) -> RoundSeparation:
     return replace(proof, table=Trapezoids(**columns), **{name: getattr(proof, name)[chosen] for name in names})
 
 
+def with_radius(proof: RoundSeparation, radius: Fraction) -> RoundSeparation:
+    """The same surface, as one of a robot with another radius."""
+    features = replace(proof.robot_features, radii=(radius,) * len(proof.robot_features.radii))
+    return replace(proof, robot=[replace(part, radius=radius) for part in proof.robot], robot_features=features)
+
+
 def mutants(proof: RoundSeparation, k: int, rng: random.Random) -> Iterator[tuple[str, RoundSeparation]]:
     """Change piece k in every way that breaks the surface."""
     table, count = proof.table, len(proof)
@@ -314,11 +318,18 @@ def mutants(proof: RoundSeparation, k: int, rng: random.Random) -> Iterator[tupl
         (x, y), *rest = features.points
         wrong = replace(features, points=((x + HAIR, y), *rest))
         yield f"a moved point of the {name}", replace(proof, **{f"{name}_features": wrong})
-    yield "a radius of the scene", replace(proof, radius=proof.radius + HAIR)
-    yield "a larger radius", replace(proof, radius=proof.radius + F(1, 100))
-    yield "a negative radius", replace(proof, radius=F(-1, 100))
-    yield "a larger obstacle", replace(proof, radii=[s + HAIR for s in proof.radii])
-    yield "fewer obstacles", replace(proof, obstacles=proof.obstacles[1:], radii=proof.radii[1:])
+    yield "a radius of the scene", with_radius(proof, proof.robot[0].radius + HAIR)
+    yield "a larger radius", with_radius(proof, proof.robot[0].radius + F(1, 100))
+    yield "a negative radius", with_radius(proof, F(-1, 100))
+    larger = replace(proof, obstacles=[replace(other, radius=other.radius + HAIR) for other in proof.obstacles])
+    yield "a larger obstacle", larger
+    radii = tuple(r + HAIR for r in proof.obstacle_features.radii)
+    yield (
+        "a larger obstacle, whose features are larger",
+        replace(larger, obstacle_features=replace(proof.obstacle_features, radii=radii)),
+    )
+    yield "larger features", replace(proof, obstacle_features=replace(proof.obstacle_features, radii=radii))
+    yield "fewer obstacles", replace(proof, obstacles=proof.obstacles[1:])
     yield "start is goal", replace(proof, start=proof.goal)
 
 
@@ -363,8 +374,7 @@ def test_a_curve_beyond_its_patch_or_without_a_point_is_found() -> None:
         for k in range(len(proof)):
             wrong = column(proof, upper=put(proof.table.upper, k, curves[(7 * k + 3) % len(curves)]))
             texts |= {finding.text for finding in round_separation_findings(rows(wrong, np.array([k])), scene)}
-    beyond = {"a curve leaves its patch", "a curve is beyond an end of its patch"}
-    assert {*beyond, "a curve that does not exist between its angles"} <= texts
+    assert {"a curve is beyond an end of its patch", "a curve that does not exist between its angles"} <= texts
 
 
 # --- smaller shapes ---
@@ -387,7 +397,7 @@ def test_a_core_is_known_by_the_rim_of_its_shape() -> None:
 def test_a_robot_of_the_scene_s_radius_is_no_smaller_shape() -> None:
     scene = SCENES["stadium about a disc"]
     (proof,) = surfaces(scene, robot_radius(scene) - HAIR)
-    findings = list(round_separation_findings(replace(proof, radius=robot_radius(scene)), scene))
+    findings = list(round_separation_findings(with_radius(proof, robot_radius(scene)), scene))
     assert [finding.kind for finding in findings] == ["smaller shapes"]
     assert "strictly" in findings[0].text
 

@@ -1,31 +1,34 @@
 """Proofs by the exact cells of rounded shapes: docs/theory/rounded-shapes.md.
 
-The robot's disc, or those of the obstacles, become a little smaller, and bounds a little larger. If start and goal are
-then in different cells, a closed surface of contacts of the smaller shapes separates them, and at each of its poses the
-true shapes overlap.
+The robot, or all obstacles, become a little smaller, and bounds a little larger. If start and goal are then in
+different cells, a closed surface of contacts of the smaller shapes separates them, and at each of its poses the true
+shapes overlap.
 """
 
 from __future__ import annotations
 
 import os
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import count
+from threading import Lock
 
 import cfree._core as _core
 from cfree.exact.pose import Pose
 from cfree.libraries import np
 from cfree.planning.options import Options
 from cfree.planning.separation import Pieces, Separated
+from cfree.planning.smaller_shapes import smaller
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import SceneFeatures, features_of_cores
 from cfree.scene.frame import frame_of
-from cfree.scene.rounded import Cores, Rounded, rounded_shapes
-from cfree.scene.scene import Bounds, Scene, grown_scene
+from cfree.scene.rounded import Cores, rounded_shapes
+from cfree.scene.scene import Bounds, Scene, grown_scene, robot_radius
+from cfree.value import kept
 
-SMALLER = 100  # least power of 1/2 by which discs are smaller; or twice the digits of the scene's numbers
-WORK = 15_000  # most pairs of a patch and a pillar near it for which cells are computed: some seconds
+SMALLER = 100  # least power of 1/2 by which shapes are smaller; or twice the digits of the scene's numbers
+WORK = 30_000  # most pairs of a patch and a pillar near it for which cells are computed: some seconds
 FEW = 2_000  # the same, for half a second
 PATCHES = 6  # of two vertices, about: an edge of each on the other one, and four quadrants
 
@@ -83,6 +86,8 @@ class RoundCells:
 def round_cells(scene: Scene, options: Options, most: int = WORK) -> RoundCells | None:
     """Compute the cells of shapes that are a little smaller than a scene's, with the options' clearance.
 
+    The scene caches the result.
+
     Parameters
     ----------
     scene : Scene
@@ -93,37 +98,75 @@ def round_cells(scene: Scene, options: Options, most: int = WORK) -> RoundCells 
     Returns
     -------
     RoundCells, or None
-        None if shapes are not polygons, segments and points grown by discs, the robot's parts by one radius, if
-        neither the robot nor all obstacles have discs, or if that would take longer.
+        None if shapes are not polygons with convex arcs, segments and points, some of them grown by discs; if neither
+        the robot nor all obstacles can be made smaller; or if that would take longer.
     """
-    clearance = options.clearance
-    shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
-    if shapes is None or shapes.has_arcs or (radius := shapes.robot_radius) is None:
+    end = None if options.max_seconds is None else time.monotonic() + options.max_seconds
+    made, clearance = kept(scene, _Made.none_for), options.clearance
+    if not made.lock.acquire(timeout=-1 if end is None else options.max_seconds or 0.0):
         return None
-    has_discs = bool(shapes.obstacles) and all(other.radius for other in shapes.obstacles)
-    if not radius and (scene.workspace or not has_discs):
+    try:
+        if clearance not in made.cells:
+            shapes = _shapes_for(scene, clearance)
+            features = None if shapes is None else features_of_cores(shapes[0], scene, shapes[1])
+            if features is not None and work_for(features) > most:
+                return None
+            made.cells[clearance] = None
+            if shapes is not None and features is not None:
+                try:
+                    made.cells[clearance] = _computed(*shapes, features, end)
+                except TimeoutError:
+                    del made.cells[clearance]
+                    return None
+        cells = made.cells[clearance]
+    finally:
+        made.lock.release()
+    return None if cells is None else RoundCells(scene, clearance, *cells)
+
+
+Cells = tuple[Cores, Bounds | None, SceneFeatures, _core.Boundary, _core.FreeSpace]
+
+
+@dataclass(eq=False)
+class _Made:
+    """Cells by clearance, None where there are none; several threads may ask for them."""
+
+    lock: Lock = field(default_factory=Lock)
+    cells: dict[Fraction, Cells | None] = field(default_factory=dict)
+
+    @classmethod
+    def none_for(cls, scene: Scene) -> _Made:
+        return cls()
+
+
+def _shapes_for(scene: Scene, clearance: Fraction) -> tuple[Cores, Bounds | None] | None:
+    """Return smaller shapes and larger bounds; None if there are none, or if all shapes are polygons."""
+    shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
+    if shapes is None or not shapes.is_round or shapes.has_concave:
         return None
     by = Fraction(1, 2 ** max(SMALLER, 2 * _digits(scene, shapes)))
-    cores, bounds = _smaller(shapes, by), None
-    if scene.bounds:
-        least = min(shape.radius for shape in (shapes.robot if shapes.robot[0].radius else shapes.obstacles))
-        x0, y0, x1, y1 = scene.bounds
-        bounds = x0 - by * least, y0 - by * least, x1 + by * least, y1 + by * least
-    end = None if options.max_seconds is None else time.monotonic() + options.max_seconds
-    features = features_of_cores(cores, scene, bounds)
-    if work_for(features) > most:
+    cores, bounds = _smaller(shapes, by, is_in_workspace=scene.workspace is not None), None
+    if cores is None:
         return None
+    if scene.bounds:
+        far = by * Fraction(robot_radius(scene) or 1.0)
+        x0, y0, x1, y1 = scene.bounds
+        bounds = x0 - far, y0 - far, x1 + far, y1 + far
+    return cores, bounds
+
+
+def _computed(cores: Cores, bounds: Bounds | None, features: SceneFeatures, end: float | None) -> Cells | None:
+    """Return the cells; None if the core does not resolve a tie. Raises TimeoutError."""
     has_slits = _core.may_have_slits(features.core)
     try:
         boundary = _core.compute_boundary(
             features.core, os.cpu_count() or 1, has_slits, lambda _: end is None or time.monotonic() < end
         )
         if not boundary.trimmed.all():
-            return None
-        space = _core.free_space(_core.glue(boundary, 1))
-    except RuntimeError:  # a tie that the core does not resolve: other ways to an answer are left
+            raise TimeoutError
+        return cores, bounds, features, boundary, _core.free_space(_core.glue(boundary, 1))
+    except RuntimeError:  # other ways to an answer are left
         return None
-    return RoundCells(scene, clearance, cores, bounds, features, boundary, space)
 
 
 def separated_by_cells(scene: Scene, start: Pose, goal: Pose, options: Options) -> Separated | None:
@@ -132,19 +175,21 @@ def separated_by_cells(scene: Scene, start: Pose, goal: Pose, options: Options) 
     return None if cells is None else cells.proof(start, goal)
 
 
-def _smaller(shapes: Cores, by: Fraction) -> Cores:
-    def less(shape: Rounded) -> Rounded:
-        return replace(shape, radius=shape.radius * (1 - by))
-
-    if shapes.robot[0].radius:
-        return Cores(tuple(map(less, shapes.robot)), shapes.obstacles)
-    return Cores(shapes.robot, tuple(map(less, shapes.obstacles)))
+def _smaller(shapes: Cores, by: Fraction, *, is_in_workspace: bool) -> Cores | None:
+    """Make the robot or all obstacles smaller, preferably by their discs; None if neither can be."""
+    sides = [shapes.robot] if is_in_workspace or not shapes.obstacles else [shapes.robot, shapes.obstacles]
+    for side in sorted(sides, key=lambda parts: not all(shape.radius for shape in parts)):
+        if (parts := smaller(side, by)) is not None:
+            return Cores(parts, shapes.obstacles) if side is shapes.robot else Cores(shapes.robot, parts)
+    return None
 
 
 def _digits(scene: Scene, shapes: Cores) -> int:
     """Return the most bits of a denominator among the numbers of a scene."""
-    most = [shape.radius.denominator for shape in (*shapes.robot, *shapes.obstacles)]
-    for core in (shape.core for shape in (*shapes.robot, *shapes.obstacles)):
+    all_shapes = (*shapes.robot, *shapes.obstacles)
+    most = [shape.radius.denominator for shape in all_shapes]
+    most += [number.denominator for shape in all_shapes for arc in shape.arcs for number in arc.numbers]
+    for core in (shape.core for shape in all_shapes):
         most += [core.denominator] if isinstance(core, Polygon) else [c.denominator for point in core for c in point]
     most += [Fraction(bound).denominator for bound in scene.bounds or ()]
     most += [scene.workspace.denominator] if isinstance(scene.workspace, Polygon) else []

@@ -60,6 +60,13 @@ class CoreArc:
         return *self.start, *self.end, *self.center, self.radius, *more
 
 
+def is_arc(arc: CoreArc) -> bool:
+    """True if an arc has its radius, is counter-clockwise, and has at most a quarter of its circle."""
+    first, last = minus(arc.start, arc.center), minus(arc.end, arc.center)
+    squares = {dot(first, first), dot(last, last), arc.radius**2}
+    return len(squares) == 1 and arc.radius > 0 and cross(first, last) > 0 and dot(first, last) >= 0
+
+
 @dataclass(frozen=True)
 class Rounded:
     """A core grown by a disc.
@@ -114,11 +121,6 @@ class Cores:
     obstacles: tuple[Rounded, ...]
 
     @property
-    def has_arcs(self) -> bool:
-        """True if a core has sides that are arcs."""
-        return any(shape.arcs for shape in (*self.robot, *self.obstacles))
-
-    @property
     def has_concave(self) -> bool:
         """True if a side of a core is a concave arc."""
         return any(shape.has_concave for shape in (*self.robot, *self.obstacles))
@@ -150,10 +152,9 @@ class Cores:
         return self.has_concave and (self.faces_arcs or self.fills_channel)
 
     @property
-    def robot_radius(self) -> Fraction | None:
-        """The radius of all parts of the robot; None if they have several."""
-        radii = {part.radius for part in self.robot}
-        return radii.pop() if len(radii) == 1 else None
+    def is_round(self) -> bool:
+        """True if a shape is no polygon."""
+        return any(shape.arcs or shape.radius for shape in (*self.robot, *self.obstacles))
 
 
 def _radii_by_place(shapes: Sequence[Rounded]) -> tuple[RadiiByPlace, RadiiByPlace]:

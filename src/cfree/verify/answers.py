@@ -192,7 +192,7 @@ def _of_rounded(
         **_of_moved(proof),
         ENDS: "both are free",
         **{name: text.format(count=count, far=far if proof.clearance else "") for name, text in TEXTS.items()},
-        CLOSED: f"{count} without a boundary mod 2, up to lengths far below the discs' difference",
+        CLOSED: f"{count} without a boundary mod 2, up to lengths far below the margin",
         SIDES: "start and goal are on two sides of it: rays meet it an even, and an odd, number of times",
         **_of_decimals(read),
     }

@@ -353,9 +353,9 @@ def is_nearer(one: Part, other: Part, radius: Number) -> bool:
             return True
     elif any(True for _ in crossings(one, other)):
         return True
-    if any(_is_near(point, other, radius) for point in (one.p, one.q)):
+    if any(is_near(point, other, radius) for point in (one.p, one.q)):
         return True
-    if any(_is_near(point, one, radius) for point in (other.p, other.q)):
+    if any(is_near(point, one, radius) for point in (other.p, other.q)):
         return True
     if one.center is None:
         one, other = other, one
@@ -393,7 +393,7 @@ def _are_near(arc: Part, segment: Part, radius: Number) -> bool:
     return all(sum_sign({**{r: k * v for r, v in gap.items()}, NONE: -radius}, squares) < 0 for k in (1, -1))
 
 
-def _is_near(point: Point, part: Part, radius: Number) -> bool:
+def is_near(point: Point, part: Part, radius: Number) -> bool:
     """True if a point is nearer to a part than a distance, at an end of it or perpendicularly."""
     if part.center is None:
         to, length = minus(point, part.p), dot(part.chord, part.chord)

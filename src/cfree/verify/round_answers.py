@@ -1,4 +1,4 @@
-"""Check a separation among grown cores in an answer: `round_separation.py` checks the surface."""
+"""Check a separation among rounded shapes in an answer: `round_separation.py` checks the surface."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from cfree.verify.round_proof import Features, RoundSeparation
 from cfree.verify.round_separation import CONTACTS, INSIDE, round_separation_findings
 
 TEXTS = {
-    INSIDE: "{far}the cores are the scene's, and discs about them are smaller",
+    INSIDE: "{far}all shapes of the proof are in the scene's, and those of one side strictly",
     CONTACTS: "{count}: the smaller shapes touch at every pose of them, so that the scene's overlap",
 }
 
@@ -28,14 +28,14 @@ def rounded_findings(
     true = grown_scene(scene, proof.clearance) if proof.clearance else scene
     world = ArcWorld(scene)
     yield from end_findings(proof, world.with_robot(proof.clearance) if proof.clearance else world)
-    surface = _surface(proof, cores, scene)
+    surface = surface_of(proof, cores, scene)
     if surface is None:
         yield Finding(CONTACTS, "pieces", "one names a feature that no core has")
         return
     yield from round_separation_findings(surface, true, report)
 
 
-def _surface(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation | None:
+def surface_of(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation | None:
     """Return a separation in the form that is checked; None if a piece names no vertex of a core."""
     features = features_of_cores(cores, scene, proof.bounds)
     robot, obstacle = (
@@ -45,10 +45,8 @@ def _surface(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation | 
     if robot is None or obstacle is None:
         return None
     return RoundSeparation(
-        [part.core for part in cores.robot],
-        cores.robot[0].radius,
-        [other.core for other in cores.obstacles],
-        [other.radius for other in cores.obstacles],
+        cores.robot,
+        cores.obstacles,
         Features.numbered(features.robot),
         Features.numbered(features.obstacles),
         proof.pieces.kind,

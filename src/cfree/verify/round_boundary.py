@@ -21,7 +21,7 @@ from cfree.scene.rounded import Cores, rounded_shapes
 from cfree.scene.scene import Scene
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.round_algebra import Turn, precision
-from cfree.verify.round_inside import largest_radius
+from cfree.verify.round_inside import is_same
 from cfree.verify.round_isolated import IsolatedParts
 from cfree.verify.round_pieces import Piece, Reader, Scale
 from cfree.verify.round_proof import Features, RoundSeparation
@@ -44,9 +44,8 @@ def round_boundary(
     begin = time.perf_counter()
     cores = rounded_shapes(stored.scene)
     assert cores is not None, "the boundary has its features"
-    if cores.has_arcs or cores.robot_radius is None:
-        what = "arcs as sides of shapes" if cores.has_arcs else "a robot whose parts have several radii"
-        raise UnsupportedError(f"verify.boundary: {what}; of polygons, segments and points grown by discs only")
+    if cores.has_concave:
+        raise UnsupportedError("verify.boundary: concave arcs; of shapes whose arcs are all convex only")
     count = len(stored.trapezoids)
     chosen = range(count) if sample is None else sorted(random.Random(seed).sample(range(count), min(sample, count)))
     proof, world = _as_pieces(stored, cores), RoundWorld(stored.scene, cores)
@@ -85,10 +84,8 @@ def _as_pieces(stored: Boundary, cores: Cores) -> RoundSeparation:
     """Return the trapezoids in the form of the pieces of a separation, whose poses have no meaning here."""
     features, patch, scene = stored.features, stored.trapezoids.patch, stored.scene
     return RoundSeparation(
-        [part.core for part in cores.robot],
-        cores.robot_radius or Fraction(0),
-        [other.core for other in cores.obstacles],
-        [other.radius for other in cores.obstacles],
+        cores.robot,
+        cores.obstacles,
         Features.numbered(features.robot),
         Features.numbered(features.obstacles),
         stored.contact_kind[patch],
@@ -107,7 +104,7 @@ def _findings_of_cores(cores: Cores, scene: Scene, world: RoundWorld) -> Iterato
     for name, core, shape in zip(
         names, [*cores.robot, *cores.obstacles], [*scene.robot, *scene.obstacles], strict=True
     ):
-        if largest_radius(core.core, shape) != core.radius:
+        if not is_same(core, shape):
             yield Finding(PIECES, name, "it is not its core, grown by its radius")
     for name in world.untiled:
         yield Finding(PIECES, name, "its convex pieces do not tile it")
@@ -157,7 +154,7 @@ class _Covering:
         for k in np.flatnonzero(is_near):
             robot, obstacle = self._pairs[k]
             pillar = pillar_of(robot, obstacle, turned)
-            if pillar.distance(np.array([at]))[0] > pillar.radius + SURE * self._size:
+            if pillar.room(np.array([at]))[0] > SURE * self._size:
                 continue
             if not is_apart(robot, obstacle, turn, place, near):
                 return True
@@ -167,7 +164,7 @@ class _Covering:
 def _around(part: Part) -> tuple[complex, float]:
     """Center and radius of a disc around a piece."""
     center = complex(part.rough.mean())
-    return center, float(np.abs(part.rough - center).max()) + float(part.radius)
+    return center, float((np.abs(part.rough - center) + part.radii).max())
 
 
 def _middle(piece: Piece, turn: Turn) -> tuple[arb, arb]:

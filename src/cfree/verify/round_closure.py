@@ -15,7 +15,7 @@ from flint import arb
 
 from cfree.verify.round_algebra import BALL_ERROR, Ball, Turn
 from cfree.verify.round_pieces import SURDS, Piece, Scale, rounded
-from cfree.verify.round_surfaces import AXES, BALLS, Curve, Surface, UndecidedError, direction
+from cfree.verify.round_surfaces import AXES, BALLS, Curve, Surface, UndecidedError, axis, direction
 
 Place = tuple[arb, arb]
 APART = 1 << 16  # times `near`: places farther from each other are two
@@ -79,7 +79,7 @@ def _loose_curves(pieces: Sequence[Piece], scale: Scale) -> Iterator[tuple[str, 
     cuts: dict[Any, set[int]] = defaultdict(set)
     for piece in pieces:
         for number, curve in enumerate((piece.lower, piece.upper)):
-            key = curve.key, piece.chart
+            key = curve.name, piece.chart
             sides[key].append(Arc(piece.number, curve, piece.chart, piece.start, piece.stop))
             cuts[key].update((piece.start, piece.stop, *piece.touches[number]))
     left: list[Arc] = []
@@ -166,7 +166,7 @@ def _is_on(curve: Curve, surface: Surface, turn: Turn, scale: Scale) -> bool:
     if surface.key in curve.key:
         return True
     if isinstance(y, int):
-        return SURDS.axis(x, y, surface).is_zero
+        return SURDS.axis(x, axis(y), surface).is_zero
     if not SURDS.meeting(x, y, surface, turn.chart).is_zero:
         return False
     if not curve.branch or any(form.is_zero for form in curve.existence(SURDS)):

@@ -1,10 +1,11 @@
-"""Grown cores inside shapes of a scene, exactly; the margin by which they are smaller."""
+"""Rounded shapes inside shapes of a scene, exactly; the margin by which they are smaller."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import pairwise
+from functools import partial
+from itertools import pairwise, product
 from math import isqrt
 from typing import Any
 
@@ -13,14 +14,17 @@ from flint import fmpq
 from cfree.curves.curved import Curved
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Circle
+from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
+from cfree.scene.rounded import Rounded, is_arc
 from cfree.scene.scene import AnyShape
-from cfree.verify.arcs import exact
+from cfree.verify.arcs import Part, Region, Spot, exact, is_near, is_nearer, is_of_arcs, rational, region_of
 from cfree.verify.curves import _Arc, _parts
-from cfree.verify.round_proof import Core, RoundSeparation
+from cfree.verify.round_proof import RoundSeparation
 
+Core = Polygon | tuple[ExactPoint, ...]
 Point = Any  # of fmpq
-Wrong = Iterator[tuple[str, str]]
+LEAST_BITS, MOST_BITS = 1 << 14, 64  # of a margin, below 1 and above
 
 
 def largest_radius(core: Core, shape: AnyShape) -> Fraction | None:
@@ -108,31 +112,106 @@ def _is_beside(p: Point, q: Point, corners: list[Point], radius: Any) -> bool:
     return False
 
 
+def room(smaller: Rounded, shape: AnyShape) -> Fraction | None:
+    """Distance by which a rounded shape is inside another shape, or a little less; None if it is not inside.
+
+    Notes
+    -----
+    The rim of a core, grown by r, is all that makes contacts. It is inside a shape that is another one grown by g, if
+    both have one rim and r is at most g. It also is if the core's rim is inside the other one, and is farther than
+    r - g from its rim.
+
+    Examples
+    --------
+    >>> square = Polygon([(0, 0), (4, 0), (4, 4), (0, 4)])
+    >>> smaller = Rounded(Polygon([(1, 1), (3, 1), (3, 3), (1, 3)]), Fraction(1, 4))
+    >>> room(smaller, square), room(Rounded(smaller.core, Fraction(1)), square)
+    (Fraction(1, 2), None)
+    """
+    if smaller.radius < 0:
+        return None
+    if not smaller.arcs and (largest := largest_radius(smaller.core, shape)) is not None:
+        return largest - smaller.radius if smaller.radius <= largest else None
+    base, grown = _base(shape)
+    if not is_of_arcs(base) or not all(map(is_arc, smaller.arcs)):
+        return None
+    region, rings = region_of(base), [*_rings_of(smaller)]
+    if _is_on(rings, region):
+        return grown - smaller.radius if smaller.radius <= grown else None
+    if not all(region.holds(Spot.of(ring[0].p)) for ring in rings):
+        return None
+    return _distance([f for ring in rings for f in ring], region.parts, smaller.radius - grown)
+
+
+def is_same(one: Rounded, shape: AnyShape) -> bool:
+    """True if a rounded shape is just that shape.
+
+    A ring whose vertices are different, and which is on another ring that has no other vertices, is all of it.
+    """
+    if not one.arcs:
+        return largest_radius(one.core, shape) == one.radius
+    base, grown = _base(shape)
+    if not is_of_arcs(base) or not all(map(is_arc, one.arcs)):
+        return False
+    region, rings = region_of(base), [*_rings_of(one)]
+    corners = {f.p for ring in rings for f in ring}
+    return grown == one.radius and _is_on(rings, region) and all(g.p in corners for g in region.parts)
+
+
+def _base(shape: AnyShape) -> tuple[AnyShape, Fraction]:
+    """Shape without the disc by which it is grown, unless it is a polygon, and the disc's radius."""
+    if not isinstance(shape, Curved):
+        return shape, Fraction(0)
+    return (shape if shape.is_polygon or not shape.grown else shape._grown_by(-shape.grown)), shape.grown
+
+
+def _is_on(rings: Sequence[Sequence[Part]], region: Region) -> bool:
+    """True if rings are on the rim of a region."""
+    return all(any(_is_part(f, g) for g in region.parts) for ring in rings for f in ring)
+
+
+def _rings_of(shape: Rounded) -> Iterator[list[Part]]:
+    """Lines and arcs of a core."""
+    arcs = {(exact(arc.start), exact(arc.end)): exact(arc.center) for arc in shape.arcs}
+    for ring in shape.core.exact_rings if isinstance(shape.core, Polygon) else [shape.core]:
+        sides = pairwise([*map(exact, ring), exact(ring[0])])
+        yield [Part(p, q, arcs.get((p, q)), int((p, q) in arcs)) for p, q in sides if p != q or len(ring) == 1]
+
+
+def _is_part(part: Part, whole: Part) -> bool:
+    """True if a part of one rim is in a part of another."""
+    ends = part.p, part.q
+    return part.p != part.q and part.runs_along(whole) and all(whole.holds(Spot.of(end)) for end in ends)
+
+
+def _distance(parts: Sequence[Part], others: Sequence[Part], least: Fraction) -> Fraction | None:
+    """Power of two by which the distance of rims that do not meet exceeds a number; None if it hardly does."""
+    smallest, more = Fraction(1, 2**LEAST_BITS), Fraction(2**MOST_BITS)
+    for one, other in product(parts, others):
+        near = partial(is_nearer, one) if one.p != one.q else partial(is_near, one.p)
+        while near(other, rational(max(least + more, smallest))):
+            more /= 2
+            if more < smallest:
+                return None
+    return more
+
+
 def margin(proof: RoundSeparation, scene: Any) -> tuple[Fraction | None, list[tuple[str, str]]]:
     """Distance by which the scene's shapes are larger at least, and all that is not inside them."""
     wrong: list[tuple[str, str]] = []
-    own: list[Fraction] = []
-    if len(proof.obstacles) != len(scene.obstacles) or len(proof.radii) != len(proof.obstacles) or not proof.robot:
+    if len(proof.obstacles) != len(scene.obstacles) or not proof.robot:
         return None, [("the scene", "the proof has other numbers of shapes")]
-    for k, core in enumerate(proof.robot):
-        radii = [r for shape in scene.robot if (r := largest_radius(core, shape)) is not None]
-        if not radii:
-            wrong.append((f"robot's core {k}", "no shape of the robot is this core, grown"))
-        else:
-            own.append(max(radii) - proof.radius)
-    others: list[Fraction] = []
-    for k, (core, radius, shape) in enumerate(zip(proof.obstacles, proof.radii, scene.obstacles, strict=True)):
-        largest = largest_radius(core, shape)
-        if largest is None:
-            wrong.append((f"obstacle {k}", "its shape is not this core, grown"))
-        elif radius < 0 or radius > largest:
-            wrong.append((f"obstacle {k}", "its radius is larger than the scene's"))
-        else:
-            others.append(largest - radius)
+    own, others = list[Fraction](), list[Fraction]()
+    for k, part in enumerate(proof.robot):
+        rooms = [r for shape in scene.robot if (r := room(part, shape)) is not None]
+        own += [max(rooms)] if rooms else []
+        wrong += [] if rooms else [(f"robot's core {k}", "it is not inside a shape of the robot")]
+    for k, (smaller, shape) in enumerate(zip(proof.obstacles, scene.obstacles, strict=True)):
+        its_room = room(smaller, shape)
+        others += [] if its_room is None else [its_room]
+        wrong += [(f"obstacle {k}", "its core is not inside its shape")] if its_room is None else []
     if wrong:
         return None, wrong
-    if proof.radius < 0 or min(own) < 0:
-        return None, [("robot", "its radius is larger than the scene's")]
     least = min(own) + min(others, default=Fraction(0))
     if proof.workspace is not None and (scene.workspace is None or proof.workspace != scene.workspace):
         return None, [("workspace", "it is not the scene's")]

@@ -1,24 +1,28 @@
-"""Pieces of contact surfaces of grown cores: their angles, and curves that stay on their patches between these."""
+"""Pieces of contact surfaces of rounded shapes: their angles, and curves that stay on their patches between these."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
+from itertools import product
 from typing import Any
 
 from flint import arb, fmpq, fmpz
 
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
-from cfree.verify.round_algebra import Surd, Trig, Turn, cross, dot
+from cfree.scene.rounded import CoreArc, Rounded, is_arc
+from cfree.verify.round_algebra import Moving, Surd, Trig, Turn, cross, dot
 from cfree.verify.round_angles import quadratic_roots, root_in, trimmed
-from cfree.verify.round_proof import BOUNDS, WORKSPACE, Core, RoundSeparation
-from cfree.verify.round_surfaces import AXES, BALLS, NIL, UNDECIDED, Curve, Fault, Forms, Surface, UndecidedError
+from cfree.verify.round_proof import BOUNDS, WORKSPACE, RoundSeparation
+from cfree.verify.round_surfaces import BALLS, NIL, UNDECIDED, Curve, Fault, Forms, Surface, UndecidedError, axis
 
 SURDS = Forms(Surd)
 NONE, VERTEX_EDGE, EDGE_VERTEX, CIRCLE, PARALLEL, SEAM = range(6)
 Key = tuple[Any, ...]
+Cone = tuple[tuple[Any, int], ...]  # unit vectors, with the side of each that is in it: left (1) or right (-1)
 
 
 @dataclass(frozen=True)
@@ -85,15 +89,12 @@ class Reader:
         self.surface = lru_cache(maxsize=None)(self._surface)
         self.curve = lru_cache(maxsize=None)(self._curve)
         self.angle = lru_cache(maxsize=None)(self._angle)
-        self._rims = [_rims(cores) for cores in (proof.robot, proof.obstacles)]
+        self._rims = [[Rim.of(shape) for shape in shapes] for shapes in (proof.robot, proof.obstacles)]
 
     # --- features ---
 
     def _radius(self, i: int, j: int) -> fmpq:
-        owner, other = self.proof.robot_features.owners[i], self.proof.obstacle_features.owners[j]
-        total = self.proof.radius if owner >= 0 else 0
-        total += self.proof.radii[other] if other >= 0 else 0
-        return _rational(total)
+        return _rational(self.proof.robot_features.radii[i] + self.proof.obstacle_features.radii[j])
 
     def _surface(self, kind: int, i: int, j: int) -> Surface:
         surface = self._named(kind, i, j)
@@ -115,11 +116,14 @@ class Reader:
             return Surface(self.robot[i], self.obstacles[j], None, self._radius(i, j))
         raise Fault("a surface that is neither a line nor a circle")
 
-    def check_contact(self, k: int) -> None:
-        """Prove that the piece's features are those of cores, both of the same layer."""
+    def contacts(self, k: int) -> list[Surface]:
+        """Prove that the piece's features are those of shapes, both of the same layer; return its surface.
+
+        There is one for each two arcs that have the features as centers, with their directions.
+        """
         proof = self.proof
         kind, i, j = int(proof.kind[k]) & 15, int(proof.robot_feature[k]), int(proof.obstacle_feature[k])
-        ends = []
+        owners, cones = list[int](), list[list[tuple[tuple[Moving, int], ...]]]()
         for side, features, number, is_edge in (
             (0, proof.robot_features, i, kind == EDGE_VERTEX),
             (1, proof.obstacle_features, j, kind == VERTEX_EDGE),
@@ -128,30 +132,32 @@ class Reader:
                 raise IndexError
             both = features.edges[number] if is_edge else (number,)
             owner = features.owners[both[0]]
-            ends.append(owner)
-            points = tuple(features.points[p] for p in both)
-            if points not in self._rim(side, owner):
+            owners.append(owner)
+            own = self._rim(side, owner).directions(tuple(features.points[p] for p in both), features.radii[both[0]])
+            if not own:
                 raise Fault(f"its {'edge' if is_edge else 'vertex'} is none of its core")
-        if (ends[0] == BOUNDS) != (ends[1] == BOUNDS):
+            cones.append([tuple(((e, NIL) if side else (NIL, e), sign) for e, sign in cone) for cone in own])
+        if (owners[0] == BOUNDS) != (owners[1] == BOUNDS):
             raise Fault("a contact of the bounds with another point than the reference point")
+        surface = self.surface(kind, i, j)
+        return [replace(surface, ends=(*one, *other)) for one, other in product(*cones)]
 
-    def _rim(self, side: int, owner: int) -> set[tuple[ExactPoint, ...]]:
+    def _rim(self, side: int, owner: int) -> Rim:
         if owner >= 0:
             return self._rims[side][owner]
         if side == 0:
-            return {((Fraction(0), Fraction(0)),)} if owner == BOUNDS else set()
+            return Rim({((Fraction(0), Fraction(0)),)} if owner == BOUNDS else set())
         if owner == WORKSPACE and self.proof.workspace is not None:
-            return _rim(self.proof.workspace, is_reversed=True)
+            return Rim({*_outline(self.proof.workspace, is_reversed=True)})
         if owner == BOUNDS and self.proof.bounds is not None:
             x0, y0, x1, y1 = self.proof.bounds
             corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
             pairs = list(zip(corners, corners[1:] + corners[:1], strict=True))
-            return {*pairs, *((q, p) for p, q in pairs), *((p,) for p in corners)}
-        return set()
+            return Rim({*pairs, *((q, p) for p, q in pairs), *((p,) for p in corners)})
+        return Rim(set())
 
-    def _curve(self, contact: tuple[int, int, int], quadrant: int, code: int) -> Curve:
+    def _curve(self, on: Surface, quadrant: int, code: int) -> Curve:
         kind, branch, i, j = unpacked(code)
-        on = self.surface(*contact)
         if kind == SEAM:
             if on.edge is not None or self.surface(CIRCLE, i, j).key != on.key:
                 raise Fault("the end of a quadrant of another circle")
@@ -181,7 +187,7 @@ class Reader:
         if kind2 == NONE:
             return _poly(BALLS.touching(x, y, branch), chart)
         if kind2 == SEAM:
-            return _poly(BALLS.axis(x, branch2, y), chart)
+            return _poly(BALLS.axis(x, axis(branch2), y), chart)
         z = self.surface(kind2, i2, j2)
         if kind2 == CIRCLE and branch2 == 2:
             if y.edge is not None:
@@ -213,10 +219,10 @@ class Reader:
     def piece(self, k: int) -> Piece:
         """Piece k, with its angles; `check` proves the rest. Raises Fault and IndexError."""
         proof, t = self.proof, self.proof.table
-        self.check_contact(k)
+        surfaces = self.contacts(k)
         kind, quadrant = int(proof.kind[k]) & 15, int(proof.kind[k]) >> 4
         contact = kind, int(proof.robot_feature[k]), int(proof.obstacle_feature[k])
-        surface, chart = self.surface(*contact), int(t.chart[k])
+        surface, chart = surfaces[0], int(t.chart[k])
         if chart not in (0, 1) or quadrant > 3 or (quadrant and surface.edge is not None):
             raise Fault("no chart or no quadrant has its number")
         angles = []
@@ -228,16 +234,42 @@ class Reader:
             raise Fault("it does not end after it begins")
         if stop - start < 8 * self.scale.step:
             raise UndecidedError("its angles are too near to each other")
-        lower, upper = (self.curve(contact, quadrant, int(code)) for code in (t.lower[k], t.upper[k]))
-        piece = Piece(k, surface, quadrant, chart, start, stop, lower, upper)
+        for last, on in enumerate(surfaces, 1 - len(surfaces)):
+            try:
+                curves = [self.curve(on, quadrant, int(code)) for code in (t.lower[k], t.upper[k])]
+                piece = Piece(k, on, quadrant, chart, start, stop, curves[0], curves[1])
+                self._check(piece)
+            except Fault:
+                if last == 0:
+                    raise
+            else:
+                break
+        return piece
+
+    def _check(self, piece: Piece) -> None:
+        """Prove that a piece's curves are on its patch between its angles, and in order."""
+        surface, lower, upper = piece.surface, piece.lower, piece.upper
+        if surface.edge is not None:
+            self._points_to_arcs(piece)
         for number, curve in enumerate((lower, upper)):
-            piece.touches[number] = self._stays(curve, chart, start, stop)
-        turn = self.scale.turn(chart, (start + stop) // 2)
+            piece.touches[number] = self._stays(curve, piece.chart, piece.start, piece.stop)
+        turn = self.scale.turn(piece.chart, (piece.start + piece.stop) // 2)
         low, high = lower.place(turn), upper.place(turn)
         gap = high - low if surface.edge is not None else low[0] * high[1] - low[1] * high[0]
         if not gap > -self.scale.near:
             raise Fault("its upper curve is below the lower one")
-        return piece
+
+    def _points_to_arcs(self, piece: Piece) -> None:
+        """Prove that the normal of a line's edge is a direction of the arc that touches it, between two angles."""
+        scale, edge = self.scale, piece.surface.edge
+        assert edge is not None
+        below, above = scale.tau(piece.start + scale.step), scale.tau(piece.stop - scale.step)
+        for e, sign in piece.surface.ends:
+            form = BALLS.trig(dot(e, edge))  # that of e x n, times the edge's length, is the opposite
+            if any(not (root < below or root > above) for root in quadratic_roots(form, piece.chart) or ()):
+                raise Fault("a contact beyond the ends of its arc")
+            if not -sign * form.at(scale.turn(piece.chart, (piece.start + piece.stop) // 2)) > 0:
+                raise Fault("a contact beyond the ends of its arc")
 
     def piece_or_fault(self, k: int) -> Piece | str:
         """Return a piece with its angles and curves, or what is wrong with it."""
@@ -255,11 +287,11 @@ class Reader:
         scale = self.scale
         below, above = scale.tau(start + scale.step), scale.tau(stop - scale.step)
         roots, touches = list[arb](), list[int]()
-        always: list[bool] = []  # limits, then existence: True if zero at every angle
+        always: tuple[list[bool], list[bool]] = [], []  # limits, and existence: True if zero at every angle
         for made, is_end in ((curve.limits, False), (curve.existence, True)):
             for number, form in enumerate(made(BALLS)):
                 zeros = quadratic_roots(form, chart)
-                always.append(zeros is None)
+                always[is_end].append(zeros is None)
                 if zeros is None and not made(SURDS)[number].is_zero:
                     raise UndecidedError("a form that may vanish at every angle")
                 inside = [root for root in zeros or () if not (root < below or root > above)]
@@ -269,48 +301,66 @@ class Reader:
         last = below
         for root in [*roots, above]:
             if last < root:
-                self._is_inside(curve, Turn.of(chart, ((last + root) / 2).mid()), always)
-            if root is not above and not self._is_near(curve.place(Turn.of(chart, root)), curve):
+                self._is_inside(curve, Turn.of(chart, ((last + root) / 2).mid()), *always)
+            if root is not above and not self._is_near(curve, Turn.of(chart, root)):
                 raise Fault("a curve leaves its patch")
             last = root
         return touches
 
-    def _is_inside(self, curve: Curve, turn: Turn, always: list[bool]) -> None:
+    def _is_inside(self, curve: Curve, turn: Turn, always: list[bool], touch: list[bool]) -> None:
         """Prove that a curve exists and is on its patch, at an angle and so up to the next zero of a form.
 
         Notes
         -----
         Where the forms of its limits are not zero it is not at an end. If such a form is zero at every angle, one
-        branch is at that end always; it is this one if the other is not there.
+        branch is at that end always; it is this one if the other is not there. The circles of two branches touch at
+        every angle where their existence is zero.
         """
-        if curve.square is not None and not any(always[2:]) and not curve.square(turn) > 0:
+        if curve.square is not None and not any(touch) and not curve.square(turn) > 0:
             raise Fault("a curve that does not exist between its angles")
-        place = curve.place(turn)
-        if not always:  # a joint, or the end of a quadrant
-            if not self._is_near(place, curve):
-                raise Fault("a curve leaves its patch")
+        if not always:  # the joint at an end of a line
             return
-        other = Curve(curve.on, curve.quadrant, curve.other, -curve.branch).place(turn) if any(always[:2]) else place
-        for rest, rest_of_other, is_zero in zip(
-            self._rests(place, curve), self._rests(other, curve), always, strict=False
-        ):
+        rests = curve.rests(curve.place(turn), turn)
+        other = Curve(curve.on, curve.quadrant, curve.other, -curve.branch) if any(always) else curve
+        for rest, rest_of_other, is_zero in zip(rests, curve.rests(other.place(turn), turn), always, strict=True):
             is_there = is_zero and abs(rest) < self.scale.near
-            if is_there and curve.branch and not any(always[2:]) and not abs(rest_of_other) > self.scale.near:
+            if is_there and curve.branch and not any(touch) and not abs(rest_of_other) > self.scale.near:
                 raise UndecidedError("two branches at the end of a patch")
             if not is_there and not rest > 0:
                 raise Fault("a curve is beyond an end of its patch")
 
-    def _is_near(self, place: Any, curve: Curve) -> bool:
-        """True if a place is on its patch, or hardly beyond its ends."""
-        return all(rest > -self.scale.near for rest in self._rests(place, curve))
+    def _is_near(self, curve: Curve, turn: Turn) -> bool:
+        """True if a curve is on its patch at an angle, or hardly beyond its ends."""
+        return all(rest > -self.scale.near for rest in curve.rests(curve.place(turn), turn))
 
-    def _rests(self, place: Any, curve: Curve) -> tuple[arb, arb]:
-        """Numbers that are positive before, and after, the two ends of a patch."""
-        if curve.on.edge is not None:
-            return place, BALLS.length(curve.on) - place
-        start, stop = AXES[curve.quadrant], AXES[(curve.quadrant + 1) % 4]
-        after, before = (place[0] * arb(e[0]) + place[1] * arb(e[1]) for e in (stop, start))
-        return after, before
+
+@dataclass(frozen=True)
+class Rim:
+    """Corners and edges of a core, all grown by one radius, and its arcs.
+
+    Attributes
+    ----------
+    outline : set of tuples of points
+        Points alone, and both ends of directed edges.
+    """
+
+    outline: set[tuple[ExactPoint, ...]]
+    radius: Fraction = Fraction(0)
+    arcs: tuple[CoreArc, ...] = ()
+
+    @classmethod
+    def of(cls, shape: Rounded) -> Rim:
+        chords = {(arc.start, arc.end) for arc in shape.arcs}
+        return cls({*_outline(shape.core)} - chords, shape.radius, tuple(filter(is_arc, shape.arcs)))
+
+    def directions(self, points: tuple[ExactPoint, ...], radius: Fraction) -> list[Cone]:
+        """Cones of directions in which a point, or an edge, grown by a radius, is in the shape."""
+        if radius == self.radius and points in self.outline:
+            return [()]
+        r = radius - self.radius
+        own = [arc for arc in self.arcs if points == (arc.center,) and arc.radius == r]
+        ends = [[_over(_difference(p, arc.center), r) for p in (arc.start, arc.end)] for arc in own]
+        return [((first, 1), (last, -1)) for first, last in ends]
 
 
 def unpacked(code: int) -> tuple[int, int, int, int]:
@@ -336,16 +386,14 @@ def _difference(p: Any, q: Any) -> tuple[fmpq, fmpq]:
     return p[0] - q[0], p[1] - q[1]
 
 
-def _rims(cores: Any) -> list[set[tuple[ExactPoint, ...]]]:
-    return [_rim(core) for core in cores]
+def _over(p: Any, r: Any) -> tuple[fmpq, fmpq]:
+    return _rational(p[0] / r), _rational(p[1] / r)
 
 
-def _rim(core: Core, *, is_reversed: bool = False) -> set[tuple[ExactPoint, ...]]:
+def _outline(core: Polygon | tuple[ExactPoint, ...], *, is_reversed: bool = False) -> Iterator[tuple[ExactPoint, ...]]:
     """Vertices and directed edges of a core."""
     rings = core.exact_rings if isinstance(core, Polygon) else [core]
-    rim: set[tuple[ExactPoint, ...]] = set()
     for ring in rings:
         points = [*ring][::-1] if is_reversed else [*ring]
-        rim |= {(p,) for p in points}
-        rim |= {(p, q) for p, q in zip(points, points[1:] + points[:1], strict=True) if p != q}
-    return rim
+        yield from ((p,) for p in points)
+        yield from ((p, q) for p, q in zip(points, points[1:] + points[:1], strict=True) if p != q)

@@ -1,4 +1,4 @@
-"""A separation among grown cores as data: cores, radii, features, the pieces of a closed surface, and two poses."""
+"""A separation among rounded shapes as data: cores with arcs, features, the pieces of a closed surface, two poses."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.forbidden.columns import Trapezoids
 from cfree.polygons.polygon import Polygon
+from cfree.scene.rounded import Rounded
 
 if TYPE_CHECKING:
     from cfree.scene.features import ShapeFeatures
 
-Core = Polygon | tuple[ExactPoint, ...]  # a polygon, or the ends of a segment, or a point
 BOUNDS, WORKSPACE = -1, -2
 
 
 @dataclass(frozen=True)
 class Features:
-    """Numbered points and edges of cores, and of diagonals of their pieces.
+    """Numbered points and edges of cores: corners, centers of arcs, and others that only name curves.
 
     Attributes
     ----------
@@ -32,32 +32,35 @@ class Features:
     edges : pairs of numbers of points
     owners : numbers
         For each point its core; -1 the bounds, or the reference point; -2 the workspace.
+    radii : Fraction each
+        By which each point is grown; an edge is grown as its first point.
     """
 
     points: tuple[ExactPoint, ...]
     edges: tuple[tuple[int, int], ...]
     owners: tuple[int, ...]
+    radii: tuple[Fraction, ...]
 
     @classmethod
     def numbered(cls, shape: ShapeFeatures) -> Features:
         """Take the features of a scene in its numbering."""
         points = tuple((Fraction(x, shape.scale), Fraction(y, shape.scale)) for x, y in shape.vertices)
-        owners = [*shape.owner_polygon.tolist(), *[BOUNDS] * len(points)][: len(points)]
+        rings, ends = shape.owner_polygon.tolist(), shape.owner_of_end.tolist()
+        owners = [*rings, *[BOUNDS] * (len(points) - len(rings) - len(ends)), *ends]
         edges = tuple(zip(map(int, shape.v), map(int, shape.w), strict=True))
-        return cls(points, edges, tuple(owners))
+        radii = [Fraction(r, shape.scale) for r in shape.core.radius] or [Fraction(0)] * len(points)
+        return cls(points, edges, tuple(owners), tuple(radii))
 
 
 @dataclass(frozen=True, eq=False)
 class RoundSeparation:
-    """Cores with radii, and pieces of contact surfaces that separate two poses.
+    """Rounded shapes, and pieces of contact surfaces that separate two poses.
 
     Attributes
     ----------
-    robot : cores
-    radius : Fraction
-    obstacles : cores
+    robot : sequence of Rounded
+    obstacles : sequence of Rounded
         In the order of the scene's obstacles.
-    radii : Fraction each
     robot_features, obstacle_features : Features
     kind : (N,) uint8
         1 a vertex of the robot on an edge, 2 an edge of the robot on a vertex, 3 + 16 quadrant two vertices.
@@ -70,10 +73,8 @@ class RoundSeparation:
     workspace : Polygon, optional
     """
 
-    robot: Sequence[Core]
-    radius: Fraction
-    obstacles: Sequence[Core]
-    radii: Sequence[Fraction]
+    robot: Sequence[Rounded]
+    obstacles: Sequence[Rounded]
     robot_features: Features
     obstacle_features: Features
     kind: NDArray[np.uint8]

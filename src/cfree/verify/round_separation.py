@@ -54,7 +54,8 @@ def round_separation_findings(
 def size_of(proof: RoundSeparation) -> Fraction:
     """Number that no coordinate and no radius exceeds."""
     points = [*proof.robot_features.points, *proof.obstacle_features.points]
-    return max([Fraction(1), proof.radius, *proof.radii, *(abs(c) for p in points for c in p)])
+    radii = [*proof.robot_features.radii, *proof.obstacle_features.radii]
+    return max([Fraction(1), *radii, *(abs(c) for p in points for c in p)])
 
 
 def scale_of(least: Fraction, size: Fraction, count: int) -> tuple[Scale, int]:

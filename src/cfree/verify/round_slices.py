@@ -10,6 +10,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +35,7 @@ class Contact:
     radius: float
     first: float
     last: float
-    own: tuple[complex, complex] = (0, 0)  # vertices of the robot and of an obstacle
+    own: tuple[complex, complex] = (0, 0)  # vertices of the robot and of an obstacle, or starts of edges
 
     def points(self, positions: Floats) -> Complexes:
         if self.along:
@@ -61,32 +62,147 @@ class Contact:
 
 @dataclass(frozen=True)
 class Pillar:
-    """The positions that two convex pieces forbid: a convex polygon, a segment or a point, grown."""
+    """The positions that two convex pieces forbid: a convex polygon, a segment or a point, grown.
+
+    Attributes
+    ----------
+    centers, radii : of circles that its rim may follow
+    starts, units : places and directions of lines that it may follow
+    robot, obstacle : vertices of the two pieces, where they are
+    """
 
     hull: Complexes
     radius: float
-    robot: Complexes  # vertices of the two pieces, where they are
+    robot: Complexes
     obstacle: Complexes
 
-    def distance(self, points: Complexes) -> Floats:
-        """Distances from the hull, negative inside."""
+    @property
+    def centers(self) -> Complexes:
+        return self.hull
+
+    @property
+    def radii(self) -> Floats:
+        return np.full(len(self.hull), self.radius)
+
+    @property
+    def units(self) -> Complexes:
+        along = np.roll(self.hull, -1) - self.hull
+        return along / np.abs(along) if len(along) > 1 else along[:0]
+
+    @property
+    def starts(self) -> Complexes:
+        return self.hull[: len(self.units)] - 1j * self.radius * self.units
+
+    def room(self, points: Floats | Complexes) -> Floats:
+        """Distances from the pillar, negative inside."""
         if len(self.hull) == 1:
-            return np.asarray(np.abs(points - self.hull[0]))
+            return np.asarray(np.abs(points - self.hull[0])) - self.radius
         start, along = self.hull[:, None], (np.roll(self.hull, -1) - self.hull)[:, None]
         seen = (points[None] - start) * along.conj() / np.abs(along)
         beyond = np.clip(seen.real - np.abs(along), 0, None) + np.clip(-seen.real, 0, None)
         off = np.hypot(seen.imag, beyond).min(axis=0)
         inside = (seen.imag > 0).all(axis=0) if len(self.hull) > 2 else np.zeros(len(points), bool)
-        return np.asarray(np.where(inside, -seen.imag.min(axis=0), off))
+        return np.asarray(np.where(inside, -seen.imag.min(axis=0), off)) - self.radius
 
     def has(self, contact: Contact, near: float) -> bool:
         """True if both vertices of a contact are of these pieces."""
-        robot, obstacle = contact.own
-        return bool(np.abs(self.robot - robot).min() < near and np.abs(self.obstacle - obstacle).min() < near)
+        return _has(self.robot, self.obstacle, contact, near)
 
 
-def pillar_of(robot: Part, obstacle: Part, turned: complex) -> Pillar:
+@dataclass(frozen=True)
+class Hull:
+    """Discs, and perhaps an arc, at an orientation; of the arc only directions from an angle on, within another."""
+
+    centers: Complexes
+    radii: Floats
+    arc: tuple[float, float] | None
+    units: Complexes  # of its edges, which it is on the left of
+
+    @classmethod
+    def of(cls, part: Part, turned: complex) -> Hull:
+        """Turn a piece by a unit number; the opposite of one makes it that of the robot's negative."""
+        centers, arc = turned * part.rough, None
+        if part.arc is not None:
+            first, last = (turned * (complex(*p) - complex(*part.arc.center)) for p in (part.arc.start, part.arc.end))
+            arc = cmath.phase(first), cmath.phase(last / first)
+        edges = np.array([centers[(k + 1) % len(part.points)] - centers[k] for k in part.edges], complex)
+        return cls(centers, part.radii, arc, edges / np.abs(edges))
+
+    @property
+    def directions(self) -> Complexes:
+        """Normals of the edges, and the ends of the arc's directions."""
+        ends = [] if self.arc is None else [cmath.rect(1, self.arc[0]), cmath.rect(1, sum(self.arc))]
+        return np.concatenate([-1j * self.units, ends])
+
+    def heights(self, directions: Complexes) -> Floats:
+        """Greatest heights in some directions."""
+        heights = (self.centers[:, None].conj() * directions[None]).real + self.radii[:, None]
+        if self.arc is not None:
+            first, extent = self.arc
+            heights[-1, np.mod(np.angle(directions) - first + SAME, math.tau) > extent + 2 * SAME] = -np.inf
+        return np.asarray(heights.max(axis=0))
+
+
+@dataclass(frozen=True)
+class ArcPillar:
+    """The positions that two convex pieces forbid, one of which has an arc; see `Pillar`."""
+
+    hulls: tuple[Hull, Hull]  # of the obstacle, and of the robot's negative
+
+    @cached_property
+    def centers(self) -> Complexes:
+        one, other = self.hulls
+        return np.asarray((one.centers[:, None] + other.centers[None]).ravel())
+
+    @cached_property
+    def radii(self) -> Floats:
+        one, other = self.hulls
+        return np.asarray((one.radii[:, None] + other.radii[None]).ravel())
+
+    @cached_property
+    def units(self) -> Complexes:
+        return np.concatenate([hull.units for hull in self.hulls])
+
+    @cached_property
+    def starts(self) -> Complexes:
+        return -1j * self.units * self._heights(-1j * self.units)
+
+    def _heights(self, directions: Complexes) -> Floats:
+        return sum((hull.heights(directions) for hull in self.hulls), np.zeros(len(directions)))
+
+    @cached_property
+    def _tangents(self) -> tuple[Complexes, Floats]:
+        """Directions in which the rim changes from a line or an arc to another, and the heights there."""
+        directions = np.concatenate([hull.directions for hull in self.hulls])
+        return directions, self._heights(directions)
+
+    def room(self, points: Complexes) -> Floats:
+        """Distances from the pillar, negative inside: the greatest height over a tangent."""
+        away = points[:, None] - self.centers[None]
+        length = np.abs(away)
+        away = np.where(length > 0, away / np.where(length > 0, length, 1), 1)
+        over = (away.conj() * points[:, None]).real - self._heights(away.ravel()).reshape(away.shape)
+        directions, heights = self._tangents
+        flat = (directions.conj()[None] * points[:, None]).real - heights[None]
+        return np.asarray(np.concatenate([over, flat], axis=1).max(axis=1))
+
+    def has(self, contact: Contact, near: float) -> bool:
+        """True if both vertices of a contact are of these pieces."""
+        return _has(-self.hulls[1].centers, self.hulls[0].centers, contact, near)
+
+
+AnyPillar = Pillar | ArcPillar
+
+
+def _has(robot: Complexes, obstacle: Complexes, contact: Contact, near: float) -> bool:
+    one, other = contact.own
+    return bool(np.abs(robot - one).min() < near and np.abs(obstacle - other).min() < near)
+
+
+def pillar_of(robot: Part, obstacle: Part, turned: complex) -> AnyPillar:
     """Make the pillar of two pieces at an orientation, a unit number."""
+    if robot.arc is not None or obstacle.arc is not None:
+        return ArcPillar((Hull.of(obstacle, 1), Hull.of(robot, -turned)))
     here, there = turned * robot.rough, obstacle.rough
     return Pillar(_hull((there[:, None] - here[None]).ravel()), float(robot.radius + obstacle.radius), here, there)
 
@@ -175,19 +291,18 @@ def _contacts(robot: Sequence[Corner], obstacles: Sequence[Corner], turned: comp
     for a in robot:
         before, place, after = (turned * p for p in (a.before, a.place, a.after))
         for b in obstacles:
-            rho = a.radius + b.radius
-            edge = b.after - b.place
+            rho, edge = a.radius + b.radius, b.along
             if a.is_convex and edge:
                 n = -1j * edge / abs(edge)
                 if all(_dot(p - place, n) > -eps for p in (before, after)):
-                    start = b.place - place + rho * n
-                    yield Contact(start, edge / abs(edge), 0, 0, abs(edge), (place, b.place))
-            edge = place - after
+                    start = b.start - place + (a.radius + b.width) * n
+                    yield Contact(start, edge / abs(edge), 0, 0, abs(edge), (place, b.start))
+            edge, begin = -turned * a.along, turned * a.start
             if b.is_convex and edge:
                 n = -1j * edge / abs(edge)
                 if all(_dot(p - b.place, n) < eps for p in (b.before, b.after)):
-                    start = b.place - place + rho * n
-                    yield Contact(start, edge / abs(edge), 0, 0, abs(edge), (place, b.place))
+                    start = b.place - begin + (a.width + b.radius) * n
+                    yield Contact(start, edge / abs(edge), 0, 0, abs(edge), (begin, b.place))
             if a.is_convex and b.is_convex and rho > 0:
                 yield from _arcs(place, (before, after), b, rho, eps)
 
@@ -210,12 +325,12 @@ def _dot(u: complex, v: complex) -> float:
     return (u.conjugate() * v).real
 
 
-def _parts(contact: Contact, pillars: Sequence[Pillar], size: float) -> Iterator[tuple[complex, int]]:
+def _parts(contact: Contact, pillars: Sequence[AnyPillar], size: float) -> Iterator[tuple[complex, int]]:
     """Middles of the parts of a contact, each FREE, COVERED or OPEN; short parts are left out."""
     ends = np.array([contact.first, contact.last])
     box = contact.points(np.linspace(contact.first, contact.last, 9))
     middle, reach = complex(box.mean()), float(np.abs(box - box.mean()).max()) + contact.radius
-    near = [p for p in pillars if p.distance(np.array([middle]))[0] < p.radius + reach + SURE * size]
+    near = [p for p in pillars if p.room(np.array([middle]))[0] < reach + SURE * size]
     cuts = np.concatenate([ends, *(_cuts(contact, pillar) for pillar in near)])
     cuts = np.unique(cuts[(cuts >= contact.first) & (cuts <= contact.last)])
     length = np.diff(cuts) * (1 if contact.along else contact.radius)
@@ -225,7 +340,7 @@ def _parts(contact: Contact, pillars: Sequence[Pillar], size: float) -> Iterator
     points = contact.points((cuts[long] + cuts[long + 1]) / 2)
     least = np.full(len(points), np.inf)
     for pillar in near:
-        room = pillar.distance(points) - pillar.radius
+        room = pillar.room(points)
         if pillar.has(contact, SAME * size):
             room = np.where(np.abs(room) < SURE * size, np.inf, room)  # the contact itself
         least = np.minimum(least, room)
@@ -233,35 +348,27 @@ def _parts(contact: Contact, pillars: Sequence[Pillar], size: float) -> Iterator
         yield point, FREE if room > SURE * size else COVERED if room < -SURE * size else OPEN
 
 
-def _cuts(contact: Contact, pillar: Pillar) -> Floats:
+def _cuts(contact: Contact, pillar: AnyPillar) -> Floats:
     """Positions at which a contact's line or circle meets the lines and circles of a pillar's rim."""
-    hull, rho = pillar.hull, pillar.radius
-    result = []
-    along = np.roll(hull, -1) - hull
-    if len(hull) > 1:
-        unit = along / np.abs(along)
-        start = hull - 1j * rho * unit
+    result, unit, start = list[Floats](), pillar.units, pillar.starts
+    with np.errstate(all="ignore"):
         if contact.along:
             across = (unit.conj() * contact.along).imag
-            with np.errstate(all="ignore"):
-                result.append(-(unit.conj() * (contact.place - start)).imag / across)
+            result.append(-(unit.conj() * (contact.place - start)).imag / across)
         else:
             height = (unit.conj() * (contact.place - start)).imag  # of the centre, on the left
-            with np.errstate(all="ignore"):
-                angle = np.arccos(-height / contact.radius)
-            for sign in (1, -1):
-                result.append(np.angle(1j * unit) + sign * angle)
-    if rho > 0:
-        d = hull - contact.place
-        with np.errstate(all="ignore"):
-            if contact.along:
-                seen = contact.along.conjugate() * d
-                root = np.sqrt(rho * rho - seen.imag**2)
-                result += [seen.real - root, seen.real + root]
-            else:
-                away = np.abs(d)
-                angle = np.arccos((away**2 + contact.radius**2 - rho * rho) / (2 * away * contact.radius))
-                result += [np.angle(d) - angle, np.angle(d) + angle]
-    cuts = np.concatenate(result) if result else np.zeros(0)
+            angle = np.arccos(-height / contact.radius)
+            result += [np.angle(1j * unit) + sign * angle for sign in (1, -1)]
+        (round_,) = np.nonzero(pillar.radii > 0)
+        d, rho = pillar.centers[round_] - contact.place, pillar.radii[round_]
+        if contact.along:
+            seen = contact.along.conjugate() * d
+            root = np.sqrt(rho * rho - seen.imag**2)
+            result += [seen.real - root, seen.real + root]
+        else:
+            away = np.abs(d)
+            angle = np.arccos((away**2 + contact.radius**2 - rho * rho) / (2 * away * contact.radius))
+            result += [np.angle(d) - angle, np.angle(d) + angle]
+    cuts = np.concatenate(result)
     cuts = cuts[np.isfinite(cuts)]
     return cuts if contact.along else contact.first + np.mod(cuts - contact.first, math.tau)

@@ -61,12 +61,15 @@ class Surface:
     edge : moving vector, optional
     radius : Number
         The sum of both radii.
+    ends : pairs of a moving unit vector and a sign
+        Of a contact of arcs: directions from the obstacle to the robot are on the left (1) or right (-1) of each.
     """
 
     a: Point
     b: Point
     edge: Moving | None
     radius: Number
+    ends: tuple[tuple[Moving, int], ...] = ()
 
     @cached_property
     def square(self) -> Number:
@@ -92,10 +95,38 @@ class Surface:
         return (self.a[0] + k * g[0], self.a[1] + k * g[1]), (self.b[0] + k * f[0], self.b[1] + k * f[1])
 
     def joint_end(self, circle: Surface) -> int | None:
-        """End of a line whose vertices and radius are those of a circle: both touch in a joint at every angle."""
-        if self.edge is None or circle.edge is not None or self.radius != circle.radius:
+        """End of a line in which a circle touches it at every angle, in a joint; None if none does.
+
+        The circle is about the end itself, or about a point beside it, square to the edge, with a radius that is larger
+        or smaller by the distance.
+        """
+        if self.edge is None or circle.edge is not None:
             return None
-        return next((k for k in (0, 1) if self.end(k) == (circle.a, circle.b)), None)
+        (f, g), more = self.edge, circle.radius - self.radius
+        for k in (0, 1):
+            a, b = self.end(k)
+            on_robot = f == NIL
+            fixed, d, e = (
+                (circle.b == b, _minus(circle.a, a), g) if on_robot else (circle.a == a, _minus(circle.b, b), f)
+            )
+            height = e[0] * d[1] - e[1] * d[0]
+            if fixed and e[0] * d[0] + e[1] * d[1] == 0 and d[0] ** 2 + d[1] ** 2 == more**2 and height * more >= 0:
+                return k
+        return None
+
+    def touches(self, other: Surface) -> Moving | None:
+        """Direction from a circle's center in which another circle, around it or in it, touches it at every angle."""
+        less = self.radius - other.radius
+        if self.edge is not None or other.edge is not None or less == 0:
+            return None
+        for d, is_fixed, on_robot in (
+            (_minus(other.b, self.b), self.a == other.a, False),
+            (_minus(other.a, self.a), self.b == other.b, True),
+        ):
+            if is_fixed and d[0] ** 2 + d[1] ** 2 == less**2:
+                e = d[0] / less, d[1] / less
+                return (NIL, e) if on_robot else (e, NIL)
+        return None
 
     def to(self, other: Surface) -> Moving:
         """Vector from this surface's point C to another's."""
@@ -185,9 +216,8 @@ class Forms:
         rest = self.ring.number(circle.radius**2 - on.radius**2)
         return self.trig(dot(d, d)).plus(rest).times(length) - self.trig(cross(v, d)).times(rho + rho)
 
-    def axis(self, circle: Surface, turns: int, on: Surface) -> Trig:
-        """Zero where the end C + rho e of a quadrant is on another surface."""
-        e: Moving = (AXES[turns % 4], NIL)
+    def axis(self, circle: Surface, e: Moving, on: Surface) -> Trig:
+        """Zero where the point C + rho e, as the end of a quadrant, is on another surface."""
         if on.joint_end(circle) is not None:
             return self.trig(dot(_along(on), e))
         if on.edge is not None:
@@ -207,6 +237,9 @@ class Forms:
         for line, circle, on in permutations((x, y, z)):
             if line.joint_end(circle) is not None:
                 return poly(self.joint(line, circle, on))
+        for circle, other, on in permutations((x, y, z)):
+            if (e := circle.touches(other)) is not None:
+                return poly(self.axis(circle, e, on))
         lines = [s for s in (x, y, z) if s.edge is not None]
         if len(lines) == 3:
             # sum of (offset constant of each line about x's C) times (cross product of the other two)
@@ -232,6 +265,17 @@ class Forms:
         )
 
 
+def axis(turns: int) -> Moving:
+    """Unit vector, a number of quarter turns from the x axis."""
+    return AXES[turns % 4], NIL
+
+
+def at_turn(e: Moving, turn: Turn) -> tuple[Ball, Ball]:
+    """Coordinates of a moving vector at an angle."""
+    ((p, q), (r, s)) = e
+    return arb(p) - turn.cos * arb(r) + turn.sin * arb(s), arb(q) - turn.sin * arb(r) - turn.cos * arb(s)
+
+
 BALLS = Forms(Balls)
 Made = Callable[[Forms], list[Trig]]
 Place = Callable[[Turn], Any]
@@ -243,7 +287,8 @@ class Curve:
     Attributes
     ----------
     limits, existence : functions of `Forms`
-        Forms that vanish where the curve passes the ends of its patch; and where it, or its branches, end or meet.
+        Forms that vanish where the curve passes the ends of its patch, or of its arcs; and where it, or its branches,
+        end or meet.
     place : function of an angle
         On a line t times the edge's length, on a circle the unit vector u.
     """
@@ -259,13 +304,37 @@ class Curve:
         """Name of all curves in which the two surfaces meet."""
         return frozenset([self.on.key, self.other if isinstance(self.other, int) else self.other.key])
 
+    @cached_property
+    def name(self) -> Any:
+        """The key; of a joint, the line and its end, for all surfaces that have it in common."""
+        if not isinstance(self.other, int):
+            for line, circle in ((self.on, self.other), (self.other, self.on)):
+                if (k := line.joint_end(circle)) is not None:
+                    return line.key, line.end(k)
+        return self.key
+
+    @cached_property
+    def ends(self) -> tuple[tuple[Moving, int], ...]:
+        """Directions between which those of a circle's patch are."""
+        q = self.quadrant
+        return ((axis(q), 1), (axis(q + 1), -1), *self.on.ends)
+
+    def rests(self, place: Any, turn: Turn) -> list[Ball]:
+        """Numbers that are positive before, and after, the ends of the patch."""
+        if self.on.edge is not None:
+            return [place, BALLS.length(self.on) - place]
+        rests = []
+        for e, sign in self.ends:
+            u, v = at_turn(e, turn)
+            rests.append(sign * (u * place[1] - v * place[0]))
+        return rests
+
     def _walls(self) -> tuple[Made, Made]:
         x, y = self.on, self.other
         if isinstance(y, int):
-            return (lambda _: []), (lambda _: [])
+            return (lambda f: [f.trig(cross(e, axis(y))) for e, _ in self.ends]), (lambda _: [])
         if x.edge is None:
-            q = self.quadrant
-            limits = lambda f: [f.axis(x, q, y), f.axis(x, q + 1, y)]  # noqa: E731
+            limits = lambda f: [f.axis(x, e, y) for e, _ in self.ends]  # noqa: E731
             if y.joint_end(x) is not None:
                 return limits, lambda _: []
             return limits, lambda f: [

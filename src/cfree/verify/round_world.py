@@ -6,48 +6,99 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from flint import arb, fmpq
 from numpy.typing import NDArray
 
 from cfree.exact.number import ExactPoint
+from cfree.exact.vectors import cross, minus
 from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import Cores
+from cfree.scene.rounded import CoreArc, Cores, Rounded
 from cfree.scene.scene import Scene
 from cfree.verify.polygons import frame, rectangle, rings_of, tile
 from cfree.verify.round_algebra import Ball, Turn
 
-Core = Polygon | tuple[ExactPoint, ...]
 Place = tuple[Ball, Ball]
 Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
+class Disc:
+    """A vertex of a convex piece, grown; of an arc only directions from the first normal to the last one."""
+
+    x: arb
+    y: arb
+    radius: Fraction
+    normals: tuple[Place, Place] | None = None
+
+
+@dataclass(frozen=True)
 class Part:
-    """A convex piece of a core, counter-clockwise; or the ends of a segment, or a point."""
+    """A convex piece of a core, counter-clockwise; or the ends of a segment, or a point; all grown.
+
+    Attributes
+    ----------
+    points : exact points
+    radius : Fraction
+    arc : CoreArc, optional
+        The piece is what is between the arc and its chord; the points are the arc's end and its start.
+    """
 
     points: tuple[ExactPoint, ...]
     radius: Fraction
+    arc: CoreArc | None = None
 
     @cached_property
     def rough(self) -> Complexes:
-        return np.array([complex(x, y) for x, y in self.points])
+        """Corners, and the center of the arc."""
+        return np.array([complex(*p) for p in (*self.points, *([self.arc.center] if self.arc else []))])
 
     @cached_property
-    def exact(self) -> list[tuple[arb, arb]]:
-        return [(_ball(x), _ball(y)) for x, y in self.points]
+    def radii(self) -> NDArray[np.float64]:
+        """Radius of each of these."""
+        arc = [self.arc.radius] if self.arc else []
+        return np.array([float(self.radius + r) for r in [*[Fraction(0)] * len(self.points), *arc]])
+
+    @cached_property
+    def edges(self) -> list[int]:
+        """Corners at which its edges begin."""
+        return [0] if self.arc else [*range(len(self.points))] if len(self.points) > 1 else []
+
+    @cached_property
+    def discs(self) -> list[Disc]:
+        """Discs, and the arc, of which it is the convex hull, with as many bits as there are at the first call."""
+        discs = [Disc(_ball(x), _ball(y), self.radius) for x, y in self.points]
+        if self.arc:
+            (x, y), r = self.arc.center, self.arc.radius
+            first, last = (
+                (_ball((p - x) / r), _ball((q - y) / r)) for p, q in (self.arc.start, self.arc.end)
+            )  # rational, and of length 1
+            discs.append(Disc(_ball(x), _ball(y), r + self.radius, (first, last)))
+        return discs
 
 
 @dataclass(frozen=True)
 class Corner:
-    """A vertex of a rim between its neighbours, the interior on the left; a point has itself as neighbours."""
+    """A vertex of a rim between places on its two tangents, the interior on the left; a point has itself as neighbours.
+
+    Attributes
+    ----------
+    radius : float
+    is_convex : bool
+    start, along, width : complex, complex, float
+        The edge that begins here, and by how much it is grown; `along` is 0 if there is none.
+    """
 
     before: complex
     place: complex
     after: complex
     radius: float
     is_convex: bool
+    start: complex
+    along: complex
+    width: float
 
 
 class RoundWorld:
@@ -67,22 +118,22 @@ class RoundWorld:
         robot, obstacles = list[Part](), list[Part]()
         robot_corners, obstacle_corners = list[Corner](), list[Corner]()
         for k, shape in enumerate(cores.robot):
-            robot += self._pieces(shape.core, shape.radius, f"robot[{k}]")
-            robot_corners += _corners(shape.core, shape.radius)
+            robot += self._pieces(shape, f"robot[{k}]")
+            robot_corners += _corners_of(shape)
         for k, shape in enumerate(cores.obstacles):
-            obstacles += self._pieces(shape.core, shape.radius, f"obstacle {k}")
-            obstacle_corners += _corners(shape.core, shape.radius)
+            obstacles += self._pieces(shape, f"obstacle {k}")
+            obstacle_corners += _corners_of(shape)
         reach = max(abs(c) for part in robot for p in part.points for c in p)
         far = reach + max((abs(c) for part in obstacles for p in part.points for c in p), default=Fraction(0))
-        far += max(shape.radius for shape in cores.robot)
+        far += max(part.radius + (part.arc.radius if part.arc else 0) for part in robot + obstacles)
         if isinstance(scene.workspace, Polygon):
             x0, y0, x1, y1 = map(Fraction, scene.workspace.bounds)
             margin = 1 + 4 * far + x1 - x0 + y1 - y0
             around = rectangle(*(int(v) for v in (x0 - margin, y0 - margin, x1 + margin, y1 + margin)))
             outer, *holes = scene.workspace.exact_rings
             for k, polygon in enumerate([Polygon(around, [outer]), *map(Polygon, holes)]):
-                obstacles += self._pieces(polygon, Fraction(0), f"part {k} of the workspace's complement")
-            obstacle_corners += _corners(scene.workspace, Fraction(0), is_reversed=True)
+                obstacles += self._pieces(Rounded(polygon, Fraction(0)), f"part {k} of the workspace's complement")
+            obstacle_corners += _corners(scene.workspace, 0.0, is_reversed=True)
         self.layers = [(robot, obstacles)]
         self.corners = [(robot_corners, obstacle_corners)]
         if scene.bounds:
@@ -92,9 +143,10 @@ class RoundWorld:
             beyond = [Part(tuple(ring), Fraction(0)) for ring in frame(wide, bounds)]  # type: ignore[arg-type]
             inner = [complex(*p) for p in rectangle(*bounds)[::-1]]  # type: ignore[arg-type]
             self.layers.append(([Part(((Fraction(0), Fraction(0)),), Fraction(0))], beyond))
-            self.corners.append(([Corner(0, 0, 0, 0, True)], list(_around(inner, 0.0))))
+            self.corners.append(([Corner(0, 0, 0, 0, True, 0, 0, 0)], list(_around(inner, 0.0))))
 
-    def _pieces(self, core: Core, radius: Fraction, name: str) -> Iterator[Part]:
+    def _pieces(self, shape: Rounded, name: str) -> Iterator[Part]:
+        core, radius = shape.core, shape.radius
         if not isinstance(core, Polygon):
             yield Part(core, radius)
             return
@@ -105,16 +157,33 @@ class RoundWorld:
             self.untiled.append(name)
         for piece in pieces:
             yield Part(tuple((Fraction(x, scale), Fraction(y, scale)) for x, y in piece), radius)
+        for arc in shape.arcs:
+            yield Part((arc.end, arc.start), radius, arc)
 
     @property
     def size(self) -> float:
         """Number that no coordinate and no radius exceeds by far."""
         parts = [part for layer in self.layers for side in layer for part in side]
-        return max(1e-300, *(float(np.abs(part.rough).max()) + float(part.radius) for part in parts))
+        return max(1e-300, *(float((np.abs(part.rough) + part.radii).max()) for part in parts))
+
+
+def _corners_of(shape: Rounded) -> Iterator[Corner]:
+    return _corners_with_arcs(shape) if shape.arcs else _corners(shape.core, float(shape.radius))
+
+
+def _left(u: ExactPoint) -> ExactPoint:
+    return -u[1], u[0]
 
 
 def _ball(x: Fraction) -> arb:
     return arb(fmpq(x.numerator, x.denominator))
+
+
+def _corners(core: Polygon | tuple[ExactPoint, ...], radius: float, *, is_reversed: bool = False) -> Iterator[Corner]:
+    rings: Iterable[Sequence[ExactPoint]] = core.exact_rings if isinstance(core, Polygon) else [core]
+    for ring in rings:
+        points = [complex(*p) for p in ring]
+        yield from _around(points[::-1] if is_reversed else points, radius)
 
 
 def _around(points: Sequence[complex], radius: float) -> Iterator[Corner]:
@@ -122,14 +191,27 @@ def _around(points: Sequence[complex], radius: float) -> Iterator[Corner]:
     for k, p in enumerate(points):
         before, after = points[k - 1], points[(k + 1) % count]
         turn = ((p - before).conjugate() * (after - p)).imag
-        yield Corner(before, p, after, radius, count < 3 or turn > 0)
+        yield Corner(before, p, after, radius, count < 3 or turn > 0, p, after - p, radius)
 
 
-def _corners(core: Core, radius: Fraction, *, is_reversed: bool = False) -> Iterator[Corner]:
-    rings: Iterable[Sequence[ExactPoint]] = core.exact_rings if isinstance(core, Polygon) else [core]
-    for ring in rings:
-        points = [complex(*p) for p in ring]
-        yield from _around(points[::-1] if is_reversed else points, float(radius))
+def _corners_with_arcs(shape: Rounded) -> Iterator[Corner]:
+    """Yield corners, and centers of arcs; where an arc is smooth with its neighbour the corner only has the edge."""
+    assert isinstance(shape.core, Polygon)
+    arcs, width = {(arc.start, arc.end): arc for arc in shape.arcs}, float(shape.radius)
+    for ring in shape.core.exact_rings:
+        for before, p, after in zip([ring[-1], *ring[:-1]], ring, [*ring[1:], ring[0]], strict=True):
+            one, other = arcs.get((before, p)), arcs.get((p, after))
+            into = _left(minus(p, one.center)) if one else minus(p, before)
+            out = _left(minus(p, other.center)) if other else minus(after, p)
+            place = complex(*p)
+            along = 0 if other else complex(*out)
+            is_convex = cross(into, out) > 0
+            yield Corner(place - complex(*into), place, place + complex(*out), width, is_convex, place, along, width)
+            if other:
+                center = complex(*other.center)
+                first, last = place - center, complex(*after) - center
+                radius = float(other.radius) + width
+                yield Corner(center - 1j * first, center, center + 1j * last, radius, True, center, 0, width)
 
 
 def is_apart(robot: Part, obstacle: Part, turn: Turn, place: Place, near: arb) -> bool:
@@ -137,27 +219,48 @@ def is_apart(robot: Part, obstacle: Part, turn: Turn, place: Place, near: arb) -
 
     Notes
     -----
-    Convex cores are at least rho apart exactly if one has an edge with the other beyond it by rho, or if vertices a and
-    b at least rho apart have both cores behind the lines through them across a b.
+    Convex sets do not overlap exactly if a line separates them. It can be taken along an edge of one, or square to the
+    line through the centers of two of the discs or arcs of which they are the hulls.
     """
-    rho = _ball(robot.radius + obstacle.radius) - near
-    x, y = place
-    moved = [(turn.cos * p - turn.sin * q + x, turn.sin * p + turn.cos * q + y) for p, q in robot.exact]
-    cores = moved, obstacle.exact
-    for core, other in (cores, cores[::-1]):
-        for k, (p, q) in enumerate(core):
-            u, v = core[(k + 1) % len(core)][0] - p, core[(k + 1) % len(core)][1] - q
-            if len(core) > 1 and all((s - p) * v - (t - q) * u >= rho * (u * u + v * v).sqrt() for s, t in other):
+
+    def turned(x: Any, y: Any) -> Place:
+        return turn.cos * x - turn.sin * y, turn.sin * x + turn.cos * y
+
+    moved = []
+    for disc in robot.discs:
+        x, y = turned(disc.x, disc.y)
+        normals = disc.normals and (turned(*disc.normals[0]), turned(*disc.normals[1]))
+        moved.append(Disc(x + place[0], y + place[1], disc.radius, normals))
+    discs = moved, obstacle.discs
+    for own, part, sign in ((0, robot, 1), (1, obstacle, -1)):
+        for k in part.edges:
+            p, q = discs[own][k], discs[own][(k + 1) % len(part.points)]
+            if _is_between((sign * (q.y - p.y), sign * (p.x - q.x)), *discs, near):
                 return True
-    if robot.radius + obstacle.radius == 0:
-        return False
-    for k, a in enumerate(moved):
-        for m, b in enumerate(obstacle.exact):
-            d = b[0] - a[0], b[1] - a[1]
-            if not d[0] * d[0] + d[1] * d[1] >= rho * abs(rho):
-                continue
-            behind = [(moved[j], a, -1) for j in (k - 1, (k + 1) % len(moved))]
-            behind += [(obstacle.exact[j], b, 1) for j in (m - 1, (m + 1) % len(obstacle.exact))]
-            if all(sign * ((p[0] - q[0]) * d[0] + (p[1] - q[1]) * d[1]) > -near for p, q, sign in behind):
+    for a in discs[0]:
+        for b in discs[1]:
+            u = b.x - a.x, b.y - a.y
+            if a.radius + b.radius > 0 and u[0] * u[0] + u[1] * u[1] > 0 and _is_between(u, *discs, near):
                 return True
     return False
+
+
+def _is_between(u: Place, robot: Sequence[Disc], obstacle: Sequence[Disc], near: arb) -> bool:
+    """True if a line square to a vector u has the robot before it and the obstacle behind it, or nearly so."""
+    length = (u[0] * u[0] + u[1] * u[1]).sqrt()
+    back = -u[0], -u[1]
+    tops = [_height(disc, u, length) for disc in robot if _has(disc, u)]
+    bottoms = [-_height(disc, back, length) for disc in obstacle if _has(disc, back)]
+    return all(top - near * length < bottom for top in tops for bottom in bottoms)
+
+
+def _height(disc: Disc, u: Place, length: Ball) -> Ball:
+    return disc.x * u[0] + disc.y * u[1] + _ball(disc.radius) * length
+
+
+def _has(disc: Disc, u: Place) -> bool:
+    """True if an arc may have a point in a direction; at its ends it is as high as its corners are."""
+    if disc.normals is None:
+        return True
+    (a, b), (c, d) = disc.normals
+    return not (a * u[1] - b * u[0] < 0 or u[0] * d - u[1] * c < 0)

@@ -25,7 +25,7 @@ from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Auxiliary, Pieces, Separated
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES
-from cfree.scene.rounded import Cores, Rounded
+from cfree.scene.rounded import CoreArc, Cores, Rounded, is_arc
 
 
 def _code(value: Any) -> int:
@@ -106,13 +106,33 @@ class AuxiliaryModel(Strict):
         return Auxiliary(self.of, self.kind, self.number, tuple(self.points))
 
 
+class ArcModel(Strict):
+    """A convex arc in place of a side of a core."""
+
+    start: Point
+    end: Point
+    center: Point
+    radius: Coordinate
+
+    @model_validator(mode="after")
+    def _fits(self) -> ArcModel:
+        if not is_arc(self.result):
+            raise Fault("expected an arc of a radius above 0, counter-clockwise, at most a quarter circle, got {got}")
+        return self
+
+    @property
+    def result(self) -> CoreArc:
+        return CoreArc(self.start, self.end, self.center, self.radius)
+
+
 class RoundedModel(Strict):
-    """A grown core: a polygon, or one or two points."""
+    """A grown core: a polygon, some of whose sides may be arcs, or one or two points."""
 
     outer: list[Point] | None = None
     holes: Annotated[list[list[Point]], Field(default_factory=list)]
     points: Annotated[list[Point], Field(max_length=2)] | None = None
     radius: Coordinate
+    arcs: Annotated[list[ArcModel], Field(default_factory=list)]
 
     @model_validator(mode="after")
     def _fits(self) -> RoundedModel:
@@ -120,11 +140,16 @@ class RoundedModel(Strict):
             raise Fault('expected "outer" with or without "holes", or "points", one or two, got {got}')
         if self.radius < 0:
             raise Fault("expected a radius of 0 or more, got {got}")
+        rings = [] if self.outer is None else [self.outer, *self.holes]
+        sides = {side for ring in rings for side in zip(ring, [*ring[1:], *ring[:1]], strict=True)}
+        if any((arc.start, arc.end) not in sides for arc in self.arcs):
+            raise Fault("expected arcs from each a vertex to the next one, got {got}")
         return self
 
     @property
     def result(self) -> Rounded:
-        return Rounded(tuple(self.points) if self.points else Polygon(self.outer or [], self.holes), self.radius)
+        core = tuple(self.points) if self.points else Polygon(self.outer or [], self.holes)
+        return Rounded(core, self.radius, tuple(arc.result for arc in self.arcs))
 
 
 class CoresModel(Strict):

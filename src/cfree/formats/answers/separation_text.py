@@ -20,7 +20,7 @@ from cfree.planning.unreachable import Unreachable
 from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import Stamp
 from cfree.scene.features import branch_bits, unpacked
-from cfree.scene.rounded import Rounded
+from cfree.scene.rounded import CoreArc, Rounded
 
 KINDS = {1: "vertex-edge", 2: "edge-vertex", 3: "vertex-vertex"}
 KIND, QUADRANT = 15, 4  # bits of a contact's kind, and bits below its quadrant
@@ -135,8 +135,15 @@ def _parts(code: int) -> list[int]:
     return [*unpacked(code), *([branch] if branch else [])]
 
 
+def _arc_record(arc: CoreArc) -> dict[str, Any]:
+    places = {"start": arc.start, "end": arc.end, "center": arc.center}
+    return {name: [*map(str, place)] for name, place in places.items()} | {"radius": str(arc.radius)}
+
+
 def _rounded_record(shape: Rounded) -> dict[str, Any]:
-    radius = {"radius": str(shape.radius)}
+    radius: dict[str, Any] = {"radius": str(shape.radius)}
+    if shape.arcs:
+        radius["arcs"] = [_arc_record(arc) for arc in shape.arcs]
     if isinstance(shape.core, Polygon):
         return polygon_record(shape.core) | radius
     return {"points": [[str(x), str(y)] for x, y in shape.core]} | radius

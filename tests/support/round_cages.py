@@ -1,0 +1,77 @@
+"""Random cages of rounded shapes about the origin, and queries that a flood of slices decides."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import cfree
+from arc_rings import RINGS, shape
+from cfree import Curved, Pose, Scene
+from flood import flood
+from shapes import PlainScene
+
+SIZE = 20  # of the bounds, on all sides
+STEPS = 40  # orientations of a flood
+ERROR = 0.02  # of its polygons
+
+
+def random_part(rng: random.Random, place: tuple[Any, Any], size: Fraction) -> Any:
+    """A shape of about a size at a place: a ring with arcs, a disc, or a grown triangle."""
+    x, y = place
+    name = rng.choice([*RINGS, "disc", "triangle"])
+    if name == "disc":
+        return Curved.circle((x, y), size / 2)
+    if name == "triangle":
+        third = size / 3
+        return Curved([(x - third, y - third), (x + third, y - third), (x, y + third)], grown=size / rng.randint(8, 20))
+    return shape(RINGS[name], x, y, size / 10)
+
+
+def random_robot(rng: random.Random) -> list[Any]:
+    """One part, or two of different kinds and radii that overlap or not."""
+    first = random_part(rng, (0, 0), Fraction(rng.randint(12, 56), 8))
+    if rng.random() < 0.5:
+        return [first]
+    place = Fraction(rng.randint(-12, 12), 8), Fraction(rng.randint(-12, 12), 8)
+    return [first, random_part(rng, place, Fraction(rng.randint(4, 24), 8))]
+
+
+def random_cage(seed: int) -> Scene:
+    """Four to seven shapes around the origin, with gaps between them that are about as wide as the robot."""
+    rng = random.Random(f"cage {seed}")
+    count, far = rng.randint(4, 7), rng.randint(7, 11)
+    obstacles = []
+    for k in range(count):
+        angle = 2 * math.pi * (k + rng.uniform(-0.15, 0.15)) / count
+        place = Fraction(round(8 * far * math.cos(angle)), 8), Fraction(round(8 * far * math.sin(angle)), 8)
+        chord = 2 * far * math.sin(math.pi / count)
+        obstacles.append(random_part(rng, place, Fraction(round(8 * chord * rng.uniform(0.9, 1.6)), 8)))
+    return Scene(random_robot(rng), obstacles, bounds=(-SIZE, -SIZE, SIZE, SIZE))
+
+
+def decided(scene: Scene, most: int, seed: int) -> Iterator[tuple[Pose, Pose, bool]]:
+    """Yield start, goal, and True if polygons around the shapes prove them joined, False if those inside prove not."""
+    rng = random.Random(seed)
+    for outward in (True, False):
+        known = flood(_plain(scene.outer(ERROR) if outward else scene.inner(ERROR)), STEPS)
+        labels = known.certain if outward else known.possible
+        poses = [Pose(x, y, t) for (x, y), t in zip(known.xy.tolist(), known.theta.tolist(), strict=True)]
+        free = [k for k, pose in enumerate(poses) if outward or cfree.is_free(scene, pose)]
+        pairs = [(a, b) for a in free for b in free if a < b and (labels[a] == labels[b]) == outward]
+        for a, b in rng.sample(pairs, min(most, len(pairs))):
+            yield poses[a], poses[b], outward
+
+
+def _plain(scene: Scene) -> PlainScene:
+    robot, obstacles = ([_rings(part) for part in parts] for parts in (scene.robot, scene.obstacles))
+    assert scene.bounds is not None
+    return PlainScene(robot, obstacles, tuple(map(float, scene.bounds)))
+
+
+def _rings(polygon: Any) -> tuple[list[Any], list[list[Any]]]:
+    outer, *holes = ([(float(x), float(y)) for x, y in ring] for ring in polygon.exact_rings)
+    return outer, holes
