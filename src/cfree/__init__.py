@@ -113,8 +113,8 @@ _HOMES = {
     "viewer.notebook": "widget",
 }
 _PACKAGES = (
-    "analysis arrangements collision contact curves distributed exact figures film forbidden formats free geometry nesting "
-    "ompl paths planning plot rational verify viewer"
+    "analysis arrangements collision contact curves distributed exact figures film forbidden formats free geometry "
+    "nesting ompl paths planning plot rational verify viewer"
 )
 _MOVED = {
     "analysis": "Blocker Fit Interval NearestMiss",

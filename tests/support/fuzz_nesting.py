@@ -132,7 +132,9 @@ def random_layout(draw: random.Random) -> Nesting:
     sheet = Polygon([(0, 0), (x, 0), (x - draw.randint(0, 4), y), (0, y)], hole)
     rotations = draw.choice([1, 2, 4, "any", ["30deg", {"tau": "1/3"}]])
     gap = draw.choice([0, 0, 0, "1/4"])
-    return place(parts, sheet, rotations=rotations, gap=gap, kerf=draw.choice([0, gap]), toward=draw.choice(["bottom", "left"]))
+    return place(
+        parts, sheet, rotations=rotations, gap=gap, kerf=draw.choice([0, gap]), toward=draw.choice(["bottom", "left"])
+    )
 
 
 def main() -> None:

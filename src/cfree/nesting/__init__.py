@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from cfree.nesting.checking import Overlap as Overlap
+    from cfree.nesting.checking import overlaps as overlaps
     from cfree.nesting.compaction import Compacted as Compacted
     from cfree.nesting.compaction import PartMotion as PartMotion
     from cfree.nesting.compaction import compact as compact
@@ -17,8 +19,6 @@ if TYPE_CHECKING:
     from cfree.nesting.nofit import InnerFit as InnerFit
     from cfree.nesting.nofit import inner_fit as inner_fit
     from cfree.nesting.nofit import nfp as nfp
-    from cfree.nesting.checking import Overlap as Overlap
-    from cfree.nesting.checking import overlaps as overlaps
     from cfree.nesting.placement import place as place
     from cfree.nesting.reading import load_nesting as load_nesting
     from cfree.nesting.rotational import RotationalNFP as RotationalNFP

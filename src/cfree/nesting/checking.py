@@ -13,7 +13,7 @@ from cfree.collision.pose_checker import is_free
 from cfree.errors import UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, pose_at
-from cfree.nesting.layout import Nesting, Placed, around, label, shape_box, within
+from cfree.nesting.layout import Nesting, Placed, around, label, shape_box, union, within
 from cfree.nesting.nofit import NFP, InnerFit, inner_fit_of, nfp_of, turned
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape, Scene
@@ -93,7 +93,7 @@ def overlaps(nesting: Nesting) -> tuple[Overlap, ...]:
 
 def _pairs(nesting: Nesting) -> Iterator[Overlap]:
     boxes = [[shape_box(shape) for shape in one.shapes] for one in nesting.placed]
-    hulls = [_hull(each) for each in boxes]
+    hulls = [union(each) for each in boxes]
     order = sorted(range(len(hulls)), key=lambda k: hulls[k][0])
     for n, i in enumerate(order):
         for j in order[n + 1 :]:
@@ -123,11 +123,6 @@ def _decided(scene: Scene, pose: Pose) -> bool:
     if free is None:
         raise UndecidedError("two shapes touch or nearly touch, and polygons for their curves do not decide")
     return bool(free)
-
-
-def _hull(boxes: list[Box]) -> Box:
-    x0, y0, x1, y1 = zip(*boxes, strict=True)
-    return min(x0), min(y0), max(x1), max(y1)
 
 
 def _meet(a: Box, b: Box) -> bool:

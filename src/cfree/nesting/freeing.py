@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 from cfree.arguments import checked
-from cfree.exact.pose import pose_at
 from cfree.exact.number import to_fraction
-from cfree.nesting.layout import Nesting, shape_box
+from cfree.exact.pose import pose_at
+from cfree.nesting.layout import Nesting, shape_box, union
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
 from cfree.scene.scene import Scene
@@ -68,6 +68,6 @@ def way_out(nesting: Nesting, part: int, *, max_seconds: float | None = None) ->
     scene = Scene(whole.robot, whole.obstacles, obstacle_names=whole.obstacle_names, units=whole.units)
     pose = nesting.placed[index].pose
     boxes = [shape_box(shape) for shape in (*nesting.placed[index].shapes, *scene.obstacles)]
-    x0, y0, x1, y1 = (f(each) for f, each in zip((min, min, max, max), zip(*boxes, strict=True), strict=True))
+    x0, y0, x1, y1 = union(boxes)
     reach = to_fraction(math.ceil(4 * (x1 - x0 + y1 - y0)) + 1)
     return plan(scene, pose, pose_at(pose.x + reach, pose.y, pose.tau), max_seconds=max_seconds)

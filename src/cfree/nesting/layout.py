@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
@@ -49,9 +49,7 @@ class Part:
     rotations: tuple[Fraction | None, ...] | None
 
     @checked
-    def __init__(
-        self, shape: Any, name: str = "", quantity: int = 1, rotations: Sequence[Angle] | None = None
-    ) -> None:
+    def __init__(self, shape: Any, name: str = "", quantity: int = 1, rotations: Sequence[Angle] | None = None) -> None:
         shapes = tuple(shapes_in(shape, "shape"))
         if not shapes:
             raise ValueError("shape: there is none; give a polygon or a round shape")
@@ -180,8 +178,8 @@ class Nesting:
         boxes = [shape_box(shape) for one in self.placed for shape in one.shapes]
         if not boxes:
             return 0.0, 0.0, 0.0, 0.0
-        x0, y0, x1, y1 = zip(*boxes, strict=True)
-        return float(min(x0)), float(min(y0)), float(max(x1)), float(max(y1))
+        x0, y0, x1, y1 = map(float, union(boxes))
+        return x0, y0, x1, y1
 
     @checked
     def scene(self, moving: int) -> Scene:
@@ -228,6 +226,12 @@ def shape_box(shape: AnyShape) -> tuple[Fraction, Fraction, Fraction, Fraction]:
         return shape.box
     xs, ys = zip(*shape.exact_vertices, strict=True)
     return min(xs), min(ys), max(xs), max(ys)
+
+
+def union(boxes: Iterable[tuple[Any, Any, Any, Any]]) -> tuple[Any, Any, Any, Any]:
+    """Return the box around some boxes."""
+    x0, y0, x1, y1 = zip(*boxes, strict=True)
+    return min(x0), min(y0), max(x1), max(y1)
 
 
 def around(shapes: Sequence[AnyShape], share: float = ROUND_SHARE) -> list[Polygon]:

@@ -165,9 +165,9 @@ def nfp(fixed: Any, moving: Any, theta: Angle = 0) -> NFP | RoundedFit:
     """
     solids, parts = shapes_in(fixed, "fixed"), shapes_in(moving, "moving")
     pose = Pose(0, 0, theta)
-    if not _are_polygons((*solids, *parts)):
+    if (fixed_ones := polygons_in(solids)) is None or (moving_ones := polygons_in(parts)) is None:
         return rounded_fit(Scene(parts, solids), pose)
-    return nfp_of(solids, turned(parts, pose))
+    return nfp_of(fixed_ones, turned(moving_ones, pose))
 
 
 @checked
@@ -201,9 +201,9 @@ def inner_fit(container: Any, part: Any, theta: Angle = 0) -> InnerFit | Rounded
     if len(outer) != 1:
         raise ValueError(f"container: {len(outer)} polygons; give one, whose holes are forbidden")
     pose = Pose(0, 0, theta)
-    if not _are_polygons((*outer, *parts)):
+    if (containers := polygons_in(outer)) is None or (moving := polygons_in(parts)) is None:
         return rounded_fit(Scene(parts, workspace=outer[0]), pose)
-    return inner_fit_of(outer[0], turned(parts, pose))
+    return inner_fit_of(containers[0], turned(moving, pose))
 
 
 def nfp_of(solids: Sequence[Polygon], parts: Sequence[Polygon]) -> NFP:
@@ -235,8 +235,10 @@ def turned(shapes: Iterable[AnyShape], pose: Pose) -> list[Any]:
     return [shape if is_still else moved_shape(shape, pose) for shape in shapes]
 
 
-def _are_polygons(shapes: Iterable[AnyShape]) -> bool:
-    return all(isinstance(shape, Polygon) for shape in shapes)
+def polygons_in(shapes: Sequence[AnyShape]) -> list[Polygon] | None:
+    """Return shapes that are all polygons; None if one is round."""
+    polygons = [shape for shape in shapes if isinstance(shape, Polygon)]
+    return polygons if len(polygons) == len(shapes) else None
 
 
 def _backwards(ring: Ring) -> Ring:

@@ -1,4 +1,4 @@
-"""Outlines of a union of open convex polygons, exactly: rings, and the segments and points that it leaves without width.
+"""Outlines of a union of open convex polygons, exactly: rings, and free segments and points without width.
 
 A point of an edge is on the outline if no polygon of the union has it inside. Doubles with a wide margin drop the edges
 that one polygon covers, and pairs that are apart; exact numbers decide all others.
@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
-from functools import cmp_to_key
 from fractions import Fraction
+from functools import cmp_to_key
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -62,9 +62,7 @@ def outlines(sums: Sums) -> Outlines:
     rims = [
         edge for line, spans in lines.items() for span in _without(spans, slits[line]) for edge in [_ends(line, *span)]
     ]
-    segments = [
-        _ends(line, *span) for line, spans in slits.items() for span in spans if (line[0], line[1]) > (0, 0)
-    ]
+    segments = [_ends(line, *span) for line, spans in slits.items() for span in spans if (line[0], line[1]) > (0, 0)]
     points = [p for p in sorted(single) if not _is_on(p, lines)]
     scale = sums.scale
     return Outlines(
@@ -108,9 +106,7 @@ def _candidates(sums: Sums, edges: Sequence[tuple[IntPoint, IntPoint]]) -> Itera
     sizes = (sums.boxes[:, 2:] - sums.boxes[:, :2]).prod(axis=1)
     for j in np.argsort(-sizes, kind="stable").tolist():  # large ones cover most edges
         ring, box = sums.rings[j], sums.boxes[j]
-        rows = np.flatnonzero(
-            is_open & (low < box[2:] + margin).all(axis=1) & (high > box[:2] - margin).all(axis=1)
-        )
+        rows = np.flatnonzero(is_open & (low < box[2:] + margin).all(axis=1) & (high > box[:2] - margin).all(axis=1))
         if not len(rows):
             continue
         heights = _heights(np.array([[c / sums.scale for c in p] for p in ring], float), ends[rows])

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise, product
@@ -18,15 +18,16 @@ from typing import Any, Literal
 import numpy as np
 
 from cfree.arguments import checked
+from cfree.curves.curved import Curved
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.exact.half_angle import Angle, read_angle, sum_of_angles
 from cfree.exact.number import ExactPoint, Number, rational_root, to_fraction
 from cfree.exact.pose import Pose, pose_at
 from cfree.libraries import Floats, NDArray
-from cfree.nesting.layout import Nesting, Part, Placed, all_parts, around, with_quantity, within
+from cfree.nesting.checking import overlaps
+from cfree.nesting.layout import ROUND_SHARE, Nesting, Part, Placed, all_parts, around, with_quantity, within
 from cfree.nesting.nofit import turned
 from cfree.nesting.outlines import outlines
-from cfree.nesting.checking import overlaps
 from cfree.nesting.sums import Sums, box_of, complement, sums_of
 from cfree.polygons.disc import around_disc
 from cfree.polygons.polygon import Polygon
@@ -35,9 +36,8 @@ from cfree.scene.scene import shapes_in
 SIDES_OF_GAP = 16  # of the polygon around a disc that keeps parts apart
 MARGIN = 1e-8  # share of the size: candidates that far inside of a no-fit polygon are dropped in doubles
 MOST_ANGLES = 16  # orientations tried for a part that may be turned by any angle
-LONG = 96  # bits of a position above which a near one of few digits is taken
 QUARTERS: tuple[Fraction | None, ...] = (Fraction(0), Fraction(1), None, Fraction(-1))  # tau of quarter turns
-GRID_BITS = 36  # of positions of few digits, below the size
+DECIMALS = 11  # of positions, below the size
 
 NEARBY = sorted(product(range(-5, 7), repeat=2), key=lambda step: abs(step[0]) + abs(step[1]))
 
@@ -93,10 +93,11 @@ def place(
 
     Notes
     -----
-    The position of each part is exact, the layout is a heuristic: bottom-left in the order of area. Packers that search
-    for hours, such as sparrow, pack denser. Round parts are placed as polygons around them within a thousandth of their
-    size, sheets as polygons inside. With a gap parts are up to 2 % of it farther apart where they do not face along an
-    axis. The result is checked by `overlaps` before it is returned.
+    The position of each part is exact: a decimal of about twelve digits if one is free within a billionth of the size,
+    else the vertex itself. The layout is a heuristic: bottom-left in the order of area. Packers that search for hours,
+    such as sparrow, pack denser. Round parts are placed as polygons around them within a thousandth of their size,
+    sheets as polygons inside. With a gap parts are up to 2 % of it farther apart where they do not face along an axis.
+    The result is checked by `overlaps` before it is returned.
 
     Examples
     --------
@@ -117,7 +118,10 @@ def place(
     for name, length in (("gap", space), ("kerf", width)):
         if length < 0:
             raise ValueError(f"{name}: {length}; give a length, 0 or more")
-    nester = _Nester(stock, space + width, space + width / 2, _angles(rotations), toward)
+    rounding = 2 * max(
+        (shape.size for part in wanted for shape in part.shapes if isinstance(shape, Curved)), default=0.0
+    )
+    nester = _Nester(stock, space + width, space + width / 2, _angles(rotations), toward, rounding / ROUND_SHARE)
     order = [part for part in sorted(wanted, key=lambda part: -part.area) for _ in range(part.quantity)]
     end = None if max_seconds is None else time.monotonic() + max_seconds
     left: dict[int, int] = {}
@@ -197,7 +201,6 @@ class _Obstacle:
         shapely.prepare(inside)
         return cls(sums, edges, [*points], _rounded(edges), inside)
 
-
     def turned(self, quarter: int) -> _Obstacle:
         """Return it turned by quarter turns, exactly; the disc of a gap is as symmetric."""
         import shapely
@@ -231,9 +234,11 @@ def _rounded(edges: Sequence[Segment]) -> Floats:
 class _Field:
     """Candidates for the position of one part at one orientation on one sheet."""
 
-    def __init__(self, fit: _Obstacle, box: Floats, toward: Toward) -> None:
+    def __init__(self, fit: _Obstacle, box: Floats, toward: Toward, error: float) -> None:
         self.fit, self.box, self.toward = fit, box, toward
         self.size = float(np.abs(box).max(initial=1.0))
+        self.step = max(MARGIN * self.size, error)  # positions are equally low within it
+        self.unit = Fraction(10) ** (math.floor(math.log10(self.size)) - DECIMALS)
         self.origin: ExactPoint = Fraction(0), Fraction(0)
         self.obstacles: list[tuple[_Obstacle, ExactPoint]] = []
         self.places: Floats = np.empty((0, 2, 2))
@@ -250,7 +255,7 @@ class _Field:
         import shapely
 
         x, y = map(float, shift)
-        places = obstacle.places + (x, y)
+        places = obstacle.places + np.array([x, y])
         margin = MARGIN * self.size
         if len(self.xy):
             keep = ~shapely.contains_xy(obstacle.inside, self.xy[:, 0] - x, self.xy[:, 1] - y)
@@ -292,8 +297,7 @@ class _Field:
     def best(self) -> ExactPoint | None:
         """Return the lowest, then leftmost free position; by `toward` the leftmost, then lowest one."""
         major, minor = (1, 0) if self.toward == "bottom" else (0, 1)
-        step = MARGIN * self.size
-        order = np.lexsort((self.xy[:, minor], np.round(self.xy[:, major] / step)))
+        order = np.lexsort((self.xy[:, minor], np.round(self.xy[:, major] / self.step)))
         for n, k in enumerate(order.tolist()):
             position = self._position(*self.pairs[k].tolist())
             if position is not None and self.is_free(position):
@@ -332,13 +336,12 @@ class _Field:
         return (p[0] + x, p[1] + y), (q[0] + x, q[1] + y)
 
     def _short(self, position: ExactPoint) -> ExactPoint:
-        """Return a free position of few digits beside one of many, if there is one; it is off by a 2**33th at most."""
-        if max(max(c.numerator.bit_length(), c.denominator.bit_length()) for c in position) <= LONG:
+        """Return a free position of few decimals beside one of many, if there is one."""
+        if all((c / self.unit).denominator == 1 for c in position):
             return position
-        unit = Fraction(2) ** (math.frexp(self.size)[1] - GRID_BITS)
-        i, j = (math.floor(c / unit) for c in position)
+        i, j = (math.floor(c / self.unit) for c in position)
         for dx, dy in NEARBY:
-            near = (i + dx) * unit, (j + dy) * unit
+            near = (i + dx) * self.unit, (j + dy) * self.unit
             if self.is_free(near):
                 return near
         return position
@@ -387,9 +390,15 @@ class _Nester:
     """The state of a placement."""
 
     def __init__(
-        self, stock: Sequence[Any], apart: Fraction, inset: Fraction, angles: tuple[Tau, ...] | None, toward: Toward
+        self,
+        stock: Sequence[Any],
+        apart: Fraction,
+        inset: Fraction,
+        angles: tuple[Tau, ...] | None,
+        toward: Toward,
+        error: float,
     ) -> None:
-        self.angles, self.toward = angles, toward
+        self.angles, self.toward, self.error = angles, toward, error
         self.sheets = [_one_inside(sheet, k) for k, sheet in enumerate(stock)]
         self.apart, self.inset = _disc(apart), _disc(inset)
         self.placed: list[Placed] = []
@@ -430,7 +439,7 @@ class _Nester:
         (x0, y0, x1, y1), (u0, v0, u1, v1) = box_of([container]), box_of(parts)
         box = np.array([[float(x0 - u0), float(y0 - v0)], [float(x1 - u1), float(y1 - v1)]])
         fit = _Obstacle.of(sums_of(complement(container, parts), parts, self.inset))
-        return _Field(fit, box, self.toward)
+        return _Field(fit, box, self.toward, self.error)
 
     def _obstacle(self, one: Placed, kind: _Kind, tau: Tau) -> _Obstacle:
         fixed, own = self._kinds[id(one.part)], one.pose.tau

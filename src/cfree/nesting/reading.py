@@ -22,7 +22,7 @@ from cfree.formats.shapes import Shape, Shapes
 from cfree.formats.text.archive import is_archive
 from cfree.formats.text.findings import Findings, InvalidFileError, read_text, whole
 from cfree.formats.text.json_text import read_literals, with_numbers
-from cfree.nesting.layout import Nesting, Part, Placed, shape_box, with_quantity
+from cfree.nesting.layout import Nesting, Part, Placed, shape_box, union, with_quantity
 from cfree.polygons.polygon import Polygon
 from cfree.scene.reading import Note
 from cfree.scene.scene import AnyShape
@@ -126,7 +126,7 @@ def _instance(source: Source, data: Any) -> Job:
     counts = Counter(number for _, places in layouts for number, _ in places)
     rest = {number: reader.demand[number] - counts[number] for number in parts}
     if height is not None:
-        sheets = [_rectangle(length or _generous(parts.values(), height), height)]
+        sheets: list[AnyShape] = [_rectangle(length or _generous(parts.values(), height), height)]
         where = [0] * len(layouts)
     else:
         sheets, where = _stock(bins, [container for container, _ in layouts], sum(max(0, n) for n in rest.values()))
@@ -150,9 +150,7 @@ def _places(reader: NestingReader, rows: list[Any], items: Any, path: Any) -> It
             yield place
 
 
-def _stock(
-    bins: dict[int, tuple[int, list[Any]]], used: list[Any], demand: int
-) -> tuple[list[AnyShape], list[int]]:
+def _stock(bins: dict[int, tuple[int, list[Any]]], used: list[Any], demand: int) -> tuple[list[AnyShape], list[int]]:
     """Return sheets, and the sheet of each layout: first those of the layouts, then the rest of the stock."""
     stock = {number: count for number, (count, shapes) in bins.items() if shapes}
     if not stock:
@@ -167,24 +165,29 @@ def _stock(
     return [bins[number][1][0] for number in names], [*range(len(used))]
 
 
-def _rectangle(width: Fraction, height: Fraction) -> AnyShape:
+def _rectangle(width: Fraction, height: Fraction) -> Polygon:
     return Polygon([(0, 0), (width, 0), (width, height), (0, height)])
 
 
 def _generous(parts: Iterable[Part], height: Fraction) -> Fraction:
     """Return a length of a strip that is enough for all parts one after the other, in whole units."""
-    lengths = [math.dist(box[:2], box[2:]) * part.quantity for part in parts for box in [_box(part)]]
+    boxes = [(part.quantity, *map(float, union(map(shape_box, part.shapes)))) for part in parts]
+    lengths = [count * math.hypot(x1 - x0, y1 - y0) for count, x0, y0, x1, y1 in boxes]
     return Fraction(math.ceil(sum(lengths)) + 1)
 
 
-def _box(part: Part) -> tuple[float, float, float, float]:
-    x0, y0, x1, y1 = zip(*map(shape_box, part.shapes), strict=True)
-    return float(min(x0)), float(min(y0)), float(max(x1)), float(max(y1))
-
-
-def strip(parts: Iterable[Part], height: Fraction) -> AnyShape:
+def strip_for(parts: Iterable[Part], height: Fraction) -> Polygon:
     """Return a strip of a height that is long enough for all parts."""
     return _rectangle(_generous(parts, height), height)
+
+
+def cut_off(nesting: Nesting) -> Polygon:
+    """Return the strip of a layout, cut off where its last part ends."""
+    (_, _, _, height), ends = (
+        shape_box(nesting.sheets[0]),
+        [shape_box(s)[2] for one in nesting.placed for s in one.shapes],
+    )
+    return _rectangle(max(ends), height)
 
 
 def job_of(shapes: Shapes) -> Job:

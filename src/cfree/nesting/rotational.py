@@ -124,9 +124,7 @@ class RotationalNFP(Value):
             for k in np.unique(ranks, return_index=True)[1].tolist():
                 rank = int(ranks[k])
                 if rank not in named and rank != whole:
-                    table, row = (
-                        (self.boundary.trapezoids, k) if k < faces else (self.boundary.isolated, k - faces)
-                    )
+                    table, row = (self.boundary.trapezoids, k) if k < faces else (self.boundary.isolated, k - faces)
                     root = critical_angle(self.boundary, table, row, is_last)
                     named[rank] = AlgebraicAngle(int(table.chart[row]), root)
         return tuple(sorted(dict.fromkeys(named.values()), key=lambda angle: angle.theta))

@@ -89,7 +89,9 @@ def _is_inside(ring: IntRing, x: int, y: int, unit: int) -> bool:
 def sums_of(obstacles: Iterable[Polygon], parts: Iterable[Polygon], grown: Sequence[ExactPoint] = ()) -> Sums:
     """Return the forbidden positions of parts that move together among obstacles; `grown` is a convex ring to add."""
     solids, robot = list(obstacles), list(parts)
-    scale = math.lcm(*(polygon.denominator for polygon in (*solids, *robot)), *(c.denominator for p in grown for c in p))
+    scale = math.lcm(
+        *(polygon.denominator for polygon in (*solids, *robot)), *(c.denominator for p in grown for c in p)
+    )
     walls = [ring for polygon in solids for ring in pieces_of(polygon, scale)]
     mirrored = [_mirrored(ring) for polygon in robot for ring in pieces_of(polygon, scale)]
     outlines = [
@@ -104,7 +106,7 @@ def sums_of(obstacles: Iterable[Polygon], parts: Iterable[Polygon], grown: Seque
     return Sums(scale, tuple(sums), tuple(dict.fromkeys(_convolution(outlines))))
 
 
-def _convolution(shapes: Sequence[Sequence[Sequence[IntPoint]]]) -> Iterator[tuple[IntPoint, IntPoint]]:
+def _convolution(shapes: Sequence[Sequence[list[IntPoint]]]) -> Iterator[tuple[IntPoint, IntPoint]]:
     """Yield sums of an edge of one of some shapes and of convex vertices of the others that face it."""
     corners = [[corner for ring in shape for corner in _convex_corners(ring)] for shape in shapes]
     for k, shape in enumerate(shapes):
@@ -112,9 +114,7 @@ def _convolution(shapes: Sequence[Sequence[Sequence[IntPoint]]]) -> Iterator[tup
         for ring in shape:
             for (x, y), (x1, y1) in zip(ring[-1:] + ring[:-1], ring, strict=True):
                 u, v = x1 - x, y1 - y
-                facing = (
-                    [p for p, (a, b), (c, d) in each if a * v >= b * u and u * d >= v * c] for each in others
-                )
+                facing = ([p for p, (a, b), (c, d) in each if a * v >= b * u and u * d >= v * c] for each in others)
                 for points in product(*facing):
                     dx, dy = sum(p[0] for p in points), sum(p[1] for p in points)
                     yield (x + dx, y + dy), (x1 + dx, y1 + dy)

@@ -23,6 +23,7 @@ from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape
 
 SUFFIXES = (".svg", ".dxf", ".geojson")
+SVG_UNITS = ("mm", "cm", "in", "px", "pt", "pc")
 CHORDS = 4000  # of the size: error of polygons for curves that a format does not have
 APART = 0.05  # share of the widest sheet between two sheets
 
@@ -60,7 +61,7 @@ def save_nesting(nesting: Nesting, path: str | PathLike[str]) -> None:
     ----------
     nesting : Nesting
     path : path
-        ``.svg``: lines, arcs and Bézier curves. ``.dxf``: closed polylines with arcs, a layer for each name. Both have
+        ``.svg``: lines, arcs and Bézier curves. ``.dxf``: closed polylines with arcs, a layer for each part. Both have
         several sheets side by side, and doubles. ``.geojson``: exact coordinates, with the pose and the sheet of each
         part as properties; fine polygons around round shapes.
 
@@ -182,18 +183,25 @@ def nesting_svg(nesting: Nesting) -> str:
     """Return a layout as SVG, y upwards, a path for each sheet and part."""
     at = shifts(nesting)
     sheets = [(f"sheet {k}", sheet, at[k]) for k, sheet in enumerate(nesting.sheets)]
-    parts = [(k, shape, at[min(one.sheet, len(at) - 1)]) for k, one in enumerate(nesting.placed) for shape in one.shapes]
+    parts = [
+        (k, shape, at[min(one.sheet, len(at) - 1)]) for k, one in enumerate(nesting.placed) for shape in one.shapes
+    ]
     boxes = [
         (float(x0) + dx, float(y0), float(x1) + dx, float(y1))
         for _, shape, dx in (*sheets, *parts)
         for x0, y0, x1, y1 in [shape_box(shape)]
     ]
-    x0, y0, x1, y1 = (f(each) for f, each in zip((min, min, max, max), zip(*boxes or [(0, 0, 1, 1)], strict=True), strict=True))
+    x0, y0, x1, y1 = (
+        f(each) for f, each in zip((min, min, max, max), zip(*boxes or [(0, 0, 1, 1)], strict=True), strict=True)
+    )
     margin = max(x1 - x0, y1 - y0) / 50
     box = f"{x0 - margin:.6g} {-y1 - margin:.6g} {x1 - x0 + 2 * margin:.6g} {y1 - y0 + 2 * margin:.6g}"
+    width, height = (float(f"{side + 2 * margin:.6g}") for side in (x1 - x0, y1 - y0))
+    size = f' width="{width:g}{nesting.units}" height="{height:g}{nesting.units}"' if nesting.units in SVG_UNITS else ""
     colours = {name: CATEGORIES[k % len(CATEGORIES)] for k, name in enumerate(_names(nesting))}
     lines = [
-        f'  <path data-role="workspace" data-name="{name}" fill="none" stroke="{OBSTACLE}"{_THIN} d="{_path(shape, dx)}"/>'
+        f'  <path data-role="workspace" data-name="{name}" fill="none" stroke="{OBSTACLE}"{_THIN}'
+        f' d="{_path(shape, dx)}"/>'
         for name, shape, dx in sheets
     ]
     lines += [
@@ -203,7 +211,7 @@ def nesting_svg(nesting: Nesting) -> str:
         for k, shape, dx in parts
     ]
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">\n<g transform="scale(1 -1)">\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}"{size}>\n<g transform="scale(1 -1)">\n'
         + "\n".join(lines)
         + "\n</g>\n</svg>\n"
     )
@@ -251,7 +259,7 @@ def _dxf(nesting: Nesting) -> str:
     space, at = document.modelspace(), shifts(nesting)
     shapes = [(f"sheet {k}", sheet, at[k], 5) for k, sheet in enumerate(nesting.sheets)]
     shapes += [
-        (one.part.name or label(nesting, k), shape, at[min(one.sheet, len(at) - 1)], 7)
+        (label(nesting, k), shape, at[min(one.sheet, len(at) - 1)], 7)
         for k, one in enumerate(nesting.placed)
         for shape in one.shapes
     ]

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cfree.libraries import Floats
+from cfree.nesting.checking import overlaps, statement
 from cfree.nesting.layout import Nesting
 from cfree.nesting.nofit import NFP, InnerFit
-from cfree.nesting.checking import overlaps, statement
 from cfree.nesting.rounded import RoundedFit
 from cfree.nesting.writing import fine
 from cfree.palette import CATEGORIES, FORBIDDEN, FREE, INK, LOST, MARK, OBSTACLE_RIM, WALL, paler
@@ -65,7 +65,6 @@ def picture_of_fit(fit: NFP | InnerFit | RoundedFit) -> Figure:
     if isinstance(fit, RoundedFit):
         for line in fit.lines:
             ax.plot(*np.asarray(line).T, color=INK, linewidth=1.2)
-        points, segments = fit.points, ()
     else:
         rings = [np.array([[float(c) for c in p] for p in ring]) for ring in fit.rings]
         fill = FREE if isinstance(fit, InnerFit) else FORBIDDEN
@@ -73,10 +72,9 @@ def picture_of_fit(fit: NFP | InnerFit | RoundedFit) -> Figure:
             from matplotlib.patches import PathPatch
 
             ax.add_patch(PathPatch(path_of(rings), facecolor=fill, edgecolor=INK, linewidth=1.2))
-        points, segments = fit.points, fit.segments
-    for p, q in segments:
-        ax.plot(*zip(*[[float(c) for c in each] for each in (p, q)], strict=True), color=MARK, linewidth=2.5)
-    for p in points:
+        for segment in fit.segments:
+            ax.plot(*np.array([[float(c) for c in p] for p in segment]).T, color=MARK, linewidth=2.5)
+    for p in fit.points:
         ax.plot(float(p[0]), float(p[1]), "o", color=MARK, markersize=6)
     ax.set_title(repr(fit).strip("<>"), fontsize=10)
     _finish(ax)
