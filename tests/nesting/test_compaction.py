@@ -63,9 +63,7 @@ def test_discs_touch_the_edge_and_each_other() -> None:
 
 
 def test_overlapping_parts_are_refused() -> None:
-    with pytest.raises(
-        ValueError, match=r"^nesting: square \(part 0\) and .*: 1 deep.*; free it first$"
-    ):
+    with pytest.raises(ValueError, match=r"^nesting: square \(part 0\) and .*: 1 deep.*; free it first$"):
         compact(Nesting([SHEET], [Placed(SQUARE, (0, 0, 0)), Placed(SQUARE, (1, 0, 0))]))
 
 

@@ -111,7 +111,8 @@ def place(
     """
     given = parts if isinstance(parts, Nesting) else None
     wanted = _parts(all_parts(given) if given is not None else parts)
-    stock = given.sheets if given is not None and sheets is None else tuple(shapes_in(sheets, "sheets"))
+    own = given.sheets if given is not None else ()
+    stock = own if sheets is None else tuple(shapes_in(sheets, "sheets"))
     if not stock:
         raise ValueError("sheets: there is none; give at least one polygon")
     space, width = to_fraction(gap), to_fraction(kerf)

@@ -63,7 +63,7 @@ def save_nesting(nesting: Nesting, path: str | PathLike[str]) -> None:
     path : path
         ``.svg``: lines, arcs and Bézier curves. ``.dxf``: closed polylines with arcs, a layer for each part. Both have
         several sheets side by side, and doubles. ``.geojson``: exact coordinates, with the pose and the sheet of each
-        part as properties; fine polygons around round shapes.
+        part as properties; fine polygons inside of round shapes.
 
     Raises
     ------
@@ -113,10 +113,11 @@ def outlines_of(shape: AnyShape) -> list[Outline]:
 
 
 def fine(shape: AnyShape) -> list[Polygon]:
-    """Return polygons that look like a shape; they are around it."""
+    """Return polygons that look like a shape: inside of it, so that shapes that touch do not overlap."""
     if isinstance(shape, Polygon):
         return [shape]
-    polygons = shape.outer(max(shape.size / CHORDS, shape.least_error))
+    error = max(shape.size / CHORDS, shape.least_error)
+    polygons = shape.inner(error) or shape.outer(error)
     if len(polygons) == 1:
         return list(polygons)
     import shapely
