@@ -35,7 +35,7 @@ class Overlap:
         Length of the least translation that frees the pair; both ends are infinite if none does. Between polygons the
         ends are next to each other, between round shapes as far apart as polygons around and inside of them tell.
     vector : pair of Fraction, or None
-        A translation of the first part, as long as `depth.hi`, after which the two do not overlap, exactly.
+        A translation of the first part, as long as the upper end of the depth, after which the two do not overlap.
     names : (str, str)
     """
 

@@ -69,10 +69,13 @@ class _Fit:
         x, y = position
         return self.sums.cover((to_fraction(x), to_fraction(y)))
 
-    def nearest(self, position: ExactPoint) -> ExactPoint | None:
-        """Return the position without overlap that is nearest to one with overlap, exactly; None if there is none."""
-        places = [_foot(position, p, q) for p, q in self.edges]
-        return min((*places, *self.points), key=lambda p: _square(p, position), default=None)
+    @checked
+    def nearest(self, position: Sequence[Number]) -> ExactPoint | None:
+        """Return the position in contact that is nearest to a position, exactly; None if there is none."""
+        x, y = position
+        place = to_fraction(x), to_fraction(y)
+        feet = [_foot(place, p, q) for p, q in self.edges]
+        return min((*feet, *self.points), key=lambda p: _square(p, place), default=None)
 
     def to_shapely(self) -> BaseGeometry:
         """Return the region as a valid shapely geometry, rounded to doubles; exact fits of no width are left out."""

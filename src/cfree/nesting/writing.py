@@ -256,7 +256,10 @@ def _dxf(nesting: Nesting) -> str:
     from io import StringIO
 
     ezdxf = needed("ezdxf", "dxf", "DXF")
+    from cfree.formats.drawings.dxf import UNITS
+
     document = ezdxf.new("R2010")
+    document.units = next((code for code, unit in UNITS.items() if unit == nesting.units), 0)
     space, at = document.modelspace(), shifts(nesting)
     shapes = [(f"sheet {k}", sheet, at[k], 5) for k, sheet in enumerate(nesting.sheets)]
     shapes += [
