@@ -77,6 +77,7 @@ def test_copies_are_placed_and_the_rest_is_left() -> None:
         (["--check", "--gap", "1"], "--gap: only to place parts; leave it out"),
         (["--check", "--compact", "left"], "--check and --compact: give one of them"),
         (["--compact", "north"], '--compact: \'north\'; give "left", "right", "down" or "up"'),
+        (["--robot", "[[0, 0], [1, 0], [0, 1]]"], "--robot: nesting has no robot; leave it out"),
         (["--sheets", "2"], "--sheets: only with --sheet; leave it out"),
         (["-o", "a.step"], "a.step: no layout format; name the file .svg, .dxf or .geojson"),
     ],
@@ -85,6 +86,11 @@ def test_faults_are_one_line_and_exit_code_2(words: list[str], fault: str) -> No
     result = run(PARTS, *words)
     assert result.exit_code == 2 and fault in result.stderr and "Traceback" not in result.output
     assert len([line for line in result.stderr.splitlines() if line.startswith("error")]) == 1
+
+
+def test_options_of_drawings_are_refused_for_instances() -> None:
+    result = run(ITEMS, "--scale", "2")
+    assert result.exit_code == 2 and "--scale: only for drawings, and this file is read as nesting JSON" in result.stderr
 
 
 def test_a_drawing_without_a_sheet_names_the_ways_to_give_one(tmp_path: Path) -> None:

@@ -49,7 +49,7 @@ SIDES = ["left", "right", "down", "up"]
 @click.option("--gap", default="0", metavar="D", show_default=True,
               help="Keep cuts D apart, and off the edge of the sheet.")  # fmt: skip
 @click.option("--kerf", default="0", metavar="W", show_default=True, help="Add the width W of the cut.")
-@click.option("--toward", type=Word(["bottom", "left"]), default="bottom", show_default="bottom; of a strip: left",
+@click.option("--toward", type=Word(["bottom", "left"]), show_default="bottom; of a strip: left",
               help="Place parts lowest, or leftmost.")  # fmt: skip
 @click.option("--check", is_flag=True, help="Check the layout in FILE, exactly; place nothing.")
 @click.option("--compact", type=Word(SIDES), metavar="SIDE",
@@ -68,7 +68,7 @@ def nest(
     rotations: str,
     gap: str,
     kerf: str,
-    toward: str,
+    toward: str | None,
     check: bool,
     compact: str | None,
     max_seconds: float | None,
@@ -132,6 +132,10 @@ def _read(source: Path) -> Job:
     with status() as say:
         say("reading ...")
         job, form = read_job(source, drawing.options_of_reading())
+    if form == "nesting":
+        drawing.refuse_all("only for drawings, and this file is read as nesting JSON")
+    drawing.refuse("nesting has no robot", "robot", "pivot", "padding")
+    drawing.refuse("layouts have no frame", "frame")
     drawing.refuse_unused((form,), curved=any(part.is_round for part in (one.part for one in job.nesting.placed)))
     reading.report(job.record, source)
     return job
@@ -146,7 +150,7 @@ def _placed(
     rotations: str,
     gap: str,
     kerf: str,
-    toward: str,
+    toward: str | None,
     max_seconds: float | None,
 ) -> Nesting:
     from cfree.nesting.layout import all_parts, with_quantity
@@ -156,7 +160,7 @@ def _placed(
     if not parts:
         raise ValueError("no part: the file has only sheets; draw parts on other layers, or give them other names")
     stock, is_strip = _stock(job, parts, sheet, strip, sheets)
-    chosen: Any = "left" if is_strip and toward == "bottom" else toward
+    chosen: Any = toward or ("left" if is_strip else "bottom")
     with bar("placing") as progress:
         nesting = place(
             parts, stock, rotations=_rotations(rotations), gap=_length(gap, "--gap"), kerf=_length(kerf, "--kerf"),
