@@ -90,7 +90,8 @@ def test_faults_are_one_line_and_exit_code_2(words: list[str], fault: str) -> No
 
 def test_options_of_drawings_are_refused_for_instances() -> None:
     result = run(ITEMS, "--scale", "2")
-    assert result.exit_code == 2 and "--scale: only for drawings, and this file is read as nesting JSON" in result.stderr
+    assert result.exit_code == 2
+    assert "--scale: only for drawings, and this file is read as nesting JSON" in result.stderr
 
 
 def test_a_drawing_without_a_sheet_names_the_ways_to_give_one(tmp_path: Path) -> None:

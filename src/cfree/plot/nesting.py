@@ -49,6 +49,7 @@ def picture_of_nesting(nesting: Nesting) -> Figure:
                 if len(nesting.placed) <= MOST_LABELS:
                     x, y = _middle(one.shapes)
                     ax.text(x, y, str(k), ha="center", va="center", fontsize=7, color=INK)
+        ax.set_xlabel(nesting.units)
         _finish(ax)
     share = f"{100 * nesting.density:.1f} % of the used sheets; " if nesting.sheets else ""
     left = sum(part.quantity for part in nesting.left)
