@@ -105,6 +105,44 @@ def test_arcs_of_a_turned_part_are_where_it_touches(theta: str) -> None:
     assert result.area == pytest.approx(result.to_shapely().area, rel=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("container", "part", "segments", "points"),
+    [
+        ([(0, 0), (2, 0), (2, 2), (0, 2)], Curved.circle((0, 0), 1), (), {(1, 1)}),
+        ([(0, 0), (4, 0), (0, 3)], Curved.circle((0, 0), 1), (), {(1, 1)}),
+        ([(0, 0), (6, 0), (6, 2), (0, 2)], Curved.circle((0, 0), 1), {((1, 1), (5, 1))}, set()),
+        (
+            [(0, 0), (6, 0), (6, 2), (0, 2)],
+            Curved([(0, 0), (1, 0), (1, 1), (0, 1)], grown="1/2"),
+            {((Fraction(1, 2), Fraction(1, 2)), (Fraction(9, 2), Fraction(1, 2)))},
+            set(),
+        ),
+        ([(0, 0), (8, 0), (8, 6), (0, 6)], Curved.circle((0, 0), 1), (), set()),
+    ],
+)
+def test_exact_fits_of_round_parts_are_kept(container: object, part: Curved, segments: object, points: object) -> None:
+    result = inner_fit(container, part)
+    assert isinstance(result, RoundedFit)
+    assert {tuple(sorted(segment)) for segment in result.segments} == set(segments)  # type: ignore[call-overload]
+    assert set(result.points) == points
+    for place in (*result.points, *(end for segment in result.segments for end in segment)):
+        assert not result.overlaps(place)
+
+
+def test_a_part_between_two_discs_has_a_segment() -> None:
+    discs = [Curved.circle((0, 0), 1), Curved.circle((4, 0), 1)]
+    for theta, x in (("0deg", 1), ("90deg", 3)):
+        result = nfp(discs, [(0, 0), (2, 0), (2, 2), (0, 2)], theta)
+        assert isinstance(result, RoundedFit)
+        assert {tuple(sorted(segment)) for segment in result.segments} == {((x, -2), (x, 0))}
+
+
+def test_a_peg_in_a_square_hole_is_a_point() -> None:
+    plate = Polygon([(-9, -9), (9, -9), (9, 9), (-9, 9)], [[(0, 0), (0, 2), (2, 2), (2, 0)]])
+    result = nfp(plate, Curved.circle((0, 0), 1), "17deg")
+    assert isinstance(result, RoundedFit) and result.points == ((1, 1),) and not result.segments
+
+
 def test_a_round_container_is_refused_with_the_remedy() -> None:
     with pytest.raises(cfree.UnsupportedError, match=r"workspace: round; give it as a polygon"):
         inner_fit(Curved.circle((0, 0), 5), SQUARE)

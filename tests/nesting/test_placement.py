@@ -31,6 +31,11 @@ def test_a_bar_goes_into_its_slot_without_room_to_move() -> None:
     assert result.density == 1 and [one.part.name for one in result.placed] == ["plate", "bar"]
 
 
+def test_thirds_fill_a_sheet() -> None:
+    third = Part([(0, 0), ("1/3", 0), ("1/3", "1/3"), (0, "1/3")], "third", 9)
+    assert place(third, [(0, 0), (1, 0), (1, 1), (0, 1)]).density == pytest.approx(1)
+
+
 def test_a_part_fills_a_hole_of_its_own_shape() -> None:
     hole = [(1, 1), (1, 3), (3, 1)]
     plate = Part(Polygon([(0, 0), (4, 0), (4, 4), (0, 4)], [hole]), "plate")

@@ -36,6 +36,7 @@ from cfree.scene.scene import shapes_in
 SIDES_OF_GAP = 16  # of the polygon around a disc that keeps parts apart
 MARGIN = 1e-8  # share of the size: candidates that far inside of a no-fit polygon are dropped in doubles
 MOST_ANGLES = 16  # orientations tried for a part that may be turned by any angle
+MOST_SIMPLE = 10**6  # common denominator of simple fractions
 QUARTERS: tuple[Fraction | None, ...] = (Fraction(0), Fraction(1), None, Fraction(-1))  # tau of quarter turns
 DECIMALS = 11  # of positions, below the size
 
@@ -119,10 +120,9 @@ def place(
     for name, length in (("gap", space), ("kerf", width)):
         if length < 0:
             raise ValueError(f"{name}: {length}; give a length, 0 or more")
-    rounding = 2 * max(
-        (shape.size for part in wanted for shape in part.shapes if isinstance(shape, Curved)), default=0.0
-    )
-    nester = _Nester(stock, space + width, space + width / 2, _angles(rotations), toward, rounding / ROUND_SHARE)
+    sizes = [shape.size for part in wanted for shape in part.shapes if isinstance(shape, Curved)]
+    error = 2 * max(sizes, default=0.0) / ROUND_SHARE
+    nester = _Nester(wanted, stock, space + width, space + width / 2, _angles(rotations), toward, error)
     order = [part for part in sorted(wanted, key=lambda part: -part.area) for _ in range(part.quantity)]
     end = None if max_seconds is None else time.monotonic() + max_seconds
     left: dict[int, int] = {}
@@ -235,8 +235,8 @@ def _rounded(edges: Sequence[Segment]) -> Floats:
 class _Field:
     """Candidates for the position of one part at one orientation on one sheet."""
 
-    def __init__(self, fit: _Obstacle, box: Floats, toward: Toward, error: float) -> None:
-        self.fit, self.box, self.toward = fit, box, toward
+    def __init__(self, fit: _Obstacle, box: Floats, toward: Toward, error: float, simple: int) -> None:
+        self.fit, self.box, self.toward, self.simple = fit, box, toward, simple
         self.size = float(np.abs(box).max(initial=1.0))
         self.step = max(MARGIN * self.size, error)  # positions are equally low within it
         self.unit = Fraction(10) ** (math.floor(math.log10(self.size)) - DECIMALS)
@@ -337,8 +337,11 @@ class _Field:
         return (p[0] + x, p[1] + y), (q[0] + x, q[1] + y)
 
     def _short(self, position: ExactPoint) -> ExactPoint:
-        """Return a free position of few decimals beside one of many, if there is one."""
-        if all((c / self.unit).denominator == 1 for c in position):
+        """Return a free position of few decimals beside one of many, if there is one.
+
+        Simple fractions such as thirds stay if the shapes have them.
+        """
+        if all((self.simple * c / self.unit).denominator == 1 for c in position):
             return position
         i, j = (math.floor(c / self.unit) for c in position)
         for dx, dy in NEARBY:
@@ -392,6 +395,7 @@ class _Nester:
 
     def __init__(
         self,
+        parts: Sequence[Part],
         stock: Sequence[Any],
         apart: Fraction,
         inset: Fraction,
@@ -403,13 +407,16 @@ class _Nester:
         self.sheets = [_one_inside(sheet, k) for k, sheet in enumerate(stock)]
         self.apart, self.inset = _disc(apart), _disc(inset)
         self.placed: list[Placed] = []
-        self._kinds: dict[int, _Kind] = {}
+        self._kinds = {id(part): _Kind(part, around(part.shapes)) for part in parts}
+        self.simple = 1  # common denominator of the shapes, but for decimals
+        for polygon in (*self.sheets, *(polygon for kind in self._kinds.values() for polygon in kind.polygons)):
+            self._allow(polygon)
         self._fields: dict[tuple[int, Tau, int], tuple[_Field, list[int]]] = {}
         self._between: dict[tuple[int, Tau, int, Tau], _Obstacle] = {}
 
     def add(self, part: Part) -> bool:
         """Place a part on the first sheet on which it has a place; False if there is none."""
-        kind = self._kinds.setdefault(id(part), _Kind(part, around(part.shapes)))
+        kind = self._kinds[id(part)]
         for sheet in range(len(self.sheets)):
             places = [(tau, at) for tau in self._orientations(kind, sheet) if (at := self._best(kind, tau, sheet))]
             if places:
@@ -417,6 +424,15 @@ class _Nester:
                 self.placed.append(Placed(part, pose_at(x, y, tau), sheet))
                 return True
         return False
+
+    def _allow(self, polygon: Polygon) -> None:
+        """Take the denominator of a shape for a simple one, unless that makes too large numbers."""
+        rest = polygon.denominator
+        for prime in (2, 5):
+            while rest % prime == 0:
+                rest //= prime
+        both = math.lcm(self.simple, rest)
+        self.simple = both if both <= MOST_SIMPLE else self.simple
 
     def _key(self, kind: _Kind, tau: Tau, at: ExactPoint) -> tuple[Fraction, ...]:
         """Return how far the part reaches: up, then to the right; by `toward` the other way round."""
@@ -440,7 +456,7 @@ class _Nester:
         (x0, y0, x1, y1), (u0, v0, u1, v1) = box_of([container]), box_of(parts)
         box = np.array([[float(x0 - u0), float(y0 - v0)], [float(x1 - u1), float(y1 - v1)]])
         fit = _Obstacle.of(sums_of(complement(container, parts), parts, self.inset))
-        return _Field(fit, box, self.toward, self.error)
+        return _Field(fit, box, self.toward, self.error, self.simple)
 
     def _obstacle(self, one: Placed, kind: _Kind, tau: Tau) -> _Obstacle:
         fixed, own = self._kinds[id(one.part)], one.pose.tau

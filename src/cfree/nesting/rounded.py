@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import product
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, Any
 
 from cfree.arguments import checked
@@ -18,7 +18,8 @@ from cfree.forbidden.boundary import boundary
 from cfree.forbidden.kinds import PatchKind
 from cfree.forbidden.slice import Slice
 from cfree.lazy import registered
-from cfree.scene.scene import Scene
+from cfree.nesting.contact_lines import ContactLine, contact_lines, crossings, facing, is_between
+from cfree.scene.scene import Scene, largest_of
 from cfree.words import counted
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ else:
     BaseGeometry = Any  # shapely is imported where it is used
 
 Place = tuple[float, float]
+Pair = tuple[ExactPoint, ExactPoint]
 
 
 @dataclass(frozen=True)
@@ -61,20 +63,24 @@ class RoundedFit:
         Orientation of the part, at the origin.
     edges : tuple of ContactEdge
         Positions in contact, overlap on the left. Their order and their ends are exact, the numbers are rounded.
+    segments : tuple of pairs of exact points
+        Exact fits between two lines that face each other, as a disc in a slot.
     points : tuple of exact points
-        Exact fits at which an arc of the part has the center of another arc, as a peg in its hole. Other exact fits
-        without width are not among them.
+        Exact fits at a single position: a center on a center, as a peg in its hole, or contacts on two lines. Fits
+        whose coordinates are irrational are not among them.
     """
 
     scene: Scene
     pose: Pose
     edges: tuple[ContactEdge, ...]
+    segments: tuple[Pair, ...]
     points: tuple[ExactPoint, ...]
     _cut: Slice = field(compare=False)
 
     def __repr__(self) -> str:
         arcs = sum(edge.center is not None for edge in self.edges)
-        fits = f"; exact fits: {counted(len(self.points), 'point')}" if self.points else ""
+        found = [counted(len(self.segments), "segment"), counted(len(self.points), "point")]
+        fits = f"; exact fits: {', '.join(found)}" if self.segments or self.points else ""
         return f"<RoundedFit of {counted(len(self.edges) - arcs, 'line')}, {counted(arcs, 'arc')}{fits}>"
 
     @checked
@@ -113,7 +119,8 @@ class RoundedFit:
 def rounded_fit(scene: Scene, pose: Pose) -> RoundedFit:
     """Return the positions of a part at the orientation of a pose."""
     cut = boundary(scene).slice({"tau": pose.tau})
-    return RoundedFit(scene, pose, tuple(_edges(cut, pose)), tuple(_pegs(scene, pose, cut)), cut)
+    points, segments = _exact_fits(scene, pose, cut)
+    return RoundedFit(scene, pose, tuple(_edges(cut, pose)), segments, points, cut)
 
 
 def _edges(cut: Slice, pose: Pose) -> Iterator[ContactEdge]:
@@ -129,15 +136,44 @@ def _edges(cut: Slice, pose: Pose) -> Iterator[ContactEdge]:
         yield ContactEdge(start, end, (px - x, py - y), float(record.patch_radius[patch]))
 
 
-def _pegs(scene: Scene, pose: Pose, cut: Slice) -> Iterator[ExactPoint]:
-    """Yield free positions with a center on a center that have forbidden ones all around."""
+def _exact_fits(scene: Scene, pose: Pose, cut: Slice) -> tuple[tuple[ExactPoint, ...], tuple[Pair, ...]]:
+    """Return free points with forbidden positions all around, and free segments with them on both sides."""
     import shapely
 
     others = (*scene.obstacles, *([scene.workspace] if scene.workspace is not None else []))
     moved = pose.apply_exact(centers(scene.robot))
     places = dict.fromkeys((x - u, y - v) for (u, v), (x, y) in product(moved, centers(others)))
-    for x, y in places:
-        if is_free(scene, pose_at(x, y, pose.tau)):
-            point = shapely.Point(float(x), float(y))
-            if cut.forbidden.contains(point) and cut.forbidden.boundary.distance(point) > 4 * cut.error:
-                yield x, y
+    lines = contact_lines(scene, pose)
+    places |= dict.fromkeys(crossings(lines))
+    segments = tuple(_slots(scene, pose, lines))
+    region = cut.forbidden
+    shapely.prepare(region)
+    margin = 4 * cut.error + 1e-7 * largest_of(scene)  # slices at angles of parallel edges are less precise
+
+    def is_covered(place: ExactPoint) -> bool:
+        point = shapely.Point(*map(float, place))
+        return bool(region.contains(point) and region.boundary.distance(point) > margin)
+
+    return tuple(
+        place
+        for place in filter(is_covered, places)
+        if not any(is_between(place, *segment) for segment in segments) and _is_free_at(scene, pose, place)
+    ), segments
+
+
+def _slots(scene: Scene, pose: Pose, lines: Sequence[ContactLine]) -> Iterator[Pair]:
+    """Yield the free parts of lines with two contacts that face each other."""
+    for first, last, line in facing(lines):
+        cuts = sorted({first, last, *(at for at in line.cut_by(lines) if first < at < last)})
+        free = [_is_free_at(scene, pose, line.at((a + b) / 2)) for a, b in pairwise(cuts)]
+        start = None
+        for k, is_open in enumerate([*free, False]):
+            if is_open and start is None:
+                start = cuts[k]
+            if not is_open and start is not None:
+                yield line.at(start), line.at(cuts[k])
+                start = None
+
+
+def _is_free_at(scene: Scene, pose: Pose, place: ExactPoint) -> bool:
+    return bool(is_free(scene, pose_at(*place, pose.tau)))

@@ -73,8 +73,8 @@ def picture_of_fit(fit: NFP | InnerFit | RoundedFit) -> Figure:
             from matplotlib.patches import PathPatch
 
             ax.add_patch(PathPatch(path_of(rings), facecolor=fill, edgecolor=INK, linewidth=1.2))
-        for segment in fit.segments:
-            ax.plot(*np.array([[float(c) for c in p] for p in segment]).T, color=MARK, linewidth=2.5)
+    for segment in fit.segments:
+        ax.plot(*np.array([[float(c) for c in p] for p in segment]).T, color=MARK, linewidth=2.5)
     for p in fit.points:
         ax.plot(float(p[0]), float(p[1]), "o", color=MARK, markersize=6)
     ax.set_title(repr(fit).strip("<>"), fontsize=10)
