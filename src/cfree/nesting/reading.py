@@ -79,7 +79,7 @@ def load_nesting(path: str | PathLike[str], **options: Any) -> Nesting:
     Examples
     --------
     >>> load_nesting("examples/drawings/nest.json")
-    <Nesting of 4 parts on 1 sheet, 47.0 % used>
+    <Nesting of 4 parts on 1 sheet, 38.0 % used>
     """
     if (job := _json_job(path)) is None:
         return job_of(load_shapes(path, curves=True, **options)).nesting

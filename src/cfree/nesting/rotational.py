@@ -68,7 +68,7 @@ class RotationalNFP(Value):
     >>> slot = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (3, 2), (3, 3), (0, 3)]
     >>> turning = RotationalNFP(slot, square)
     >>> len(turning.slice("30deg").segments), turning.nfp("90deg").segments != ()
-    (17, True)
+    (11, True)
     >>> [round(math.degrees(change.angle.theta)) for change in turning.topology_changes]
     [0, 90, 180, 270]
     """
