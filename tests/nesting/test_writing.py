@@ -34,6 +34,17 @@ def test_a_written_layout_is_read_again_without_overlap(nesting: Nesting, suffix
     assert overlaps(again) == () and again.density == pytest.approx(nesting.density, abs=2e-3)
 
 
+@pytest.mark.parametrize("suffix", ["svg", "dxf", "geojson"])
+def test_sheets_are_side_by_side(suffix: str, tmp_path: Path) -> None:
+    square = Part([(0, 0), ("1/3", 0), ("1/3", 2), (0, 2)], "strip", 8)
+    nesting = place(square, [[(0, 0), (1, 0), (1, 2), (0, 2)], [(-3, 0), ("-1.5", 0), ("-1.5", 2), (-3, 2)]])
+    assert len(nesting.used) == 2
+    nesting.save(tmp_path / f"a.{suffix}")
+    again = load_nesting(tmp_path / f"a.{suffix}")
+    assert [one.sheet for one in again.placed] == [one.sheet for one in nesting.placed]
+    assert all(found.depth.hi < 1e-12 for found in overlaps(again)) and (suffix != "geojson" or overlaps(again) == ())
+
+
 def test_arcs_stay_arcs_and_one_arc_stays_one(nesting: Nesting, tmp_path: Path) -> None:
     ezdxf = pytest.importorskip("ezdxf")
     save_nesting(nesting, tmp_path / "layout.svg")

@@ -61,8 +61,8 @@ def save_nesting(nesting: Nesting, path: str | PathLike[str]) -> None:
     ----------
     nesting : Nesting
     path : path
-        ``.svg``: lines, arcs and Bézier curves. ``.dxf``: closed polylines with arcs, a layer for each part. Both have
-        several sheets side by side, and doubles. ``.geojson``: exact coordinates, with the pose and the sheet of each
+        Several sheets are side by side. ``.svg``: lines, arcs and Bézier curves, 14 digits. ``.dxf``: closed polylines
+        with arcs, doubles, a layer for each part. ``.geojson``: exact coordinates, with the pose and the sheet of each
         part as properties; fine polygons inside of round shapes.
 
     Raises
@@ -94,15 +94,16 @@ def check_nesting_path(path: str | PathLike[str]) -> None:
     checked_suffix(path, "layout", SUFFIXES)
 
 
-def shifts(nesting: Nesting) -> list[float]:
-    """Return how far each sheet is drawn to the right, so that sheets are side by side."""
-    boxes = [[float(c) for c in shape_box(sheet)] for sheet in nesting.sheets]
-    apart = APART * max((x1 - x0 for x0, _, x1, _ in boxes), default=0.0)
-    result, at = [], 0.0
+def shifts(nesting: Nesting) -> list[int]:
+    """Return how far each sheet is drawn to the right, so that sheets are side by side: whole units."""
+    boxes = [shape_box(sheet) for sheet in nesting.sheets]
+    apart = math.ceil(APART * max((float(x1 - x0) for x0, _, x1, _ in boxes), default=0.0))
+    result: list[int] = []
+    end: Any = 0
     for k, (x0, _, x1, _) in enumerate(boxes):
-        result.append(at - x0 if k else 0.0)
-        at = (x1 if not k else at + x1 - x0) + apart
-    return result or [0.0]
+        result.append(math.ceil(end + apart - x0) if k else 0)
+        end = x1 + result[-1]
+    return result or [0]
 
 
 def outlines_of(shape: AnyShape) -> list[Outline]:
@@ -299,23 +300,25 @@ def _bulges(outline: Outline, dx: float) -> Iterator[tuple[float, float, float]]
 
 
 def _geojson(nesting: Nesting) -> str:
-    rows: list[tuple[dict[str, Any], AnyShape]] = [
-        ({"role": "workspace", "name": f"sheet {k}", "sheet": k}, sheet) for k, sheet in enumerate(nesting.sheets)
+    at = shifts(nesting)
+    rows: list[tuple[dict[str, Any], AnyShape, int]] = [
+        ({"role": "workspace", "name": f"sheet {k}", "sheet": k}, sheet, at[k])
+        for k, sheet in enumerate(nesting.sheets)
     ]
     for k, one in enumerate(nesting.placed):
         pose = one.pose
         tau = "inf" if pose.tau is None else str(pose.tau)
         place = {"x": str(pose.x), "y": str(pose.y), "tau": tau, "degrees": math.degrees(pose.theta)}
-        name = one.part.name or label(nesting, k)
-        rows += [({"role": "obstacle", "name": name, "sheet": one.sheet, **place}, shape) for shape in one.shapes]
+        properties = {"role": "obstacle", "name": one.part.name or label(nesting, k), "sheet": one.sheet, **place}
+        rows += [(properties, shape, at[min(one.sheet, len(at) - 1)]) for shape in one.shapes]
     lines = [
-        f'{{"type": "Feature", "properties": {json.dumps(properties, ensure_ascii=False)}, '
-        f'"geometry": {{"type": "Polygon", "coordinates": [{", ".join(map(_coordinates, polygon.exact_rings))}]}}}}'
-        for properties, shape in rows
+        f'{{"type": "Feature", "properties": {json.dumps(properties, ensure_ascii=False)}, "geometry": '
+        f'{{"type": "Polygon", "coordinates": [{", ".join(_coordinates(ring, dx) for ring in polygon.exact_rings)}]}}}}'
+        for properties, shape, dx in rows
         for polygon in fine(shape)
     ]
     return '{"type": "FeatureCollection", "features": [\n' + ",\n".join(lines) + "\n]}\n"
 
 
-def _coordinates(ring: Any) -> str:
-    return f"[{', '.join(f'[{number_text(x)}, {number_text(y)}]' for x, y in (*ring, ring[0]))}]"
+def _coordinates(ring: Any, dx: int) -> str:
+    return f"[{', '.join(f'[{number_text(x + dx)}, {number_text(y)}]' for x, y in (*ring, ring[0]))}]"
