@@ -38,6 +38,7 @@ BENCHES = (
     "curves",
     "round",
     "fits",
+    "nesting",
     "scene",
     "start",
 )

@@ -32,6 +32,7 @@ MEETING = cfree.arrangements.intersection(
 # made by cfree, and not by users
 RESULTS = """
     AlgebraicAngle AngleInterval AngleRange ArcArcSurface ArcFeature ArcGeometry ArcLine Arrangement
+    Compacted ContactEdge InnerFit NFP Overlap PartMotion RoundedFit TopologyChange
     ArrangementStatistics BezierNet BezierPatch Bottleneck Boundary BoxGrid Cell CellComplex Clearance DepthCell
     EdgeEdgeSegment EdgeFeature FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve
     Interval LocalGeometry Mesh NearestMiss OffsetSurface Pieces RationalHelix RationalRange RationalSegment
@@ -92,6 +93,8 @@ def pool() -> list[Any]:
         cfree.exact.Surd(1), cfree.Preferences(), cfree.exact.AngleInterval(None, None),
         cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING, cfree.arrangements.arrangement(SCENE),
         cfree.contact.ArcArc(0, 0), cfree.contact.arc_surface(DISC, DISC, cfree.contact.ArcArc(0, 0)),
+        (part := cfree.nesting.Part(SQUARE)), [part], (placed := cfree.nesting.Placed(part, (0, 0, 0))),
+        cfree.nesting.Nesting([], [placed]),
         cfree.Car(1), Figure().add_subplot(), Figure().add_subplot(projection="3d"),
         cfree.plan(cfree.Scene(SQUARE, [[(3, -9), (4, -9), (4, 9)]], bounds=(0, 0, 7, 2)), (0, 0, 0), (6, 0, 0)),
     ]  # fmt: skip

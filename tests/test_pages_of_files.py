@@ -73,6 +73,16 @@ def test_the_forklift_is_led_from_the_map_to_poses() -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("here")
+def test_the_page_about_nesting_leads_from_a_drawing_to_a_compacted_layout() -> None:
+    page = ROOT / "docs" / "nesting.md"
+    for command, lines in commands(page):
+        test_commands_print_the_lines_that_are_shown(command, lines)
+    result = doctest.testfile(str(page), module_relative=False)
+    assert result.attempted >= 15 and not result.failed
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("here")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_python_of_the_pages_runs(page: Path) -> None:
     import numpy as np

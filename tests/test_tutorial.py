@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+import cfree
 from cfree import clearance
 
 GALLERY = Path(__file__).parents[1] / "examples" / "gallery"
@@ -64,3 +65,11 @@ def test_round_shapes(run: Run) -> None:
     assert "is free of collisions. verified" in said and "not even one that touches. verified" in said
     assert "[ True False  True]" in said
     assert found["path"].curved is found["scene"] and found["proof"].curved is found["wide"]
+
+
+@pytest.mark.slow
+def test_nest_parts(run: Run) -> None:
+    names, said = run("plot_nest_parts.py")
+    assert "exact fits: 1 segment, 0 points" in said and "holes 0 -> 1" in said
+    assert "tile (part 0) and tile (part 1): 0.001 deep" in said and said.rstrip().endswith("[True, True]")
+    assert not cfree.nesting.overlaps(names["cut"]) and len(names["cut"].placed) == 5

@@ -64,6 +64,12 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
     )
     meeting = cfree.arrangements.intersection(floor, slope)
     three = cfree.arrangements.triple(floor, below, slope)
+    tile = cfree.nesting.Part([(0, 0), (x, 0), (0, 2)], "tile", x)
+    tiles = cfree.nesting.Nesting([ROOM], [cfree.nesting.Placed(tile, (1, 1, 0))])
+    compacted = cfree.nesting.compact(tiles, (x, 1), turning=False)
+    rounded = cfree.nesting.nfp(TRIANGLE, cfree.Curved.circle((0, 0), x))
+    slot = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (3, 2), (3, 3), (0, 3)]
+    turning = cfree.nesting.RotationalNFP([(a * x, b * x) for a, b in slot], [(0, 0), (x, 0), (x, x), (0, x)])
     return {
         "AlgebraicAngle": interval.start,
         "AllSeparated": cfree.AllSeparated((separated,), ((step, step),), "closed"),
@@ -160,6 +166,18 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "Unwanted": cfree.paths.Unwanted("sideways", 1.0, 0, x),
         "VertexEdge": VertexEdge(0, x),
         "VertexVertex": VertexVertex(0, x),
+        "Part": tile,
+        "Placed": tiles.placed[0],
+        "Nesting": tiles,
+        "Overlap": cfree.nesting.overlaps(cfree.nesting.Nesting([], [tiles.placed[0]] * 2))[0],
+        "Compacted": compacted,
+        "PartMotion": compacted.motions[0],
+        "NFP": cfree.nesting.nfp(walls, TRIANGLE),
+        "InnerFit": cfree.nesting.inner_fit(ROOM, walls),
+        "RoundedFit": rounded,
+        "ContactEdge": rounded.edges[0],
+        "RotationalNFP": turning,
+        "TopologyChange": turning.topology_changes[x - 4],
         # not named in `cfree`, but what its values hold
         "IsolatedParts": cfree.boundary(cfree.Scene(ROBOT, [], bounds=(0, 0, 1, 1), name=str(x))).isolated
         if x == 4

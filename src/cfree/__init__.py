@@ -114,7 +114,7 @@ _HOMES = {
 }
 _PACKAGES = (
     "analysis arrangements collision contact curves distributed exact figures film forbidden formats free geometry "
-    "ompl paths planning plot rational verify viewer"
+    "nesting ompl paths planning plot rational verify viewer"
 )
 _MOVED = {
     "analysis": "Blocker Fit Interval NearestMiss",
@@ -130,5 +130,9 @@ register("picture", "cfree.viewer.pictures", "picture")
 register("scene_from_grid", "cfree.formats.drawings.grid_scene", "scene_from_grid")
 register("drive_along", "cfree.planning.vehicles", "drive_along")
 register("figure", "cfree.plot", "picture")
+register("nesting_picture", "cfree.plot.nesting", "picture_of_nesting")
+register("fit_picture", "cfree.plot.nesting", "picture_of_fit")
+register("save_nesting", "cfree.nesting.writing", "save_nesting")
+register("nesting_svg", "cfree.nesting.writing", "nesting_svg")
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES, _MOVED)
 __all__ = ["__version__", *_NAMES]

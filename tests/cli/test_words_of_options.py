@@ -13,6 +13,8 @@ from cfree.cli.app import app
 from cfree.cli.options import Word
 from cfree.film import Storyboard
 from cfree.formats.answers.answer_file import Form
+from cfree.nesting.compaction import Side
+from cfree.nesting.placement import Toward
 from cfree.paths.path import Objective
 from cfree.paths.stops import Stops
 from cfree.plot.rendered import Renderer
@@ -23,6 +25,7 @@ NEEDED = {"film": [SCENE, "-o", "film.gif"], "figures": ["-o", "figures"], "conv
 OF_READING = {f"--{name.replace('_', '-')}": hint for name, hint in get_type_hints(cfree.load_shapes).items()}
 SAME = {name: OF_READING[name] for name in ("--unknown", "--map-rules", "--holes", "--fills")} | {
     "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer,
+    "--toward": Toward, "--compact": Side,
     "--gears": Gears, "--stops": Stops, "--vehicle": Literal["car", "differential", "forklift", "any"],
 }  # fmt: skip
 

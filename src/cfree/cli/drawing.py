@@ -139,6 +139,19 @@ def refuse_all(why: str) -> None:
         raise ValueError(f"{', '.join(names)}: {why}; leave {'it' if len(names) == 1 else 'them'} out")
 
 
+def refuse(why: str, *names: str) -> None:
+    """Refuse some options about reading that are on the command line.
+
+    Raises
+    ------
+    ValueError
+        If there is one; the message names it and the reason.
+    """
+    for name in names:
+        if name in _named():
+            raise ValueError(f"{_named()[name]}: {why}; leave it out")
+
+
 def refuse_unused(forms: tuple[str, ...], *, curved: bool) -> None:
     """Refuse options that have no effect on files of these formats.
 

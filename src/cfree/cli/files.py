@@ -189,6 +189,8 @@ def _check_name(content: str, path: Path) -> None:
             from cfree.film.encode import check_film_path as check
         case "geojson":
             from cfree.formats.boundaries.slice_geojson import check_slice_path as check
+        case "layout":
+            from cfree.nesting.writing import check_nesting_path as check
         case "mesh":
             from cfree.formats.boundaries.mesh_file import check_mesh_path as check
         case "page":

@@ -311,7 +311,7 @@ def _in_arcs(room: Room, pose: Pose, length: float) -> Pose | None:
     """Return the nearest free pose at which an arc of the robot has the center of another arc, as a peg in its hole."""
     if not room.scene.curved:
         return None
-    robot, others = (_centers(shapes) for shapes in (room.scene.robot, _others(room.scene)))
+    robot, others = (centers(shapes) for shapes in (room.scene.robot, _others(room.scene)))
     taus = [sum_of_angles(Pose(0, 0, f"{turn:g}deg").tau, pose.tau) for turn in TURNS]
     places = [
         pose_at(x - u, y - v, tau)
@@ -323,7 +323,7 @@ def _in_arcs(room: Room, pose: Pose, length: float) -> Pose | None:
     return next(filter(room.is_free, nearest), None)
 
 
-def _centers(shapes: Sequence[AnyShape]) -> list[ExactPoint]:
+def centers(shapes: Sequence[AnyShape]) -> list[ExactPoint]:
     """Return the centers of circular arcs."""
     pieces = (piece for shape in shapes if isinstance(shape, Curved) for ring in shape.curves for piece in ring)
     return [*dict.fromkeys(piece.center for piece in pieces if isinstance(piece, Span) and piece.is_circular)]

@@ -35,7 +35,7 @@ _SAME_ANGLE = 1e-5
 
 def read_nesting(source: Source, data: Any) -> Shapes:
     """Read an instance, or an instance with its solution."""
-    reader = _Reader(source)
+    reader = NestingReader(source)
     items = reader.items(data)
     placed = [shape for layout, path in reader.layouts(data) for shape in reader.placed(layout, path, items)]
     shapes = [shape for shape in placed if shape.role != IGNORE]
@@ -65,10 +65,13 @@ def _member(value: Any, *names: str) -> tuple[Any, str]:
 Item = tuple[str, list[float], list[Polygon]]
 
 
-class _Reader:
+class NestingReader:
+    """Read the parts of the JSON of an instance; faults are collected."""
+
     def __init__(self, source: Source) -> None:
         self.source = source
         self.findings = source.findings
+        self.demand: dict[int, int] = {}
 
     def items(self, data: Any) -> dict[int, Item]:
         """Return name, allowed degrees and polygons of items by id."""
@@ -88,9 +91,72 @@ class _Reader:
                 self.findings.under((key, k), f"id {number} is there twice; keep one")
             by_id[number] = f"item {number}", allowed, self.polygons(shape, (key, k, shape_key))
             demand, _ = _member(item, "demand")
-            if type(demand) is int and demand > 1:
+            self.demand[number] = demand if type(demand) is int and demand >= 0 else 1
+            if self.demand[number] > 1:
                 self.source.note("info", "item, wanted several times and read once")
         return by_id
+
+    def bins(self, data: Any) -> dict[int, tuple[int, list[Polygon]]]:
+        """Return stock, -1 if it has no limit, and polygons of bins by id; `containers` and `objects` are bins."""
+        bins, key = _member(data, "bins", "containers", "objects")
+        by_id: dict[int, tuple[int, list[Polygon]]] = {}
+        for k, one in enumerate(bins if isinstance(bins, list) else ()):
+            self.source.spend()
+            number, stock = _member(one, "id")[0], _member(one, "stock")[0]
+            shape, shape_key = _member(one, "shape")
+            polygons = self.polygons(shape, (key, k, shape_key))
+            stock = stock if type(stock) is int and stock >= 0 else -1
+            by_id[number if type(number) is int else k] = stock, polygons
+        return by_id
+
+    def strip_height(self, data: Any) -> Fraction | None:
+        """Return the height of the strip; None if the instance has none."""
+        height, key = _member(data, "strip_height")
+        strip, strip_key = _member(data, "strip")
+        if height is None and strip is not None:
+            height, key = _member(strip, "height")[0], strip_key
+        if height is None:
+            return None
+        try:
+            value: Fraction = _NUMBER.validate_python(height)
+        except ValidationError as error:
+            self.report(error, (key,))
+            return None
+        if value <= 0:
+            self.findings.under((key,), "the height of a strip; give a number above 0")
+            return None
+        return value
+
+    def strip_width(self, data: Any) -> Fraction | None:
+        """Return the length of the strip that the solution uses; None without one."""
+        try:
+            width = _member(_member(data, "solution")[0], "strip_width")[0]
+            value: Fraction | None = None if width is None else _NUMBER.validate_python(width)
+        except ValidationError:
+            return None
+        return value if value and value > 0 else None
+
+    def all_layouts(self, data: Any) -> Iterator[tuple[Any, list[Any], Path]]:
+        """Yield the container's id, the placed items, and their place in the file, of each layout of the solution."""
+        solution, key = _member(data, "solution")
+        for value, path in ((data, ()), (solution, (key,))):
+            single, inner = _member(value, "layout")
+            several, many = _member(value, "layouts")
+            layouts = [(single, (*path, inner))] if single is not None else []
+            layouts += [(one, (*path, many, k)) for k, one in enumerate(several if isinstance(several, list) else ())]
+            for layout, place in layouts:
+                container, _ = _member(layout, "container_id", "bin_id", "object_id")
+                rows, rows_key = _member(layout, "placed_items")
+                yield container, rows if isinstance(rows, list) else [], (*place, rows_key)
+
+    def place_of(self, one: Any, items: dict[int, Item], path: Path) -> tuple[int, Pose] | None:
+        """Return id and pose of a placed item; None if it is no item."""
+        self.source.spend()
+        number, _ = _member(one, "item_id", "index")
+        if type(number) is not int or number not in items:
+            self.findings.under(path, "its item_id is no item's; give the id of an item")
+            return None
+        return number, self.pose(_member(one, "transformation")[0], items[number][1], path)
 
     def polygons(self, shape: Any, path: Path) -> list[Polygon]:
         kind, _ = _member(shape, "type")

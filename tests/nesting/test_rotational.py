@@ -1,0 +1,66 @@
+"""No-fit polygons at all orientations: slices, events, and changes of topology."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import shapely
+
+import cfree
+from cfree import Curved, Polygon
+from cfree.nesting import NFP, RotationalNFP, nfp
+
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+SLOT = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (3, 2), (3, 3), (0, 3)]
+PLATE = Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(2, 2), (2, 5), (6, 2)]])
+TRIANGLE = [(0, 0), (2, 0), (0, 2)]
+
+
+@pytest.mark.parametrize("degrees", range(5, 360, 35))
+def test_a_slice_is_the_no_fit_polygon(degrees: int) -> None:
+    turning = RotationalNFP(PLATE, TRIANGLE)
+    exact = turning.nfp(f"{degrees}deg")
+    cut = turning.slice(f"{degrees}deg").forbidden
+    assert exact == nfp(PLATE, TRIANGLE, f"{degrees}deg")
+    assert shapely.symmetric_difference(cut, exact.to_shapely()).area < 1e-9
+
+
+def test_events_are_all_angles_of_parallel_edges_and_more() -> None:
+    events = {round(math.degrees(event.theta), 6) for event in RotationalNFP(SLOT, SQUARE).events}
+    assert events == {0, 90, 180, 270}
+
+
+def test_topology_changes_where_the_part_begins_to_fit_into_the_hole() -> None:
+    turning = RotationalNFP(PLATE, TRIANGLE)
+    changes = turning.topology_changes
+    assert changes
+    for change in changes:
+        for turn, expected in ((-1e-6, change.before), (1e-6, change.after)):
+            fit = turning.nfp(change.angle.theta + turn)
+            assert isinstance(fit, NFP)
+            signs = [_area(ring) > 0 for ring in fit.rings]
+            assert (sum(signs), len(signs) - sum(signs)) == expected
+
+
+def _area(ring: object) -> float:
+    assert isinstance(ring, tuple)
+    return float(sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)))
+
+
+def test_exact_fits_are_events_of_the_topology() -> None:
+    turning = RotationalNFP(SLOT, SQUARE)
+    assert [change.exact_fits for change in turning.topology_changes] == [1, 1, 1, 1]
+    assert [fit.tolist() for fit in turning.exact_fits(0.0)] == [[[1, 1], [3, 1]]]
+    assert not turning.exact_fits(0.1)
+
+
+def test_round_parts_have_slices_and_no_exact_events() -> None:
+    turning = RotationalNFP(Curved.circle((0, 0), 2), SQUARE)
+    assert turning.slice(0.3).error < 1e-3
+    with pytest.raises(cfree.UnsupportedError, match="exact events: of boundaries among polygons only"):
+        turning.events  # noqa: B018
+
+
+def test_two_discs_have_no_events() -> None:
+    assert not RotationalNFP(SQUARE, SQUARE).topology_changes
