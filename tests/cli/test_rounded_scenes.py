@@ -12,6 +12,7 @@ import trimesh
 from click.testing import CliRunner
 
 import cfree
+from arc_rings import BAY, plate, shape
 from cfree.cli.app import app
 from cfree.cli.describe import expected_patches
 from cfree.forbidden.kinds import KINDS
@@ -119,6 +120,14 @@ def test_expected_patches_are_those_of_the_boundary(name: str) -> None:
     expected = expected_patches(scene, grown_features(scene))
     kinds = cfree.boundary(scene).patch_kind.tolist()
     assert expected == {text: kinds.count(kind) for kind, text in KINDS.items()} | {"total": len(kinds)}
+
+
+@pytest.mark.slow
+def test_expected_patches_of_concave_arcs_are_those_of_the_boundary() -> None:
+    robot = cfree.Curved([(0, 0), (2, 0), (0, 1)], grown="1/4")
+    for scene in (cfree.Scene(robot, [shape(BAY), plate(14, 0)]), cfree.Scene([plate()], [robot, disc(9, 0, 4)])):
+        kinds = cfree.boundary(scene).patch_kind.tolist()
+        assert expected_patches(scene, grown_features(scene))["total"] == len(kinds)
 
 
 def test_verify_takes_exact_boundaries_and_older_ones_of_polygons(discs: Path, tmp_path: Path) -> None:

@@ -698,7 +698,7 @@ bool RoundTrimmer::narrow(Cover& cover, const Sample& sample, Span& span) {
 // or if the two curves do not meet there.
 bool RoundTrimmer::crosses_at(const Band& band, Index event) {
     if (!is_line(surface.contact)) return order_at(event, band.area.lower, band.area.upper) != 0;
-    if (band.p < 0) return true;  // of a fillet
+    if (band.p < 0) return true;  // of a fillet: more may count as covered there, which matters for parts without width only
     const Event& e = events[event];
     const Shape &A = scene.robot, &O = scene.obstacles;
     bool left = false, right = false;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.formats.conversion import as_exact
 from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
-from cfree.scene.features import BODY, SceneFeatures, grown_features, scene_features
+from cfree.scene.features import BODY, SceneFeatures, ShapeFeatures, grown_features, scene_features
 from cfree.scene.naming import placed
 from cfree.scene.rounded import Rounded, rounded_shapes
 from cfree.scene.scene import round_count, shapes_of
@@ -129,7 +130,8 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
 def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
     """Count patches before trimming: of contacts, convex vertices times edges, both ways; and of the bounds.
 
-    Among rounded shapes also those of arcs, four for each two convex vertices.
+    Among rounded shapes also those of arcs: four for each two convex vertices, and for each concave arc and convex
+    vertex of a smaller radius.
     """
     robot, obstacles = features.robot, features.obstacles
     a, b = robot.core.layer == BODY, (obstacles.core.layer == BODY) & (obstacles.core.emit > 0)
@@ -139,13 +141,23 @@ def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
     if scene.curved:
         sharp_a, sharp_b = (s.radius[: len(s.previous)] == 0 for s in (robot, obstacles))
         sharp = _pairs(convex_a & sharp_a, convex_b & sharp_b)
-        counts["arc-arc"] = 4 * (_pairs(convex_a, convex_b) - sharp)
+        concave = _pairs_below_zero(robot, convex_a, obstacles, b) + _pairs_below_zero(obstacles, convex_b, robot, a)
+        counts["arc-arc"] = 4 * (_pairs(convex_a, convex_b) - sharp + concave)
     counts["bound"] = 4 if scene.bounds else 0
     return counts | {"total": sum(counts.values())}
 
 
 def _pairs(some: NDArray[np.bool_], others: NDArray[np.bool_]) -> int:
     return int(some.sum()) * int(others.sum())
+
+
+def _pairs_below_zero(
+    some: ShapeFeatures, are_convex: NDArray[np.bool_], others: ShapeFeatures, may_be: NDArray[np.bool_]
+) -> int:
+    """Count pairs of a convex vertex and of a concave arc whose radii, negative there, have a sum below 0."""
+    radii = Counter(some.core.radius[k] for k in np.flatnonzero(are_convex).tolist())
+    negative = Counter(r for k in np.flatnonzero(may_be).tolist() if (r := others.core.radius[k]) < 0)
+    return sum(n * m for r, n in radii.items() for s, m in negative.items() if r + s < 0)
 
 
 def _core_counts(cores: Sequence[Rounded]) -> dict[str, int]:
