@@ -243,8 +243,10 @@ class Oracle:
             if self.free_beside(at, BESIDE * self.size, turning=False) or self._has_room(fits, pose, at):
                 continue
             number += 1
-            here = [line for line in isolated_at(found, pose.theta)]
-            if not any(distance(line, at[:2]) < 1e-7 * self.size for line in here):
+            if any(distance(line, at[:2]) < 1e-7 * self.size for line in isolated_at(found, pose.theta)):
+                continue
+            slits = [line for line in found.slice(pose.theta).segments if distance(line, at[:2]) < 1e-6 * self.size]
+            if len(slits) < 2:  # on one, both sides are trapezoids
                 wrong.append(pose)
         return wrong, number
 
