@@ -32,11 +32,11 @@ MEETING = cfree.arrangements.intersection(
 # made by cfree, and not by users
 RESULTS = """
     AlgebraicAngle AngleInterval AngleRange ArcArcSurface ArcFeature ArcGeometry ArcLine Arrangement
-    ArrangementStatistics BezierNet BezierPatch Bottleneck Boundary BoxGrid Cell CellComplex Clearance DepthCell
-    EdgeEdgeSegment EdgeFeature FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve
-    Interval LocalGeometry Mesh NearestMiss OffsetSurface Pieces RationalHelix RationalRange RationalSegment
-    RationalSurface Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed Triple TripleContact
-    Unreachable
+    ArrangementStatistics Audit BezierNet BezierPatch Bottleneck Boundary BoxGrid Cell CellComplex Clearance DepthCell
+    Door EdgeEdgeSegment EdgeFeature FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Homology Intersection
+    IntersectionCurve Interval LocalGeometry Loop Mesh NearestMiss OffsetSurface Pieces RationalHelix RationalRange
+    RationalSegment RationalSurface ReachMap Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling
+    Timed Triple TripleContact Unreachable
 """.split()  # noqa: SIM905
 
 

@@ -102,6 +102,8 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "GaussBonnet": cfree.geometry.gauss_bonnet(boundary),
         "GaussMap": cfree.geometry.gauss_map(cfree.boundary(cfree.Scene([(0, 0), (x, 1), (0, 1)], [ROBOT]))),
         "Geodesic": cfree.geometry.geodesic(ruled, 0.5, 0.1, 0.3, x),
+        "Homology": cfree.free.Homology(1, x, 0),
+        "Loop": cfree.free.Loop(0, np.array([x], np.int32), np.zeros((2, 3)), 0),
         "Helix": cfree.contact.contact_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), VertexVertex(0, 1)),
         "Intersection": meeting,
         "IntersectionCurve": meeting.curve,

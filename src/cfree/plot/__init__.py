@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from cfree.plot.depths import plot_faces as plot_faces
     from cfree.plot.development import plot_development as plot_development
     from cfree.plot.intersections import plot_intersection as plot_intersection
+    from cfree.plot.loops import plot_loops as plot_loops
     from cfree.plot.paint import painted as painted
     from cfree.plot.path import plot_path as plot_path
     from cfree.plot.rational import plot_models as plot_models
@@ -29,6 +30,7 @@ __getattr__, __dir__, __all__ = lazy_names(
         "depths": "plot_depths plot_faces",
         "development": "plot_development",
         "intersections": "plot_intersection",
+        "loops": "plot_loops",
         "paint": "painted",
         "path": "plot_path",
         "rational": "plot_models",
