@@ -93,6 +93,7 @@ def pool() -> list[Any]:
         cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING, cfree.arrangements.arrangement(SCENE),
         cfree.contact.ArcArc(0, 0), cfree.contact.arc_surface(DISC, DISC, cfree.contact.ArcArc(0, 0)),
         cfree.Car(1), Figure().add_subplot(), Figure().add_subplot(projection="3d"),
+        cfree.reach(SCENE, orientations=1), cfree.audit(SCENE, openings={}),
         cfree.plan(cfree.Scene(SQUARE, [[(3, -9), (4, -9), (4, 9)]], bounds=(0, 0, 7, 2)), (0, 0, 0), (6, 0, 0)),
     ]  # fmt: skip
 

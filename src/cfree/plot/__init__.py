@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from cfree.plot.paint import painted as painted
     from cfree.plot.path import plot_path as plot_path
     from cfree.plot.rational import plot_models as plot_models
+    from cfree.plot.reach import plot_audit as plot_audit
+    from cfree.plot.reach import plot_reach as plot_reach
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
@@ -34,5 +36,6 @@ __getattr__, __dir__, __all__ = lazy_names(
         "paint": "painted",
         "path": "plot_path",
         "rational": "plot_models",
+        "reach": "plot_audit plot_reach",
     },
 )
