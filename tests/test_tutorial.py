@@ -64,3 +64,12 @@ def test_round_shapes(run: Run) -> None:
     assert "is free of collisions. verified" in said and "not even one that touches. verified" in said
     assert "[ True False  True]" in said
     assert found["path"].curved is found["scene"] and found["proof"].curved is found["wide"]
+
+
+@pytest.mark.slow
+def test_audit_a_floor_plan(run: Run) -> None:
+    found, said = run("plot_audit_a_floor_plan.py")
+    assert [door.result for door in found["result"].doors] == ["blocked"] * 4 + ["passes"] * 8
+    assert "not even one that touches. verified" in said and said.rstrip().endswith(
+        "room to turn round in the hall: False"
+    )

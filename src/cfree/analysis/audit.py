@@ -22,6 +22,7 @@ from cfree.analysis.margins import Interval, bisected, bracket, deepest, nearest
 from cfree.analysis.openings import Segment, bar, beside, middle_of, openings_of, to_walls
 from cfree.analysis.reach_map import free_parts, refuse_forward_only
 from cfree.arguments import checked
+from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UndecidedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose
@@ -260,8 +261,10 @@ class _Auditor:
             return door
         pairs = [*product(cells[0].values(), cells[1].values())]
         answers = [plan(self.scene, start, goal) for start, goal in pairs]
-        if any(isinstance(answer, Path) for answer in answers):  # it touches on its way
-            return door
+        touching = [answer for answer in answers if isinstance(answer, Path)]  # they slide through exact fits
+        if touching:
+            shut = MotionChecker(self.scene.with_obstacle(self.bars[k]))
+            return replace(door, result="around") if all(path.is_free(shut) for path in touching) else door
         proofs, too_wide = tuple(answer for answer in answers if isinstance(answer, Separated)), None
         with suppress(UndecidedError):  # among round shapes
             too_wide = None if tolerance is None else self._missing(pairs, tolerance)

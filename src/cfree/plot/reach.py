@@ -96,7 +96,7 @@ def plot_audit(audited: Audit) -> Figure:
     across = min(ACROSS, len(machines))
     down = math.ceil(len(machines) / across)
     figure = new_figure((1 + 6.5 * across, 0.4 + 5.2 * down))
-    figure.set_layout_engine("constrained")
+    figure.set_layout_engine("constrained", rect=(0, 0.03, 1, 0.94))
     grid = figure.subplots(down, across, squeeze=False)
     for ax, machine in zip(grid.flat, machines, strict=False):
         _draw_machine(ax, audited, machine)
