@@ -237,10 +237,11 @@ def audit(
 
 
 def read_machine(text: str) -> Any:
-    """Read the shapes of a machine, from a file or a footprint."""
+    """Read the shapes of a machine, from a file or a footprint; polygons around them replace curves but exact ones."""
     from cfree.formats.drawings.footprints import footprint
     from cfree.formats.drawings.source import Reading
     from cfree.formats.scene_file import read_shapes as read
+    from cfree.scene.scene import Scene
 
     if text.lstrip()[:1] in ("[", "("):
         return [footprint(text)]
@@ -250,7 +251,7 @@ def read_machine(text: str) -> Any:
     parts = [shape.polygon for shape in shapes.of("robot") or shapes.shapes]
     if not parts:
         raise ValueError(f"{text}: nothing in it can be the machine; draw its outline closed")
-    return parts
+    return without_curves(Scene(parts), Path(text), keep_rounded=True).robot
 
 
 def _width(width: Interval) -> str:
