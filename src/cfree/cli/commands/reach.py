@@ -147,10 +147,10 @@ def aisle(
                 )
         circle = turning_circle(scene)
         if as_json:
-            widths = {name: {"lo": found.lo, "hi": found.hi} for name, found in results.items()}
+            widths = {name: {"lo": width.lo, "hi": width.hi} for name, width in results.items()}
             print_json({"machine": machine, "widths": widths, "turning_circle": circle})
             return
-        rows = {name: _width(found) for name, found in results.items()}
+        rows = {name: _width(width) for name, width in results.items()}
         print_result("smallest aisle", Path(machine), rows | {"turning circle": f"{circle:.5g}"}, {}, False)
 
 
