@@ -32,12 +32,12 @@ MEETING = cfree.arrangements.intersection(
 # made by cfree, and not by users
 RESULTS = """
     AlgebraicAngle AngleInterval AngleRange ArcArcSurface ArcFeature ArcGeometry ArcLine Arrangement
-    Compacted ContactEdge InnerFit NFP Overlap PartMotion RoundedFit TopologyChange
-    ArrangementStatistics BezierNet BezierPatch Bottleneck Boundary BoxGrid Cell CellComplex Clearance DepthCell
-    EdgeEdgeSegment EdgeFeature FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve
-    Interval LocalGeometry Mesh NearestMiss OffsetSurface Pieces RationalHelix RationalRange RationalSegment
-    RationalSurface Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed Triple TripleContact
-    Unreachable
+    ArrangementStatistics Audit BezierNet BezierPatch Bottleneck Boundary BoxGrid Cell CellComplex Clearance
+    Compacted ContactEdge DepthCell Door EdgeEdgeSegment EdgeFeature FirstContact Fit FreeSpace GaussBonnet Geodesic
+    Helix Homology InnerFit Intersection IntersectionCurve Interval LocalGeometry Loop Mesh NFP NearestMiss
+    OffsetSurface Overlap PartMotion Pieces RationalHelix RationalRange RationalSegment RationalSurface ReachMap
+    RoundedFit Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed TopologyChange Triple
+    TripleContact Unreachable
 """.split()  # noqa: SIM905
 
 
@@ -96,6 +96,7 @@ def pool() -> list[Any]:
         (part := cfree.nesting.Part(SQUARE)), [part], (placed := cfree.nesting.Placed(part, (0, 0, 0))),
         cfree.nesting.Nesting([], [placed]),
         cfree.Car(1), Figure().add_subplot(), Figure().add_subplot(projection="3d"),
+        cfree.reach(SCENE, orientations=1), cfree.audit(SCENE, openings={}),
         cfree.plan(cfree.Scene(SQUARE, [[(3, -9), (4, -9), (4, 9)]], bounds=(0, 0, 7, 2)), (0, 0, 0), (6, 0, 0)),
     ]  # fmt: skip
 

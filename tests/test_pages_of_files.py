@@ -83,6 +83,27 @@ def test_the_page_about_nesting_leads_from_a_drawing_to_a_compacted_layout() -> 
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("here")
+def test_the_clinic_is_audited_as_the_page_about_buildings_shows() -> None:
+    page = ROOT / "docs" / "buildings.md"
+    for command, lines in commands(page):  # they follow each other, in one folder
+        test_commands_print_the_lines_that_are_shown(command, lines)
+    assert cfree.load_shapes("reach.yaml").form == "ROS map" and Path("audit.png").stat().st_size > 10_000
+    result = doctest.testfile(str(page), module_relative=False)
+    assert result.attempted >= 14 and not result.failed
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("here")
+@pytest.mark.parametrize(("name", "least"), [("teaching", 10), ("ompl", 8)])
+def test_pages_for_teachers_and_users_of_ompl_run(name: str, least: int) -> None:
+    if name == "ompl":
+        pytest.importorskip("ompl")
+    result = doctest.testfile(str(ROOT / "docs" / f"{name}.md"), module_relative=False, optionflags=doctest.ELLIPSIS)
+    assert result.attempted >= least and not result.failed
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("here")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_python_of_the_pages_runs(page: Path) -> None:
     import numpy as np

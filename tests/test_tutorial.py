@@ -73,3 +73,12 @@ def test_nest_parts(run: Run) -> None:
     assert "exact fits: 1 segment, 0 points" in said and "holes 0 -> 1" in said
     assert "tile (part 0) and tile (part 1): 0.001 deep" in said and said.rstrip().endswith("[True, True]")
     assert not cfree.nesting.overlaps(names["cut"]) and len(names["cut"].placed) == 5
+
+
+@pytest.mark.slow
+def test_audit_a_floor_plan(run: Run) -> None:
+    found, said = run("plot_audit_a_floor_plan.py")
+    assert [door.result for door in found["result"].doors] == ["blocked"] * 4 + ["passes"] * 8
+    assert "not even one that touches. verified" in said and said.rstrip().endswith(
+        "room to turn round in the hall: False"
+    )

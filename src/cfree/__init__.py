@@ -5,11 +5,15 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names, register
 
 if TYPE_CHECKING:
+    from cfree.analysis.aisles import smallest_aisle as smallest_aisle
+    from cfree.analysis.audit import audit as audit
     from cfree.analysis.blockers import blockers as blockers
     from cfree.analysis.fits import fits as fits
     from cfree.analysis.margins import max_margin as max_margin
     from cfree.analysis.margins import max_scale as max_scale
     from cfree.analysis.margins import nearest_miss as nearest_miss
+    from cfree.analysis.reach_map import reach as reach
+    from cfree.analysis.reach_map import turning_circle as turning_circle
     from cfree.collision.motion import Rotation as Rotation
     from cfree.collision.motion import Translation as Translation
     from cfree.collision.motion import motion_between as motion_between
@@ -102,9 +106,12 @@ _HOMES = {
     "planning.separation": "Separated separation",
     "planning.stuck": "Stuck",
     "planning.unreachable": "Unreachable",
+    "analysis.aisles": "smallest_aisle",
+    "analysis.audit": "audit",
     "analysis.blockers": "blockers",
     "analysis.fits": "fits",
     "analysis.margins": "max_margin max_scale nearest_miss",
+    "analysis.reach_map": "reach turning_circle",
     "formats.conversion": "convert",
     "formats.files": "load save",
     "formats.drawings.footprints": "footprint",

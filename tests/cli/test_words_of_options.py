@@ -9,6 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 import cfree
+from cfree.analysis.aisles import Kind
+from cfree.analysis.reach_map import Which
 from cfree.cli.app import app
 from cfree.cli.options import Word
 from cfree.film import Storyboard
@@ -26,6 +28,7 @@ OF_READING = {f"--{name.replace('_', '-')}": hint for name, hint in get_type_hin
 SAME = {name: OF_READING[name] for name in ("--unknown", "--map-rules", "--holes", "--fills")} | {
     "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer,
     "--toward": Toward, "--compact": Side,
+    "--kind": Kind, "--which": Which,
     "--gears": Gears, "--stops": Stops, "--vehicle": Literal["car", "differential", "forklift", "any"],
 }  # fmt: skip
 

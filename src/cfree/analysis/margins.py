@@ -130,7 +130,7 @@ def nearest_miss(
     (True, [0, 1])
     """
     start, goal = required(scene, start, goal)
-    _check(tolerance)
+    check_tolerance(tolerance)
     if scene.curved:
         miss = miss_bounds(scene, start, goal, tolerance, progress)
         return None if miss is None else NearestMiss(*miss)
@@ -148,14 +148,14 @@ def nearest_miss(
         return space is None or space.common_cell(start, goal) is None
 
     known = Insets(scene)
-    most = _deepest(smaller_robot, Fraction(2) ** known.size)
+    most = deepest(smaller_robot, Fraction(2) ** known.size)
     if not most or separated(most):
         return None
     insets = [by for power in known.powers if (by := Fraction(2) ** (known.size + power)) < most]
     least = next(filter(separated, insets), None)
     if least is None:
         return NearestMiss(0.0, float(min([*insets, most])), ())
-    lo, hi = _bisected(separated, least, most, tolerance, progress)
+    lo, hi = bisected(separated, least, most, tolerance, progress)
     one, other = spaces[lo], spaces[hi]
     if one is None or other is None:
         return NearestMiss(0.0, float(hi), ())
@@ -202,7 +202,7 @@ def max_scale(
     True
     """
     start, goal = required(scene, start, goal)
-    _check(tolerance)
+    check_tolerance(tolerance)
     if scene.curved:
         return Interval(*scale_bounds(scene, start, goal, tolerance, progress))
 
@@ -210,9 +210,9 @@ def max_scale(
         robot = [_mapped(part, lambda p: (scale * p[0], scale * p[1])) for part in scene.robot]
         return _space(with_robot(scene, robot, scene.bounds)).common_cell(start, goal) is not None
 
-    lo, hi = _bracket(is_joined, Fraction(1))
+    lo, hi = bracket(is_joined, Fraction(1))
     if lo and hi:
-        lo, hi = _bisected(is_joined, lo, hi, tolerance, progress)
+        lo, hi = bisected(is_joined, lo, hi, tolerance, progress)
     return Interval(float(lo), float(hi) if hi else math.inf)
 
 
@@ -259,7 +259,7 @@ def max_margin(
     True
     """
     start, goal = required(scene, start, goal)
-    _check(tolerance)
+    check_tolerance(tolerance)
     if scene.curved:
         return Interval(*margin_bounds(scene, start, goal, tolerance, progress))
     if _space(scene).common_cell(start, goal) is None:
@@ -268,16 +268,16 @@ def max_margin(
     def is_joined(radius: Fraction) -> bool:
         return _space(with_robot(scene, grown(scene, radius), scene.bounds)).common_cell(start, goal) is not None
 
-    lo, hi = _bracket(is_joined, Fraction(2) ** (Insets(scene).size - 3))
+    lo, hi = bracket(is_joined, Fraction(2) ** (Insets(scene).size - 3))
     if lo and hi:
-        lo, hi = _bisected(is_joined, lo, hi, tolerance, progress)
+        lo, hi = bisected(is_joined, lo, hi, tolerance, progress)
     return Interval(float(lo), math.nextafter(float(hi) * FARTHEST_OUT, math.inf) if hi else math.inf)
 
 
 # --- decisions ---
 
 
-def _deepest(smaller_robot: Callable[[Fraction], list[Polygon]], size: Fraction) -> Fraction:
+def deepest(smaller_robot: Callable[[Fraction], list[Polygon]], size: Fraction) -> Fraction:
     """Return the largest inset that leaves something of a robot, within 2**-BITS_OF_INSET of its size; 0 for none."""
     lo, hi = Fraction(0), size
     for _ in range(BITS_OF_INSET):
@@ -286,7 +286,8 @@ def _deepest(smaller_robot: Callable[[Fraction], list[Polygon]], size: Fraction)
     return lo
 
 
-def _check(tolerance: float) -> None:
+def check_tolerance(tolerance: float) -> None:
+    """Raise a ValueError if bisection cannot reach a tolerance."""
     if not 2.0 ** (2 - BITS) < tolerance < math.inf:
         raise ValueError(f"tolerance {tolerance}: give a number, more than {2.0 ** (2 - BITS):g}")
 
@@ -295,7 +296,7 @@ def _space(scene: Scene) -> FreeSpace:
     return free_space(boundary(scene))
 
 
-def _bracket(holds: Callable[[Fraction], bool], first: Fraction) -> tuple[Fraction, Fraction]:
+def bracket(holds: Callable[[Fraction], bool], first: Fraction) -> tuple[Fraction, Fraction]:
     """Return a number where something holds and a larger one where it does not, from growing steps; 0 for none."""
     step = 1
     if holds(first):
@@ -315,7 +316,7 @@ def _bracket(holds: Callable[[Fraction], bool], first: Fraction) -> tuple[Fracti
     return Fraction(0), hi
 
 
-def _bisected(
+def bisected(
     holds: Callable[[Fraction], bool], lo: Fraction, hi: Fraction, tolerance: float, progress: Progress | None
 ) -> tuple[Fraction, Fraction]:
     """Return close numbers with the property of `lo` and `hi`: something holds at the first, not at the second."""

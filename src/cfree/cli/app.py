@@ -10,6 +10,7 @@ from cfree.cli.commands.figures import figures
 from cfree.cli.commands.film import film
 from cfree.cli.commands.nest import nest
 from cfree.cli.commands.plan import plan
+from cfree.cli.commands.reach import aisle, audit, reach
 from cfree.cli.commands.scenes import check, convert
 from cfree.cli.commands.slice import cut
 from cfree.cli.commands.verify import verify
@@ -38,5 +39,5 @@ def app() -> None:
     """Compute the exact configuration space of a planar robot that translates and rotates among polygons."""
 
 
-for command in (check, convert, boundary, plan, cut, nest, film, view, verify, figures):
+for command in (check, convert, boundary, plan, cut, nest, reach, aisle, audit, film, view, verify, figures):
     app.add_command(command)

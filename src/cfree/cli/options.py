@@ -89,3 +89,33 @@ def refuse(why: str, *names: str, remedy: str = "") -> None:
 def examples(*lines: str) -> str:
     """Format the end of a command's help: example lines that are not wrapped."""
     return "\b\nExamples:\n" + "\n".join(f"  {line}" for line in lines)
+
+
+def vehicle(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a vehicle, which `read_vehicle` reads, to a command."""
+    for option in reversed(_VEHICLE):
+        command = option(command)
+    return command
+
+
+_VEHICLE = (
+    click.option(
+        "--vehicle",
+        type=Word(["car", "differential", "forklift", "any"]),
+        metavar="WORD",
+        help='Drive as a "car", "differential" drive or "forklift", about its fixed axle; "any" moves sideways.',
+        show_default="the scene's",
+    ),
+    click.option("--turning-radius", metavar="R", help="Limit the arcs of a car; or LEFT,RIGHT."),
+    click.option(
+        "--axle", metavar="X,Y", help="Place the middle of the fixed axle, in the robot's frame.", show_default="0,0"
+    ),
+    click.option("--heading", metavar="ANGLE", help="Turn forward in the robot's frame.", show_default="0deg"),
+    click.option(
+        "--gears",
+        type=Word(["both", "forward"]),
+        metavar="WORD",
+        help='Let a car go in "both" gears, or "forward" only.',
+        show_default="both",
+    ),
+)

@@ -8,6 +8,7 @@ from os import PathLike, fspath
 from pathlib import Path as FilePath
 from typing import Any
 
+from cfree.analysis.reach_map import ReachMap, Which
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.exact.half_angle import Rate
@@ -15,6 +16,7 @@ from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.mesh import Mesh
 from cfree.forbidden.slice import Slice
 from cfree.formats.answers.answer_file import Form, save_path, save_separation
+from cfree.formats.answers.reach_file import save_reach
 from cfree.formats.boundaries.boundary_file import load_archive, save_boundary, save_space
 from cfree.formats.boundaries.mesh_file import save_mesh
 from cfree.formats.boundaries.slice_geojson import save_slice
@@ -36,7 +38,7 @@ from cfree.scene.scene import Scene
 
 @checked
 def save(
-    value: Scene | Boundary | FreeSpace | Path | Proof | AllSeparated | Mesh | Slice,
+    value: Scene | Boundary | FreeSpace | Path | Proof | AllSeparated | Mesh | Slice | ReachMap,
     path: str | PathLike[str],
     *,
     step: float | None = None,
@@ -49,16 +51,19 @@ def save(
     per_gear: bool = False,
     scene: Scene | None = None,
     form: Form | None = None,
+    resolution: float | None = None,
+    which: Which = "some",
 ) -> None:
     """Write a value to a file, all of it or nothing.
 
     Parameters
     ----------
-    value : Scene, Boundary, FreeSpace, Path, Separated, Stuck, Unreachable, AllSeparated, Mesh or Slice
+    value : Scene, Boundary, FreeSpace, Path, Separated, Stuck, Unreachable, AllSeparated, Mesh, Slice or ReachMap
     path : path
         The suffix gives the format. Scenes: ``.json``, ``.geojson``, ``.svg`` or ``.dxf``. Boundaries: ``.npz``, or
         ``.parquet`` for a table of trapezoids. Free spaces: ``.npz``. Meshes: ``.glb``, ``.ply``, ``.obj`` or
-        ``.stl``. Slices: ``.geojson``. Separations: ``.json``. Paths: ``.json``; for poses ``.csv``, ``.yaml`` (a ROS
+        ``.stl``. Slices: ``.geojson``. Separations: ``.json``. Maps of reach: ``.yaml``, a ROS map with its image
+        beside it, or ``.geojson``. Paths: ``.json``; for poses ``.csv``, ``.yaml`` (a ROS
         nav_msgs/Path) or ``.geojson`` with the robot's outlines.
     step, turn : float
         Sampling steps of paths, see `Path.sample`. The default step is a twentieth of the robot's radius, or a
@@ -74,6 +79,8 @@ def save(
         The scene of a path that was read from a file: needed for ``.geojson``, and for ``.json`` if that file had none.
     form : "json", "csv", "ros" or "geojson", optional
         The form of a path for file names with the suffix ``.txt`` or none.
+    resolution, which
+        Pixels of a map of reach, and the positions that are free in it; see `ReachMap.image`.
 
     Raises
     ------
@@ -93,13 +100,15 @@ def save(
     ...     load(f"{folder}/scene.json") == scene
     True
     """
-    if isinstance(value, Path):
+    if isinstance(value, Path) and resolution is None and which == "some":
         limits: dict[str, Any] = {"acceleration": acceleration, "steer_rate": steer_rate, "wheelbase": wheelbase}
         limits |= {"step": step, "turn": turn, "speed": speed, "stops": stops, "per_gear": per_gear}
         return save_path(value, path, **limits, scene=scene, form=form)
     options: dict[str, Any] = {"step": step, "speed": speed, "acceleration": acceleration, "steer_rate": steer_rate}
     options |= {"wheelbase": wheelbase, "stops": None if stops == "all" else stops, "per_gear": per_gear or None}
     options |= {"scene": scene, "form": form}
+    if not isinstance(value, ReachMap) and (resolution is not None or which != "some"):
+        raise ValueError(f"resolution, which: a {type(value).__name__} is no map of reach; leave them out")
     if wrong := next((name for name, option in options.items() if option is not None), None):
         raise ValueError(f"{wrong}: a {type(value).__name__} is no path; leave it out")
     match value:
@@ -115,6 +124,8 @@ def save(
             save_mesh(value, path)
         case Slice():
             save_slice(value, path)
+        case ReachMap():
+            save_reach(value, path, resolution, which)
 
 
 @checked

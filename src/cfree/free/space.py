@@ -26,6 +26,7 @@ from cfree.forbidden.boundary import Boundary, boundary_of, regularize_by
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.columns import Ints
 from cfree.forbidden.record import glue_by
+from cfree.free.homology import Homology, homology_of
 from cfree.libraries import Floats, NDArray, np
 from cfree.scene.features import SceneFeatures
 from cfree.scene.scene import Scene
@@ -76,6 +77,23 @@ class Cell(Value, Shown):
     def volume(self) -> float:
         """The volume in length^2 radians, infinite if unbounded; see `FreeSpace.volumes`."""
         return float(self.free_space.volumes[self.index])
+
+    @property
+    def homology(self) -> Homology:
+        """The Betti numbers: b1 is the sum of the genera of its surfaces, b2 their number less 1; no torsion.
+
+        Where forbidden parts touch in a single pose, that pose counts as free.
+
+        Examples
+        --------
+        >>> import cfree
+        >>> room, pillar = [(0, 0), (9, 0), (9, 9), (0, 9)], [(4, 4), (5, 4), (5, 5), (4, 5)]
+        >>> scene = cfree.Scene([(0, 0), (1, 0), (0, 1)], [pillar], workspace=room)
+        >>> cfree.free_space(cfree.boundary(scene)).cells[0].homology     # a turn, and a way around the pillar
+        Homology(b0=1, b1=2, b2=1)
+        """
+        euler = self.free_space.complex.euler[list(self.components)]
+        return homology_of([(2 - number) // 2 for number in euler.tolist()], self.bounded)
 
 
 @dataclass(frozen=True)

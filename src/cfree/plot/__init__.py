@@ -16,9 +16,12 @@ if TYPE_CHECKING:
     from cfree.plot.depths import plot_faces as plot_faces
     from cfree.plot.development import plot_development as plot_development
     from cfree.plot.intersections import plot_intersection as plot_intersection
+    from cfree.plot.loops import plot_loops as plot_loops
     from cfree.plot.paint import painted as painted
     from cfree.plot.path import plot_path as plot_path
     from cfree.plot.rational import plot_models as plot_models
+    from cfree.plot.reach import plot_audit as plot_audit
+    from cfree.plot.reach import plot_reach as plot_reach
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
@@ -29,8 +32,10 @@ __getattr__, __dir__, __all__ = lazy_names(
         "depths": "plot_depths plot_faces",
         "development": "plot_development",
         "intersections": "plot_intersection",
+        "loops": "plot_loops",
         "paint": "painted",
         "path": "plot_path",
         "rational": "plot_models",
+        "reach": "plot_audit plot_reach",
     },
 )

@@ -120,25 +120,7 @@ if TYPE_CHECKING:
     help='Set costs relative to driving ahead, as "sideways=5,backward=2,turning=3"; the answer lists such motions. '
     'For a vehicle also "cusp=2,stop=0.5": lengths that a change of direction, and another stop, cost.',
 )
-@click.option(
-    "--vehicle",
-    type=Word(["car", "differential", "forklift", "any"]),
-    metavar="WORD",
-    help='Drive as a "car", "differential" drive or "forklift", about its fixed axle; "any" moves sideways.',
-    show_default="the scene's",
-)
-@click.option("--turning-radius", metavar="R", help="Limit the arcs of a car; or LEFT,RIGHT.")
-@click.option(
-    "--axle", metavar="X,Y", help="Place the middle of the fixed axle, in the robot's frame.", show_default="0,0"
-)
-@click.option("--heading", metavar="ANGLE", help="Turn forward in the robot's frame.", show_default="0deg")
-@click.option(
-    "--gears",
-    type=Word(["both", "forward"]),
-    metavar="WORD",
-    help='Let a car go in "both" gears, or "forward" only.',
-    show_default="both",
-)
+@options.vehicle
 @options.picture
 @file_option("--film", metavar="FILE", help="Write a film of the path or the proof: .mp4 or .gif.")
 @click.option(
