@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -86,6 +86,41 @@ class Planner(Value):
         """The free space, computed at first use."""
         self.space = self._poses.free_space(self._options())
         return self.space
+
+    @checked
+    def updated(self, scene: Scene) -> Planner:
+        """Return a planner for another scene that shares what still holds in it, with the settings of this one.
+
+        Both scenes need the same robot. This planner stays as it is.
+
+        Parameters
+        ----------
+        scene : Scene
+            Such as the scene of this planner with an obstacle moved, or read anew. Obstacles are matched by their
+            vertices.
+
+        Notes
+        -----
+        Patches, closed surfaces and proofs are shared where nothing within the robot's reach has changed, and
+        the free space is computed with `reuse` of this one's. The last paths of this planner answer queries between
+        poses that one free motion each joins to them: they are led around what is in their way, in place of a search.
+        So paths may be others than those of a new planner; each is checked in the new scene. Nothing is shared among
+        round shapes. While this planner answers a query in another thread, the call waits for it.
+
+        Examples
+        --------
+        >>> walls = [[(0, 0), (1, 0), (1, 5), (0, 5)], [(4, 0), (5, 0), (5, 5), (4, 5)]]
+        >>> scene = Scene([(0, 0), (1, 0), (0, "0.5")], walls, workspace=[(-3, -3), (9, -3), (9, 9), (-3, 9)])
+        >>> planner = Planner(scene)
+        >>> isinstance(planner.plan((2, 2, 0), (6, 2, 0)), Path)
+        True
+        >>> door = [(1, 4), (4, 4), (4, 5), (1, 5)]
+        >>> planner.updated(scene.with_obstacle(door)).plan((2, 2, 0), (6, 2, 0)).of
+        'closed'
+        """
+        other = replace(self, scene=scene, space=None, stop=threading.Event())
+        other._poses = self._poses.updated(scene)
+        return other
 
     @checked
     def plan(
