@@ -30,6 +30,7 @@ constexpr std::size_t most_ways = 16;  // paths that are kept for planners of ot
 constexpr int nodes_near = 4;          // poses of such a path to which a motion is tried
 constexpr int mending_guesses = 1000;  // guesses to lead such a path around what is in its way, each time
 constexpr double mending_room = 3;     // beside it, in radii of the robot
+constexpr double most_longer = 1.25;   // times the cost of such a path, around what is in its way, without another search
 constexpr int most_mended = 8;         // times for one query
 constexpr std::size_t checks_each = 4, most_checks = 600;  // motions checked to straighten such a path, for each of its own
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
@@ -45,6 +46,16 @@ bool is_before(const RationalPose& a, const RationalPose& b) {
 RationalPose half_way(const RationalPose& from, const RationalPose& to) {
     const Ratio half{1, 2}, x = half * (from.x + to.x), y = half * (from.y + to.y), u = from.x - x, v = from.y - y;
     return {x - v, y + u, HalfAngle::along(from.half.q - from.half.p, from.half.q + from.half.p)};
+}
+
+double apart(const Place& a, const Place& b, double angle_scale) {
+    return norm(a.x - b.x, a.y - b.y) + angle_scale * std::abs(std::remainder(a.theta - b.theta, 2 * std::numbers::pi));
+}
+
+double cost_of(const Poses& way, double angle_scale) {
+    double sum = 0;
+    for (std::size_t k = 1; k < way.size(); ++k) sum += apart(way[k - 1].place(), way[k].place(), angle_scale);
+    return sum;
 }
 
 }  // namespace
@@ -111,10 +122,7 @@ std::optional<Poses> Planner::former_way(const End& start, const End& goal) {
     const auto nearest_of = [&](const Poses& on, const RationalPose& pose) -> std::optional<std::size_t> {
         const Place from = pose.place();
         std::vector<std::pair<double, std::size_t>> near;
-        for (std::size_t k = 0; k < on.size(); ++k) {
-            const Place at = on[k].place();
-            near.push_back({norm(at.x - from.x, at.y - from.y) + angle_scale * std::abs(std::remainder(at.theta - from.theta, 2 * std::numbers::pi)), k});
-        }
+        for (std::size_t k = 0; k < on.size(); ++k) near.push_back({apart(on[k].place(), from, angle_scale), k});
         std::sort(near.begin(), near.end());
         for (std::size_t n = 0; n < std::min<std::size_t>(nodes_near, near.size()); ++n)
             if (motions.join({pose, on[near[n].second]})) return near[n].second;
@@ -128,8 +136,13 @@ std::optional<Poses> Planner::former_way(const End& start, const End& goal) {
         for (std::size_t k = *from; k != *to; k = k < *to ? k + 1 : k - 1) along.push_back(on[k]);
         along.push_back(on[*to]), along.push_back(goal.pose);
         along.erase(std::unique(along.begin(), along.end()), along.end());
-        const auto found = mended(along, left);
+        auto found = mended(along, left);
         if (!found) continue;
+        const double cost = cost_of(*found, angle_scale);
+        if (cost > most_longer * cost_of(along, angle_scale)) {
+            auto other = searched(start, goal, quick_guesses);
+            if (other && cost_of(*other, angle_scale) < cost) found = std::move(other);
+        }
         if (*found != along) remember(*found);
         return found;
     }

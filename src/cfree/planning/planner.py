@@ -103,20 +103,22 @@ class Planner(Value):
         -----
         Patches, closed surfaces and proofs are shared where nothing within the robot's reach has changed, and
         the free space is computed with `reuse` of this one's. The last paths of this planner answer queries between
-        poses that one free motion each joins to them: they are led around what is in their way, in place of a search.
+        poses that one free motion each joins to them: short searches lead them around what is in their way.
         So paths may be others than those of a new planner; each is checked in the new scene. Nothing is shared among
         round shapes. While this planner answers a query in another thread, the call waits for it.
 
         Examples
         --------
-        >>> walls = [[(0, 0), (1, 0), (1, 5), (0, 5)], [(4, 0), (5, 0), (5, 5), (4, 5)]]
-        >>> scene = Scene([(0, 0), (1, 0), (0, "0.5")], walls, workspace=[(-3, -3), (9, -3), (9, 9), (-3, 9)])
+        >>> from cfree import Polygon
+        >>> ring = Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(1, 1), (1, 8), (8, 8), (8, 1)]])
+        >>> scene = Scene([(0, 0), (1, 0), (0, "0.5")], [ring, [(20, 0), (21, 0), (21, 1)]])
         >>> planner = Planner(scene)
-        >>> isinstance(planner.plan((2, 2, 0), (6, 2, 0)), Path)
-        True
-        >>> door = [(1, 4), (4, 4), (4, 5), (1, 5)]
-        >>> planner.updated(scene.with_obstacle(door)).plan((2, 2, 0), (6, 2, 0)).of
+        >>> planner.plan((4, 4, 0), (12, 4, 0)).of
         'closed'
+        >>> planner.updated(scene.moved(1, (0, 3, 0))).plan((4, 4, 0), (12, 4, 0)).of
+        'closed'
+        >>> isinstance(planner.updated(scene.without_obstacle(0)).plan((4, 4, 0), (12, 4, 0)), Path)
+        True
         """
         other = replace(self, scene=scene, space=None, stop=threading.Event())
         other._poses = self._poses.updated(scene)
