@@ -21,14 +21,17 @@ Questions, ten seeds each, none chosen by its answer:
     throat     two furnished rooms and a throat that is wider by 10 % to 0.001 %; a rounded rectangle
     large      a star of 10 to 100 vertices among convex obstacles
 
-Moved obstacles, of any scene: `moves` chooses some, with motions of three kinds.
+Changes, of scenes before:
+
+    moves      some obstacles of any scene, with motions of three kinds
+    frames     a costmap of rooms and things of ragged outlines, again and again: a block moves, cells flicker
 
 Seeds 2, 5 and 8 of mazes, traps, barriers and throats are shut, most by little. Coordinates are doubles of full length.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -377,6 +380,38 @@ QUESTIONS: dict[str, Callable[[int], cfree.Scene]] = {
     "throat": throat,
     "large": large,
 }
+
+
+def frames(count: int, cells: int = 200, seed: int = 0) -> Iterator[NDArray[np.int16]]:
+    """Yield a costmap `count` times, cells of 0 and 100: a block moves through it, and six cells flicker each time."""
+    rng = np.random.default_rng(seed)
+    base = _costmap(rng, cells)
+    for k in range(count):
+        grid = base.copy()
+        x, y = 20 + int((cells - 60) * (0.5 + 0.5 * np.sin(k / 40))), cells // 2 + int(20 * np.cos(k / 23))
+        grid[y : y + 7, x : x + 7] = 100
+        row, column = rng.integers(25, cells - 25, (2, 6))
+        grid[row, column] = 100 - grid[row, column]
+        yield grid
+
+
+def _costmap(rng: np.random.Generator, cells: int) -> NDArray[np.int16]:
+    """Three rooms with two doors between neighbours, round things of ragged outlines, and two free corners."""
+    grid = np.zeros((cells, cells), np.int16)
+    row, column = np.mgrid[:cells, :cells]
+    for _ in range(cells * cells * 3 // 2000):
+        x, y = rng.integers(12, cells - 12, 2)
+        distance = np.hypot(column - x, row - y) + rng.normal(0, 0.4, grid.shape)
+        grid[distance < rng.uniform(1.5, 4)] = 100
+    for wall in (cells // 3, 2 * cells // 3):
+        grid[wall : wall + 2] = 100
+        for door in (cells // 4, 3 * cells // 4):
+            grid[wall - 4 : wall + 6, door - 10 : door + 10] = 0
+    for corner in (slice(6, 30), slice(cells - 36, cells - 12)):
+        grid[corner, corner] = 0
+    grid[:2] = grid[-2:] = 100
+    grid[:, :2] = grid[:, -2:] = 100
+    return grid
 
 
 # --- parts of both ---

@@ -21,6 +21,7 @@ from cfree.cli.terminal import columns
 BENCHES = (
     "boundary",
     "moved",
+    "frames",
     "exact",
     "growth",
     "threads",

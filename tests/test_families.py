@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import itertools
 from types import ModuleType
 
 import numpy as np
@@ -48,3 +49,11 @@ def test_a_question_is_the_same_each_time_and_has_free_ends(families: ModuleType
     checker = cfree.MotionChecker(scene)
     for pose in (scene.start, scene.goal):
         assert checker.joins([pose, pose])
+
+
+def test_frames_of_a_costmap_change_a_few_cells_and_are_the_same_each_time(families: ModuleType) -> None:
+    frames, again = list(families.frames(3, 100)), list(families.frames(3, 100))
+    assert all(np.array_equal(one, other) for one, other in zip(frames, again, strict=True))
+    for one, other in itertools.pairwise(frames):
+        assert 0 < np.count_nonzero(one != other) < 60
+    assert {*np.unique(frames)} == {0, 100}

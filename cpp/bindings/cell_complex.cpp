@@ -20,14 +20,20 @@ void bind_cell_complex(nb::module_& m) {
     column(cells, "edge", &CellComplex::edge);
     column(cells, "vertex", &CellComplex::vertex);
     column(cells, "component", &CellComplex::component);
-    column(cells, "theta", &CellComplex::theta);
-    rows<2>(cells, "xy", &CellComplex::xy);
+    cells.def_prop_ro("theta", [](const CellComplex& of) {
+        const auto* places = watched([&] { return &of.places(); });
+        return Made<const double>(places->theta.data(), {places->theta.size()});
+    });
+    cells.def_prop_ro("xy", [](const CellComplex& of) {
+        const auto* places = watched([&] { return &of.places(); });
+        return Made<const double, 2>(places->xy.data(), {places->xy.size() / 2, 2});
+    });
     cells.def_ro("boundary", &CellComplex::boundary);
     cells.def_ro("edges", &CellComplex::edges).def_ro("vertices", &CellComplex::vertices);
     cells.def_ro("components", &CellComplex::components);
-    m.def("glue", [](const cfree::SharedBoundary& boundary, int threads) {
-        return watched([&] { return cfree::glue(boundary, threads); });
-    }, "boundary"_a, "threads"_a);
+    m.def("glue", [](const cfree::SharedBoundary& boundary, int threads, const CellComplex* reuse) {
+        return watched([&] { return reuse ? cfree::glue(boundary, *reuse, threads) : cfree::glue(boundary, threads); });
+    }, "boundary"_a, "threads"_a, "reuse"_a = nb::none());
     m.def("glue_own", [](const cfree::SharedBoundary& boundary, const Column<char>& own, int threads) {
         return watched([&] { return cfree::glue_own(boundary, vector_of(own), threads); });
     }, "boundary"_a, "own"_a, "threads"_a);

@@ -164,6 +164,7 @@ static void bind_separations(nb::module_& m) {
     }, "polygon"_a, "numerator"_a, "denominator"_a, nb::sig("def inset(polygon: Polygon, numerator: int, denominator: int) -> Polygon | None"));
     nb::class_<Planner>(m, "Planner")
         .def(nb::init<std::shared_ptr<KnownScene>, double>(), "scene"_a, "angle_scale"_a)
+        .def("take", [](Planner& planner, Planner& other) { watched([&] { planner.take(other); }); }, "other"_a)
         .def("plan", &plan, "start"_a, "goal"_a, "caller"_a, "few"_a)
         .def("walk", &walk, "start"_a, "goal"_a, "caller"_a)
         .def("quick", &quick, "start"_a, "goal"_a, "caller"_a, "guesses"_a = nb::none());

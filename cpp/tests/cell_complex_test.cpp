@@ -46,8 +46,31 @@ static void boundaries_are_closed() {
     CHECK(euler(touching) % 2 == 0);
 }
 
+static void faces_of_another_scene_are_taken_as_they_are() {
+    const Ring robot{{0, 0}, {2, 0}, {0, 1}}, box{{0, 0}, {3, 0}, {3, 3}, {0, 3}};
+    const auto moved = [&](long x, long y) {
+        Ring ring = box;
+        for (auto& [a, b] : ring) a += x, b += y;
+        return ring;
+    };
+    const auto old = compute_boundary(scene_of({robot}, {box, moved(4, 0), moved(20, 0), moved(40, 0)}));
+    const auto before = glue(old);
+    for (const auto& rings : {std::vector{box, moved(4, 1), moved(20, 0), moved(40, 0)}, std::vector{moved(40, 0), moved(20, 0), box, box}}) {
+        const auto boundary = compute_boundary(scene_of({robot}, rings));
+        const auto anew = glue(boundary), reused = glue(boundary, *before);
+        CHECK(reused->placing->later && !anew->placing->later);  // something was taken
+        CHECK(anew->twin == reused->twin && anew->edge == reused->edge && anew->vertex == reused->vertex && anew->side == reused->side);
+        CHECK(anew->first == reused->first && anew->face == reused->face && anew->component == reused->component);
+        CHECK(anew->edges == reused->edges && anew->vertices == reused->vertices && anew->components == reused->components);
+        CHECK(anew->places().xy == reused->places().xy && anew->places().theta == reused->places().theta);
+    }
+    const auto other = compute_boundary(scene_of({box}, {box}));
+    CHECK(!glue(other, *before)->placing->later);
+}
+
 int main() {
     real_roots_are_compared_exactly();
     boundaries_are_closed();
+    faces_of_another_scene_are_taken_as_they_are();
     return failures > 0;
 }

@@ -327,7 +327,7 @@ void show_columns(const World& world, Reply& reply) {
     const CellComplex& c = *world.cells;
     reply.add("face", c.face), reply.add("twin", c.twin), reply.add("edge", c.edge), reply.add("vertex", c.vertex);
     reply.add("side", c.side), reply.add("first", c.first), reply.add("component", c.component);
-    reply.add("xy", c.xy), reply.add("theta", c.theta);
+    reply.add("xy", c.places().xy), reply.add("theta", c.places().theta);
     const Surfaces& s = world.space->surfaces;
     reply.add("parent", s.parent), reply.add("free_inside", s.free_inside), reply.add("turns", s.turns), reply.add("lift", s.lift);
     reply.add("cell_of", world.space->cell_of), reply.add("depth", world.space->depth);

@@ -1,6 +1,5 @@
 """A boundary that takes patches of another one is, byte by byte, the boundary computed anew."""
 
-import math
 import pickle
 import random
 from dataclasses import replace
@@ -10,23 +9,15 @@ from pathlib import Path
 import pytest
 
 import cfree
-from cfree.errors import InvalidPolygonError
-from cfree.exact.number import ExactPoint
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
+from changes import BAR, box, changed, random_scene
 
 ROOT = Path(__file__).parents[2]
 
 
-def box(x: float, y: float, width: float, height: float) -> Polygon:
-    x0, y0 = Fraction(x), Fraction(y)
-    x1, y1 = x0 + Fraction(width), y0 + Fraction(height)
-    return Polygon([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
-
-
-BAR = box(0, 0, 2, 1)
 HOW = (
     "decided_by_identity",
     "decided_by_filter",
@@ -64,12 +55,12 @@ def reused(before: Scene | Boundary, after: Scene, least: int = 1) -> Boundary:
 def test_only_patches_within_reach_of_a_change_are_trimmed_again() -> None:
     scene = Scene(BAR, HOUSES)
     per_house = boundary(scene).stats.patches // len(HOUSES)
-    for changed, count in (
+    for after, count in (
         (scene.moved(0, (1, 0, 0)), 11),
         (scene.without_obstacle(5), 11),
         (scene.moved(3, (200, 0, 0)), 11),
     ):
-        assert reused(scene, changed).kept_patches == count * per_house
+        assert reused(scene, after).kept_patches == count * per_house
     assert reused(scene, scene.with_obstacle(box(100, 0, 1, 1))).kept_patches == 12 * per_house
     assert reused(scene, scene.moved(0, (0, 7, 0))).kept_patches < 11 * per_house  # next to another house
 
@@ -209,70 +200,11 @@ def test_many_changes_one_after_another() -> None:
         old = reused(old, scene)
 
 
-def ring(generator: random.Random, size: int, digits: int) -> list[ExactPoint]:
-    def grid(value: float) -> Fraction:
-        return Fraction(round(value * digits), digits)
-
-    x, y, kind = generator.uniform(0, size), generator.uniform(0, size), generator.random()
-    if kind < 0.6:  # on a grid of units: many edges are on one line, touch and coincide
-        return list(box(int(x), int(y), generator.randint(1, 4), generator.choice([1, 2, 0.125])).exact_vertices)
-    if kind < 0.7:
-        l_shape = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
-        return [(grid(x) + a, grid(y) + b) for a, b in l_shape]
-    radius, angles = (
-        generator.uniform(0.5, 2),
-        sorted(generator.uniform(0, math.tau) for _ in range(generator.randint(3, 6))),
-    )
-    return [(grid(x + radius * math.cos(angle)), grid(y + radius * math.sin(angle))) for angle in angles]
-
-
-def shape(generator: random.Random, size: int, digits: int) -> Polygon:
-    while True:
-        try:
-            return Polygon(ring(generator, size, digits))
-        except InvalidPolygonError:
-            continue
-
-
-ROBOTS = [
-    [BAR],
-    [Polygon([(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)])],
-    [box(0, 0, 1, 1), box(2, 0, 1, 1)],
-    [Polygon([("1/2", 0), (2, 0), (0, 1)])],
-]
-
-
-def changed(generator: random.Random, scene: Scene, size: int, digits: int) -> Scene:
-    def length() -> Fraction:
-        return (
-            Fraction(round(generator.uniform(-3, 3) * digits), digits)
-            if generator.random() < 0.5
-            else Fraction(generator.randint(-2, 2))
-        )
-
-    count, kind = len(scene.obstacles), generator.random()
-    if kind < 0.2 or not count:
-        again = count and generator.random() < 0.3
-        return scene.with_obstacle(generator.choice(scene.obstacles) if again else shape(generator, size, digits))
-    if kind < 0.35:
-        return scene.without_obstacle(generator.randrange(count))
-    if kind < 0.5:
-        obstacles = generator.sample(scene.obstacles, count)
-        return Scene(scene.robot, obstacles, bounds=scene.bounds, workspace=scene.workspace)
-    turn = generator.choice([0, 0, 0, "90deg", "180deg"])
-    return scene.moved(generator.randrange(count), (length(), length(), turn))
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(40))
 def test_random_changes(seed: int) -> None:
     generator = random.Random(seed)
-    size, digits = generator.choice([8, 15, 30]), generator.choice([1, 2, 10, 100])
-    obstacles = [shape(generator, size, digits) for _ in range(generator.randint(1, 14))]
-    room = generator.choice(
-        [{}, {"bounds": (-1, -1, size + 1, size + 3)}, {"workspace": box(-2, -2, size + 6, size + 6)}]
-    )
-    scene = Scene(generator.choice(ROBOTS), obstacles, **room)
+    scene, size, digits = random_scene(generator)
     old = boundary(scene)
     for _ in range(4):
         scene = changed(generator, scene, size, digits)

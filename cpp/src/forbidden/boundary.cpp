@@ -178,8 +178,9 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
     heed_stop();
     if (has_names) use_names(scene, isolated.parts.features());
     tally.isolated_seconds = lap();
+    auto without_width = task.regularized ? std::nullopt : std::optional(std::move(thin));
     return std::make_shared<const Boundary>(shared, std::move(work.patches), std::move(work.trimmed), std::move(trapezoids),
-                                            std::move(isolated), tally, std::move(thin), std::move(work.counted));
+                                            std::move(isolated), tally, std::move(without_width), std::move(work.counted));
 }
 
 }  // namespace cfree

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "forbidden/curve_sides.hpp"
+#include "forbidden/kept_faces.hpp"
 #include "forbidden/level_sides.hpp"
 #include "forbidden/loops.hpp"
 #include "support/free_memory.hpp"
@@ -20,6 +21,16 @@ namespace {
     throw std::logic_error("a side without a partner at trapezoid " + std::to_string(trapezoid));
 }
 
+// Number edges in the order of their half-edges, which depends on no other face.
+void number_edges(CellComplex& cells) {
+    std::vector<Index> number(static_cast<std::size_t>(cells.edges), -1);
+    cells.edges = 0;
+    for (Index& edge : cells.edge) {
+        if (number[edge] < 0) number[edge] = cells.edges++;
+        edge = number[edge];
+    }
+}
+
 class Assembly {
 public:
     // Face k is trapezoid trapezoid_of[k] of the boundary.
@@ -29,8 +40,17 @@ public:
     // Complex of parts of faces; components of the own ones, or of all.
     CellComplex run(std::vector<Parts>&& lists, const std::vector<char>* own = nullptr) {
         make_loops(std::move(lists));
-        find_vertices();
+        number_edges(result);
+        place_vertices(find_vertices());
         find_components(own);
+        return std::move(result);
+    }
+    // Complex of half-edges that have their faces, sides and twins, and any numbers of edges; without places.
+    CellComplex run(CellComplex&& half_edges) {
+        result = std::move(half_edges);
+        number_edges(result);
+        find_vertices();
+        find_components(nullptr);
         return std::move(result);
     }
 
@@ -42,7 +62,8 @@ private:
         return h == result.first[f] ? result.first[f + 1] - 1 : h - 1;
     }
     void make_loops(std::vector<Parts>&& lists);
-    void find_vertices();
+    std::vector<Index> find_vertices();
+    void place_vertices(const std::vector<Index>& best);
     void place_vertex(Index vertex, Index h);
     void find_components(const std::vector<char>* own);
 
@@ -61,10 +82,11 @@ void Assembly::make_loops(std::vector<Parts>&& lists) {
     start = std::move(loops.start);
 }
 
-// Find vertices: go around the start of each half-edge, over twins.
-void Assembly::find_vertices() {
+// Find vertices: go around the start of each half-edge, over twins. Return a half-edge of each vertex whose start is known: at a
+// level, if there is one.
+std::vector<Index> Assembly::find_vertices() {
     result.vertex.assign(result.face.size(), -1);
-    std::vector<Index> best;  // a half-edge of each vertex whose start is known: at a level, if there is one
+    std::vector<Index> best;
     for (Index h = 0; h < static_cast<Index>(result.face.size()); ++h) {
         if (result.vertex[h] >= 0) continue;
         heed_stop();
@@ -75,14 +97,20 @@ void Assembly::find_vertices() {
         }
         ++result.vertices;
     }
-    result.xy.resize(2 * best.size()), result.theta.resize(best.size());
+    return best;
+}
+
+void Assembly::place_vertices(const std::vector<Index>& best) {
+    VertexPlaces& places = result.placing->places;
+    places.xy.resize(2 * best.size()), places.theta.resize(best.size());
     for_each_block_in_parallel(threads, best.size(), [&](std::size_t v) { place_vertex(static_cast<Index>(v), best[v]); });
     free_memory(start);
 }
 
 void Assembly::place_vertex(Index vertex, Index h) {
     const auto [xy, theta] = place_of(*boundary, faces[result.face[h]], side(h), start[h]);
-    result.xy[2 * vertex] = xy.x, result.xy[2 * vertex + 1] = xy.y, result.theta[vertex] = theta;
+    VertexPlaces& places = result.placing->places;
+    places.xy[2 * vertex] = xy.x, places.xy[2 * vertex + 1] = xy.y, places.theta[vertex] = theta;
 }
 
 void Assembly::find_components(const std::vector<char>* own) {
@@ -121,7 +149,7 @@ std::shared_ptr<const CellComplex> shared(CellComplex&& built, const SharedBound
     auto result = std::make_shared<CellComplex>(std::move(built));
     result->boundary = boundary;
     const double unit = boundary->scene->near().unit();
-    for (double& c : result->xy) c *= unit;
+    for (double& c : result->placing->places.xy) c *= unit;
     return result;
 }
 
@@ -172,7 +200,125 @@ void keep(Parts& list, const std::vector<Index>& face_of) {
     list = std::move(kept);
 }
 
+// Half-edges of a complex: those of faces that are kept, and those of the others glued among themselves.
+class Merging {
+public:
+    Merging(const CellComplex& other, const KeptFaces& kept_faces, const Loops& glued_parts)
+        : before(other), kept(kept_faces), glued(glued_parts), place(kept.is_inner.size(), -1) {
+        for (std::size_t n = 0; n < kept.chosen.size(); ++n) place[kept.chosen[n]] = static_cast<Index>(n);
+        has_other.assign(static_cast<std::size_t>(glued.edges), 0);
+        for (std::size_t p = 0; p < glued.face.size(); ++p)
+            if (!is_inner(kept.chosen[glued.face[p]])) has_other[glued.edge[p]] = 1;
+    }
+
+    // Nothing if a face that is kept does not have the sides that its neighbours have: a fault, so all is glued.
+    std::optional<CellComplex> run() {
+        make_faces();
+        if (!match_parts()) return {};
+        for (Index f = 0; f < static_cast<Index>(kept.is_inner.size()); ++f)
+            if (!(kept.is_inner[f] ? copy(f) : add(f))) return {};
+        return std::move(result);
+    }
+
+private:
+    bool is_inner(Index f) const { return kept.is_inner[f] != 0; }
+    Index first_before(Index f) const { return before.first[kept.before[f]]; }
+    // Half-edge of a face that is kept, by its number in the other complex.
+    Index now(Index h) const {
+        const Index f = kept.now[before.face[h]];
+        return result.first[f] + h - first_before(f);
+    }
+    void make_faces();
+    bool match_parts();
+    bool match(Index f);
+    bool copy(Index f);
+    bool add(Index f);
+
+    const CellComplex& before;
+    const KeptFaces& kept;
+    const Loops& glued;
+    std::vector<Index> place;    // of each face among those glued
+    std::vector<char> has_other; // true for each edge glued at which a face is not kept
+    std::vector<Index> of_part;  // half-edge of each part glued, -1 for those that faces do not need
+    std::vector<Index> part_of;  // part of each half-edge that a face that is kept shares with another one
+    CellComplex result;
+};
+
+void Merging::make_faces() {
+    result.first.assign(1, 0);
+    for (Index f = 0; f < static_cast<Index>(kept.is_inner.size()); ++f) {
+        const Index count = is_inner(f) ? before.first[kept.before[f] + 1] - first_before(f)
+                                        : glued.first[place[f] + 1] - glued.first[place[f]];
+        result.first.push_back(result.first.back() + count);
+        result.face.insert(result.face.end(), static_cast<std::size_t>(count), f);
+    }
+    result.twin.assign(result.face.size(), -1), result.edge.assign(result.face.size(), -1), result.side.assign(result.face.size(), 0);
+    result.edges = before.edges + glued.edges;
+}
+
+bool Merging::match_parts() {
+    of_part.assign(glued.face.size(), -1), part_of.assign(result.face.size(), -1);
+    for (const Index f : kept.chosen)
+        for (Index p = glued.first[place[f]]; !is_inner(f) && p < glued.first[place[f] + 1]; ++p)
+            of_part[p] = result.first[f] + p - glued.first[place[f]];
+    return std::all_of(kept.chosen.begin(), kept.chosen.end(), [&](Index f) { return !is_inner(f) || match(f); });
+}
+
+// Match the sides of a face that is kept, which it shares with others: they come in the same order.
+bool Merging::match(Index f) {
+    const auto is_shared = [&](Index p) { return glued.twin[p] >= 0 && has_other[glued.edge[p]]; };
+    Index p = glued.first[place[f]];
+    const Index end = glued.first[place[f] + 1];
+    for (Index h = first_before(f); h < before.first[kept.before[f] + 1]; ++h) {
+        if (!kept.is_border_edge[before.edge[h]]) continue;
+        while (p < end && !is_shared(p)) ++p;
+        if (p == end || glued.kind[p] / 2 != before.side[h]) return false;
+        of_part[p] = now(h), part_of[now(h)] = p, ++p;
+    }
+    while (p < end && !is_shared(p)) ++p;
+    return p == end;
+}
+
+bool Merging::copy(Index f) {
+    for (Index h = first_before(f); h < before.first[kept.before[f] + 1]; ++h) {
+        const Index x = now(h), p = part_of[x];
+        result.side[x] = before.side[h];
+        result.twin[x] = p < 0 ? now(before.twin[h]) : of_part[glued.twin[p]];
+        result.edge[x] = p < 0 ? before.edge[h] : before.edges + glued.edge[p];
+        if (result.twin[x] < 0) return false;
+    }
+    return true;
+}
+
+bool Merging::add(Index f) {
+    for (Index p = glued.first[place[f]]; p < glued.first[place[f] + 1]; ++p) {
+        const Index x = of_part[p];
+        if (glued.twin[p] < 0) fail_alone(f);
+        result.side[x] = static_cast<std::uint8_t>(glued.kind[p] / 2);
+        result.twin[x] = of_part[glued.twin[p]];
+        result.edge[x] = before.edges + glued.edge[p];
+        if (result.twin[x] < 0) return false;
+    }
+    return true;
+}
+
 }  // namespace
+
+std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, const CellComplex& reuse, int threads) {
+    const auto kept = kept_faces(reuse, *boundary);
+    if (!kept) return glue(boundary, threads);
+    Trapezoids rows;
+    Whole whole;
+    for (const Index k : kept->chosen) rows.push_row(boundary->trapezoids, k), whole.push_back(!kept->is_inner[k]);
+    const Boundary part(boundary->scene, boundary->patches, boundary->trimmed, std::move(rows), IsolatedParts{});
+    const Loops loops = loops_of(kept->chosen.size(), matched_sides(part, whole, threads));
+    auto half_edges = Merging(reuse, *kept, loops).run();
+    if (!half_edges) return glue(boundary, threads);
+    CellComplex result = Assembly(*boundary, std::vector<Index>(kept->is_inner.size()), threads).run(std::move(*half_edges));
+    result.boundary = boundary;
+    result.placing->later = [boundary, threads] { return std::move(glue(boundary, threads)->placing->places); };
+    return std::make_shared<const CellComplex>(std::move(result));
+}
 
 std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int threads) {
     std::vector<Index> all(boundary->trapezoids.size());
@@ -211,6 +357,13 @@ std::shared_ptr<const CellComplex> glue_own(const SharedBoundary& boundary, cons
         for (Index k = 0; k < list.size(); ++k)
             if (list.twin[k] < 0 && own[list.trapezoid[k]]) fail_alone(list.trapezoid[k]);
     return shared(Assembly(*boundary, std::move(all), threads).run(std::move(lists), &own), boundary);
+}
+
+const VertexPlaces& CellComplex::places() const {
+    std::call_once(placing->once, [&] {
+        if (placing->later) placing->places = placing->later();
+    });
+    return placing->places;
 }
 
 std::vector<std::vector<Index>> pinched(const CellComplex& cells) {

@@ -182,14 +182,6 @@ bool have_same_doubles(const Scene& s, const Scene& t) {
     return s.short_part == t.short_part && (!may_underflow || (s.scale == t.scale && s.shift == t.shift));
 }
 
-// First row of each ring vertex, whose patches are rows of one list, one after another.
-std::vector<Index> first_rows(const Trapezoids& rows, const Patches& patches, const std::vector<Index>& first_patch) {
-    std::vector<Index> first(first_patch.size(), 0);
-    for (const Index patch : rows.patch) ++first[patches.obstacle[patch] + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    return first;
-}
-
 std::vector<Index> members(const std::vector<Index>& group, const std::vector<Index>& other) {
     std::vector<Index> result;
     for (std::size_t k = 0; k < group.size(); ++k) {
@@ -201,49 +193,63 @@ std::vector<Index> members(const std::vector<Index>& group, const std::vector<In
 
 }  // namespace
 
-std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scene) {
-    const Scene& before = other.scene->near();
+std::vector<Index> first_rows(const Trapezoids& rows, const Patches& patches, const std::vector<Index>& first_patch) {
+    std::vector<Index> first(first_patch.size(), 0);
+    for (const Index patch : rows.patch) ++first[patches.obstacle[patch] + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    return first;
+}
+
+std::optional<KeptFeatures> kept_features(const Scene& before, const Scene& scene) {
     const Shape &s = before.obstacles, &t = scene.obstacles;
-    if (!other.thin || before.is_round || scene.is_round || !have_same_doubles(before, scene) ||
+    if (before.is_round || scene.is_round || !have_same_doubles(before, scene) ||
         !are_same_robots({before.robot, scene.robot, scene.scale, before.scale}))
         return {};
     Matching match = matching({s, t, scene.scale, before.scale}, before.unit() / scene.unit());
     const BoxTree changed(match.changed);
+    const double reach = diagonal(scene.robot);
+    KeptFeatures kept{std::move(match.ring_vertex), members(s.point, match.vertex), members(s.line, match.edge), &s};
+    if (!std::is_sorted(kept.from.begin(), kept.from.end())) release_reordered(t, kept.from);
+    for (Index j = 0; j < t.ring_vertices; ++j)
+        // twice, for the rounding of both scenes
+        if (kept.from[j] >= 0) changed.query(grown(grown(edge_box(t, j), reach)), [&](Index) { kept.from[j] = -1; });
+    return kept;
+}
+
+std::uint64_t KeptFeatures::renamed(std::uint64_t code) const {
+    Feature f = unpacked(code);
+    if (f.kind == Kind::none) return code;
+    const bool is_vertex = f.kind == Kind::vertex_vertex || f.kind == Kind::edge_vertex;
+    f.obstacle = is_vertex ? points[other->point[f.obstacle]] : lines[other->line[f.obstacle]];
+    if (f.obstacle < 0) throw std::logic_error("a patch that is kept is named by a feature that has changed");
+    return packed(f);
+}
+
+std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scene) {
+    const Scene& before = other.scene->near();
+    if (!other.thin) return {};
+    auto features = kept_features(before, scene);
+    if (!features) return {};
     const bool has_same_integers = before.scale == scene.scale, has_same_odd = odd_part(before.scale) == odd_part(scene.scale);
     // True if integers have decided something whose last digits depend on them: roots, and if factors but 2 have changed, anything.
     const auto depends_on_integers = [&](const Counters& decisions) {
         return !has_same_integers && (has_same_odd ? decisions.exact_roots : decisions.exact) > 0;
     };
-    const double reach = diagonal(scene.robot);
-    KeptPatches kept;
+    KeptPatches kept{std::move(*features), {}, {}, {}, {}};
     kept.first_patch = first_patches(before, other.patches);
-    kept.from = std::move(match.ring_vertex);
-    if (!std::is_sorted(kept.from.begin(), kept.from.end())) release_reordered(t, kept.from);
-    for (Index j = 0; j < t.ring_vertices; ++j) {
+    for (Index j = 0; j < static_cast<Index>(kept.from.size()); ++j) {
         Index& from = kept.from[j];
         if (from >= 0 && depends_on_integers(other.counted[from].decisions)) from = -1;
-        // twice, for the rounding of both scenes
-        if (from >= 0) changed.query(grown(grown(edge_box(t, j), reach)), [&](Index) { from = -1; });
         for (Index p = from < 0 ? 0 : kept.first_patch[from]; from >= 0 && p < kept.first_patch[from + 1]; ++p)
             if (!other.trimmed[p]) from = -1;
         if (from < 0) kept.retrimmed.push_back(j);
     }
     kept.live = {&other.trapezoids, first_rows(other.trapezoids, other.patches, kept.first_patch)};
     kept.thin = {&*other.thin, first_rows(*other.thin, other.patches, kept.first_patch)};
-    kept.points = members(s.point, match.vertex), kept.lines = members(s.line, match.edge);
-    kept.other = &s;
     return kept;
 }
 
 void KeptPatches::add(Index feature, Index patch, Trapezoids& live_out, Trapezoids& thin_out) const {
-    const auto renamed = [&](std::uint64_t code) {
-        Feature f = unpacked(code);
-        if (f.kind == Kind::none) return code;
-        const bool is_vertex = f.kind == Kind::vertex_vertex || f.kind == Kind::edge_vertex;
-        f.obstacle = is_vertex ? points[other->point[f.obstacle]] : lines[other->line[f.obstacle]];
-        if (f.obstacle < 0) throw std::logic_error("a patch that is kept is named by a feature that has changed");
-        return packed(f);
-    };
     const Index before = from[feature];
     for (const auto& [rows, out] : {std::pair{&live, &live_out}, std::pair{&thin, &thin_out}})
         for (Index k = rows->first[before]; k < rows->first[before + 1]; ++k) {

@@ -11,6 +11,7 @@
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/support/elementary.hpp"
+#include "forbidden/kept_patches.hpp"
 #include "free/touching_patches.hpp"
 
 namespace cfree {
@@ -72,6 +73,8 @@ struct SurfaceExplorer::State {
     void meet(Index patch) { patches_met += std::exchange(met_patch[patch], question) != question; }
     void trim(Index patch);
     void trim(std::vector<Index>& patches);
+    void add_sheet(const Feature& contact, Index row);
+    void grow_columns();
     void explore(Index k);
     Growth& growth(Index seed);
     void look_at(Growth& of, Index k, double way) const;
@@ -127,17 +130,24 @@ void SurfaceExplorer::State::trim(Index patch) {
     std::vector<Trapezoid> found, thin;
     one.trim(patch, pillars, found, thin, count);
     trimmed[patch] = 1, ++patches_trimmed;
-    const std::size_t before = rows.size();
-    const ContactLine<double> line(scene, contact, Doubles{});
+    const auto before = static_cast<Index>(rows.size());
     for (const Trapezoid& x : found) {
         rows.push_back(x);
-        const Predicates on(scene, {contact, x.chart});
-        sheets.push_back({line, {on.curve(x.lower), on.curve(x.upper)}});
+        add_sheet(contact, static_cast<Index>(rows.size()) - 1);
     }
     for (auto* column : rows.features())
-        for (std::size_t k = before; k < rows.size(); ++k) (*column)[k] = named(names, (*column)[k]);
+        for (std::size_t k = static_cast<std::size_t>(before); k < rows.size(); ++k) (*column)[k] = named(names, (*column)[k]);
+    grow_columns();
+    faces_of[patch] = {before, static_cast<Index>(rows.size())};
+}
+
+void SurfaceExplorer::State::add_sheet(const Feature& contact, Index row) {
+    const Predicates on(scene, {contact, rows.chart[row]});
+    sheets.push_back({ContactLine<double>(scene, contact, Doubles{}), {on.curve(unpacked(rows.lower[row])), on.curve(unpacked(rows.upper[row]))}});
+}
+
+void SurfaceExplorer::State::grow_columns() {
     whole.resize(rows.size(), 0), around.resize(rows.size()), number.resize(rows.size(), -1), met_row.resize(rows.size(), -1);
-    faces_of[patch] = {static_cast<Index>(before), static_cast<Index>(rows.size())};
 }
 
 void SurfaceExplorer::State::trim(std::vector<Index>& patches) {
@@ -315,6 +325,50 @@ std::optional<Index> SurfaceExplorer::trapezoid_at(const ExactPose& pose, Index 
     const auto seen = PointLocation(few, std::vector<Index>(there.size(), 0)).nearby(pose);
     if (seen.on.size() != 1 || seen.end[0] != 0) return {};
     return there[seen.on[0]];
+}
+
+void SurfaceExplorer::take(const SurfaceExplorer& other, const KeptFeatures& kept) {
+    State& s = *state;
+    const State& t = *other.state;
+    for (std::size_t j = 0; j < kept.from.size(); ++j) {
+        if (kept.from[j] < 0) continue;
+        const Index first = s.one.first_patch[j], first_before = t.one.first_patch[kept.from[j]];
+        for (Index n = 0; n < s.one.first_patch[j + 1] - first; ++n) {
+            const Index patch = first + n;
+            if (s.trimmed[patch] || !t.trimmed[first_before + n]) continue;
+            const auto [begin, end] = t.faces_of[first_before + n];
+            const auto before = static_cast<Index>(s.rows.size());
+            for (Index k = begin; k < end; ++k) {
+                s.rows.push_row(t.rows, k);
+                s.rows.patch.back() = patch;
+                for (auto* column : s.rows.features()) column->back() = named(s.names, kept.renamed(column->back()));
+                s.add_sheet(s.one.patches.contact(patch), static_cast<Index>(s.rows.size()) - 1);
+            }
+            s.trimmed[patch] = 1, ++s.patches_trimmed;
+            s.faces_of[patch] = {before, static_cast<Index>(s.rows.size())};
+        }
+    }
+    s.grow_columns();
+}
+
+std::shared_ptr<const CellComplex> SurfaceExplorer::taken(const CellComplex& surface, const KeptFeatures& kept) const {
+    const State& s = *state;
+    const Boundary& before = *surface.boundary;
+    const std::vector<Index> first_before = first_patches(before.scene->near(), before.patches);
+    std::vector<Index> now(first_before.size(), -1);
+    for (std::size_t j = 0; j < kept.from.size(); ++j)
+        if (kept.from[j] >= 0) now[kept.from[j]] = static_cast<Index>(j);
+    Trapezoids rows;
+    for (std::size_t k = 0; k < before.trapezoids.size(); ++k) {
+        const Index patch = before.trapezoids.patch[k], from = before.patches.obstacle[patch];
+        if (now[from] < 0) return nullptr;
+        rows.push_row(before.trapezoids, static_cast<Index>(k));
+        rows.patch.back() = s.one.first_patch[now[from]] + patch - first_before[from];
+        for (auto* column : rows.features()) column->back() = named(s.names, kept.renamed(column->back()));
+    }
+    auto result = std::make_shared<CellComplex>(surface);
+    result->boundary = s.boundary(std::move(rows));
+    return result;
 }
 
 std::size_t SurfaceExplorer::trimmed_patches() const {

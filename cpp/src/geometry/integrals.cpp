@@ -169,7 +169,7 @@ private:
         if (side(h) == Side::first) return from;
         if (side(h) == Side::last) return to;
         if (side(before) != side(h)) return side(h) == Side::upper ? from : to;
-        return std::clamp(cells.theta[static_cast<std::size_t>(cells.vertex[static_cast<std::size_t>(h)])], from, to);
+        return std::clamp(cells.places().theta[static_cast<std::size_t>(cells.vertex[static_cast<std::size_t>(h)])], from, to);
     }
     struct Motion {
         Complex x, velocity, acceleration;
@@ -200,10 +200,10 @@ private:
     }
     double position_at(Index h) const {
         const auto v = static_cast<std::size_t>(cells.vertex[static_cast<std::size_t>(h)]);
-        const auto [c, s] = cosine_sine(cells.theta[v]);
+        const auto [c, s] = cosine_sine(cells.places().theta[v]);
         const Scene& scene = *cells.boundary->scene;
-        const Complex x{cells.xy[2 * v] - (c * scene.frame[2] - s * scene.frame[3]),
-                        cells.xy[2 * v + 1] - (s * scene.frame[2] + c * scene.frame[3])};
+        const Complex x{cells.places().xy[2 * v] - (c * scene.frame[2] - s * scene.frame[3]),
+                        cells.places().xy[2 * v + 1] - (s * scene.frame[2] + c * scene.frame[3])};
         const Complex u = x - (b - Complex{c, s} * a);
         return in_quadrant(turn_of_t * (std::arg(u) - begin));
     }

@@ -30,9 +30,9 @@ public:
           error(most_error), angle_scale(scale), faces(static_cast<Index>(cells.component.size())),
           half_edges(static_cast<Index>(cells.face.size())), filler(most_error, off_surface) {
         for (Index v = 0; v < in.vertices; ++v) {  // the robot unchanged, the obstacles from their origin
-            const auto [c, s] = cosine_sine(in.theta[v]);
+            const auto [c, s] = cosine_sine(in.places().theta[v]);
             const double a = scene.frame[2], b = scene.frame[3];
-            places.emplace_back(in.xy[2 * v] + (0 - (c * a - s * b)), in.xy[2 * v + 1] + (0 - (s * a + c * b)));
+            places.emplace_back(in.places().xy[2 * v] + (0 - (c * a - s * b)), in.places().xy[2 * v + 1] + (0 - (s * a + c * b)));
         }
         mesh_faces.reserve(static_cast<std::size_t>(faces));
         for (Index f = 0; f < faces; ++f) mesh_faces.push_back(sheet_of(f));
@@ -68,12 +68,12 @@ private:
         return {{scene}, on, unpacked(trapezoids.lower[f]), unpacked(trapezoids.upper[f]), from, to, error, angle_scale};
     }
     Index after(Index h) const { return h + 1 == in.first[in.face[h] + 1] ? in.first[in.face[h]] : h + 1; }
-    bool on_seam(Index v) const { return std::abs(in.theta[v] - 0.5 * pi) > pi - 1e-12; }
+    bool on_seam(Index v) const { return std::abs(in.places().theta[v] - 0.5 * pi) > pi - 1e-12; }
     bool is_late(Index h) const { return trapezoids.chart[in.face[h]] == 1; }
     // start of the half-edge, by its face's equations
     double angle(Index h) const {
         const Index v = in.vertex[h];
-        return on_seam(v) ? (is_late(h) ? 1.5 * pi : -0.5 * pi) : in.theta[v];
+        return on_seam(v) ? (is_late(h) ? 1.5 * pi : -0.5 * pi) : in.places().theta[v];
     }
     Complex place(Index h) const { return places[in.vertex[h]]; }
 

@@ -29,8 +29,8 @@ Vec<double> moved(const Scene& scene, double theta) {
 }  // namespace
 
 Vec<double> position(const CellComplex& cells, Index v) {
-    const Vec<double> by = moved(*cells.boundary->scene, cells.theta[v]);
-    return {cells.xy[2 * v] + by.x, cells.xy[2 * v + 1] + by.y};
+    const Vec<double> by = moved(*cells.boundary->scene, cells.places().theta[v]);
+    return {cells.places().xy[2 * v] + by.x, cells.places().xy[2 * v + 1] + by.y};
 }
 
 Place position_on(const Scene& scene, const Feature& contact, double t, double theta) {
@@ -64,7 +64,7 @@ void FaceGraph::middles(Index face, std::vector<Place>& found) const {
             continue;
         }
         for (const Index v : ends) {
-            const double theta = cells->theta[v];
+            const double theta = cells->places().theta[v];
             const double turned = theta + 2 * pi * std::nearbyint(((low + high) / 2 - theta) / (2 * pi));
             result.theta += std::min(std::max(turned, low), high) / 2;
         }

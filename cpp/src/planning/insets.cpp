@@ -78,6 +78,15 @@ std::shared_ptr<KnownScene> Insets::scene(int power) {
     return at(power).scene;
 }
 
+void Insets::take(Insets& other) {
+    const std::scoped_lock guard(lock, other.lock);
+    for (const auto& [power, inner] : other.scenes) {
+        const bool is_power = std::find(powers.begin(), powers.end(), power) != powers.end();
+        if (size != other.size || !is_power || !inner.scene || !inner.scene->has_results()) continue;
+        if (const auto& own = at(power).scene) own->take(*inner.scene);
+    }
+}
+
 std::optional<Separation> Insets::closed(const RationalPose& start, const RationalPose& goal, int power, const Listener& listener) {
     const std::lock_guard guard(lock);
     const auto& inner = at(power).scene;

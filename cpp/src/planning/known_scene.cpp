@@ -27,14 +27,15 @@ std::set<Index> around_cell(const Built& built, Index cell) {
 }
 
 // Compute a boundary, and report the share done; throws if time is up.
-SharedBoundary computed(const std::shared_ptr<const Scene>& scene, bool regularized, const Listener& listener) {
+SharedBoundary computed(const std::shared_ptr<const Scene>& scene, bool regularized, const Listener& listener,
+                        const std::shared_ptr<const Built>& former = {}) {
     const Deadline deadline(listener);
     const auto* flag = stop_flag;
     const auto watch = [&](double share) {
         if ((listener.go_on && !listener.go_on(share)) || (flag && *flag)) return Wish::cancel;
         return deadline.is_over() ? Wish::finish : Wish::go_on;
     };
-    auto found = compute_boundary(scene, {listener.threads, regularized, watch});
+    auto found = compute_boundary(scene, {listener.threads, regularized, watch, {}, former ? former->boundary : nullptr});
     if (!found->is_complete()) deadline.heed();
     if (listener.go_on && !listener.go_on(1)) throw Stopped();
     return found;
@@ -172,6 +173,14 @@ std::optional<Barrier> KnownScene::barrier(const RationalPose& start, const Rati
     return barrier_between(*all, first, second);
 }
 
+void KnownScene::take(const KnownScene& other) {
+    former = other.built();
+    if (!former) former = other.former;
+    if (!other.around) return;
+    around = std::make_shared<Surroundings>(features->scene, checker, may_have_slits(scene()));
+    around->take(*other.around);
+}
+
 std::shared_ptr<const Built> KnownScene::built() const {
     const std::lock_guard guard(lock);
     return space;
@@ -188,14 +197,17 @@ std::shared_ptr<const Built> KnownScene::build(const Listener& listener) {
     {
         const Phase phase(listener, "free space");
         if (listener.spend) listener.spend(patches());
-        result.boundary = computed(features->scene, false, listener);
+        result.boundary = computed(features->scene, false, listener, former);
     }
     {
         const Phase phase(listener, "cells");
         const bool has_slits = may_have_slits(scene());
-        result.surfaces = glue(has_slits ? computed(features->scene, true, listener) : result.boundary, listener.threads);
+        if (has_slits) result.surfaces = glue(computed(features->scene, true, listener), listener.threads);
+        else if (former) result.surfaces = glue(result.boundary, *former->surfaces, listener.threads);
+        else result.surfaces = glue(result.boundary, listener.threads);
         result.space = FreeSpace::of(*result.surfaces);
     }
+    former = nullptr;
     keep(std::make_shared<const Built>(std::move(result)));
     return built();
 }

@@ -148,7 +148,7 @@ std::vector<Encounter> MeetingPlaces::find_encounters() const {
     };
     for (Index v = 0; v < cells.vertices; ++v) {
         const auto [x, y] = position(cells, v);
-        add(x, y, cells.theta[v]);
+        add(x, y, cells.places().theta[v]);
     }
     for (const ThinPart& part : parts)
         for (const Place& end : part.rounded) add(end.x, end.y, end.theta);
@@ -177,7 +177,7 @@ std::vector<Index> MeetingPlaces::faces_beside(Index vertex, const std::set<Inde
     const Scene& scene = *boundary.scene;
     const Trapezoids& table = boundary.trapezoids;
     const auto [x, y] = position(*walker->cells, vertex);
-    const double theta = walker->cells->theta[vertex];
+    const double theta = walker->cells->places().theta[vertex];
     const Limits limits(boundary);
     std::vector<Index> found;
     for (const int chart : {0, 1}) {
@@ -252,7 +252,7 @@ std::vector<Index> MeetingPlaces::faces_near(const ThinPart& part) const {
     const double low = part.rounded[0].theta - not_told_apart, high = part.rounded[1].theta + not_told_apart;
     std::set<Index> faces;
     vertices->query(part.box(not_told_apart * size), [&](Index v) {
-        const double after = walker->cells->theta[v] - low;
+        const double after = walker->cells->places().theta[v] - low;
         if (after - turn * std::floor(after / turn) <= high - low)
             faces.insert(face_at.begin() + first_at[v], face_at.begin() + first_at[v + 1]);
     });

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "cfree/planning/connecting_way.hpp"
@@ -24,6 +26,13 @@ constexpr int few_vertices = 16, most_vertices = 256;
 // A pair of trees may go astray: one in eight took ten times the guesses of others of other seeds. So after as many guesses in
 // turns new trees begin where patches are dear, each of twice as many as the one before, up to a limit.
 constexpr int first_trees = 20000, least_trees = 4000, most_trees = 16000;
+constexpr std::size_t most_ways = 16;  // paths that are kept for planners of other scenes
+constexpr int nodes_near = 4;          // poses of such a path to which a motion is tried
+constexpr int mending_guesses = 1000;  // guesses to lead such a path around what is in its way, each time
+constexpr double mending_room = 3;     // beside it, in radii of the robot
+constexpr double most_longer = 1.25;   // times the cost of such a path, around what is in its way, without another search
+constexpr int most_mended = 8;         // times for one query
+constexpr std::size_t checks_each = 4, most_checks = 600;  // motions checked to straighten such a path, for each of its own
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
 bool is_before(const RationalPose& a, const RationalPose& b) {
@@ -37,6 +46,16 @@ bool is_before(const RationalPose& a, const RationalPose& b) {
 RationalPose half_way(const RationalPose& from, const RationalPose& to) {
     const Ratio half{1, 2}, x = half * (from.x + to.x), y = half * (from.y + to.y), u = from.x - x, v = from.y - y;
     return {x - v, y + u, HalfAngle::along(from.half.q - from.half.p, from.half.q + from.half.p)};
+}
+
+double apart(const Place& a, const Place& b, double angle_scale) {
+    return norm(a.x - b.x, a.y - b.y) + angle_scale * std::abs(std::remainder(a.theta - b.theta, 2 * std::numbers::pi));
+}
+
+double cost_of(const Poses& way, double angle_scale) {
+    double sum = 0;
+    for (std::size_t k = 1; k < way.size(); ++k) sum += apart(way[k - 1].place(), way[k].place(), angle_scale);
+    return sum;
 }
 
 }  // namespace
@@ -64,6 +83,7 @@ Planner::Answer Planner::plan(const End& start, const End& goal, const Listener&
         if (!scene->is_free(goal.pose)) return Refused::goal;
         if (start.pose == goal.pose) return Poses{start.pose};
         way = simple_way(first.pose, last.pose);
+        if (!way) way = former_way(first, last);
         const auto built = scene->built();
         if (!way && built && built->common_cell(first.pose, last.pose) >= 0) way = searched(first, last, quick_guesses);
     }
@@ -77,6 +97,7 @@ Planner::Answer Planner::plan(const End& start, const End& goal, const Listener&
         if (!found) return Refused::unclear;
         if (auto* proof = std::get_if<Separation>(&*found)) return std::move(*proof);
         way = std::get<Poses>(std::move(*found));
+        remember(*way);
     }
     return is_forth ? *way : reversed(*way);
 }
@@ -87,6 +108,90 @@ std::optional<Poses> Planner::simple_way(const RationalPose& start, const Ration
     auto way = motions.first_free({{start, turned, goal}, {start, moved, goal}, {start, goal}});
     if (way) way->erase(std::unique(way->begin(), way->end()), way->end());
     return way;
+}
+
+void Planner::remember(const Poses& way) {
+    const std::lock_guard guard(remembering);
+    ways.push_front(way);
+    if (ways.size() > most_ways) ways.pop_back();
+}
+
+// Path along one of another scene; motions join both poses to it, and searches lead around what is in its way here.
+std::optional<Poses> Planner::former_way(const End& start, const End& goal) {
+    const FreeMotions motions(scene->scene(), *scene->checker, *slides);
+    const auto nearest_of = [&](const Poses& on, const RationalPose& pose) -> std::optional<std::size_t> {
+        const Place from = pose.place();
+        std::vector<std::pair<double, std::size_t>> near;
+        for (std::size_t k = 0; k < on.size(); ++k) near.push_back({apart(on[k].place(), from, angle_scale), k});
+        std::sort(near.begin(), near.end());
+        for (std::size_t n = 0; n < std::min<std::size_t>(nodes_near, near.size()); ++n)
+            if (motions.join({pose, on[near[n].second]})) return near[n].second;
+        return {};
+    };
+    int left = most_mended;
+    for (const Poses& on : former) {
+        const auto from = nearest_of(on, start.pose), to = from ? nearest_of(on, goal.pose) : std::nullopt;
+        if (!to) continue;
+        Poses along{start.pose};
+        for (std::size_t k = *from; k != *to; k = k < *to ? k + 1 : k - 1) along.push_back(on[k]);
+        along.push_back(on[*to]), along.push_back(goal.pose);
+        along.erase(std::unique(along.begin(), along.end()), along.end());
+        auto found = mended(along, left);
+        if (!found) continue;
+        const double cost = cost_of(*found, angle_scale);
+        if (cost > most_longer * cost_of(along, angle_scale)) {
+            auto other = searched(start, goal, quick_guesses);
+            if (other && cost_of(*other, angle_scale) < cost) found = std::move(other);
+        }
+        if (*found != along) remember(*found);
+        return found;
+    }
+    return {};
+}
+
+// Path with the free motions of a way, and searches in place of the others; each takes one from `left`.
+std::optional<Poses> Planner::mended(const Poses& way, int& left) const {
+    const FreeMotions motions(scene->scene(), *scene->checker, *slides);
+    Poses found{way.front()};
+    for (std::size_t k = 1; k < way.size(); ++k) {
+        if (motions.join({way[k - 1], way[k]})) {
+            found.push_back(way[k]);
+            continue;
+        }
+        // on to the next free motion
+        while (k + 1 < way.size() && !motions.join({way[k], way[k + 1]})) ++k;
+        if (left-- <= 0) return {};
+        const RationalPose &a = found.back(), &b = way[k];
+        const std::array ends{a.place(), b.place()};
+        const Searcher searcher(scene, ends, {angle_scale});
+        const Route around = searcher.search_near({a, ends[0]}, {b, ends[1]}, mending_room * angle_scale).run(mending_guesses);
+        if (around.empty()) return {};
+        const Poses poses = searcher.poses(around);
+        found.insert(found.end(), poses.begin() + 1, poses.end());
+    }
+    return found;
+}
+
+// The same path with fewer motions: one along contacts has hundreds, and any change is in the way of some.
+Poses Planner::straightened(const Poses& way) const {
+    std::vector<End> ends;
+    for (const RationalPose& pose : way) ends.push_back({pose, pose.place()});
+    const std::array outer{ends.front().place, ends.back().place};
+    const Searcher searcher(scene, outer, {angle_scale});
+    Shortcut shorter = searcher.shortener(ends);
+    shorter.run(static_cast<int>(std::min<std::size_t>(most_checks, checks_each * way.size())));
+    shorter.merge();
+    return searcher.poses(shorter.path());
+}
+
+void Planner::take(Planner& other) {
+    const std::lock_guard guard(other.working);
+    scene->take(*other.scene);
+    if (other.smaller) insets().take(*other.smaller);
+    const std::lock_guard ways_guard(other.remembering);
+    for (const Poses& way : other.ways) former.push_back(straightened(way));
+    for (const Poses& way : other.former)
+        if (former.size() < most_ways) former.push_back(way);
 }
 
 std::optional<Poses> Planner::quick(const End& start, const End& goal, std::optional<int> guesses) const {

@@ -68,12 +68,24 @@ Route Searcher::route(std::span<const End> way) const {
 }
 
 RrtConnect Searcher::search(const End& start, const End& goal, std::uint64_t seed, const Growth& growth) const {
+    return search_in(area, start, goal, seed, growth);
+}
+
+RrtConnect Searcher::search_near(const End& start, const End& goal, double room) const {
+    const Configuration a = configuration(start), b = configuration(goal);
+    const double more = room * unit;
+    return search_in({std::max(area.x0, std::min(a.px, b.px) - more), std::max(area.y0, std::min(a.py, b.py) - more),
+                      std::min(area.x1, std::max(a.px, b.px) + more), std::min(area.y1, std::max(a.py, b.py) + more)},
+                     start, goal, 0, {});
+}
+
+RrtConnect Searcher::search_in(const Area& within, const End& start, const End& goal, std::uint64_t seed, const Growth& growth) const {
     auto certainly = [checker = scene->checker](const Configuration& a, const Configuration& b) {
         heed_stop();
         return checker->is_free(motion_between(a, b));
     };
     const MotionGuess seems(scene->looks(), costs.weight, unit);
-    return {{seems, std::move(certainly)}, grid(place_bits, angle_bits), area, costs.weight, configuration(start), configuration(goal), seed, growth};
+    return {{seems, std::move(certainly)}, grid(place_bits, angle_bits), within, costs.weight, configuration(start), configuration(goal), seed, growth};
 }
 
 Shortcut Searcher::shortener(std::span<const End> way, std::uint64_t seed) const {

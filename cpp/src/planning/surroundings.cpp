@@ -7,6 +7,7 @@
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/search/configuration.hpp"
 #include "cfree/support/lookout.hpp"
+#include "forbidden/kept_patches.hpp"
 
 namespace cfree {
 
@@ -25,7 +26,7 @@ Int largest(const std::vector<Int>& X, const std::vector<Int>& Y) {
 }  // namespace
 
 Surroundings::Surroundings(std::shared_ptr<const Scene> s, std::shared_ptr<const MotionChecker> by, bool regularized)
-    : scene(std::move(s)), checker(std::move(by)), explorer(scene, regularized) {
+    : scene(std::move(s)), checker(std::move(by)), has_slits(regularized), explorer(scene, regularized) {
     const Shape &A = scene->robot, &O = scene->obstacles;
     const auto [x0, x1] = std::minmax_element(A.X.begin(), A.X.end());
     const auto [y0, y1] = std::minmax_element(A.Y.begin(), A.Y.end());
@@ -136,9 +137,7 @@ std::shared_ptr<const CellComplex> Surroundings::advance(Search& s, Index most, 
                 const auto grown = explorer.grow(s.seed, most, target);
                 if (!grown.complex) return nullptr;
                 if (!grown.is_closed) return grown.complex;
-                std::vector<Index> one(grown.complex->component.size(), 0);
-                auto rays = std::make_unique<const PointLocation>(grown.complex->boundary, std::move(one));
-                surfaces.push_back({grown.complex, std::move(rays)});
+                keep(grown.complex);
                 known = static_cast<Index>(surfaces.size()) - 1;
             }
             clear = pass(s, known);
@@ -147,6 +146,24 @@ std::shared_ptr<const CellComplex> Surroundings::advance(Search& s, Index most, 
         if (!clear && !start_again(s)) s.ended = s.failed = true;
     }
     return nullptr;
+}
+
+void Surroundings::keep(std::shared_ptr<const CellComplex> closed) {
+    std::vector<Index> one(closed->component.size(), 0);
+    auto rays = std::make_unique<const PointLocation>(closed->boundary, std::move(one));
+    surfaces.push_back({std::move(closed), std::move(rays)});
+}
+
+// Patches that are the same have the same parts; a closed surface of such patches alone is closed here, as no other touches them.
+void Surroundings::take(const Surroundings& other) {
+    const Scene &before = *other.scene, &now = *scene;
+    // integers may have decided the last digits of angles, and places are measured in the frame
+    if (has_slits || other.has_slits || before.scale != now.scale || before.shift != now.shift || before.frame != now.frame) return;
+    const auto kept = kept_features(before.near(), now.near());
+    if (!kept) return;
+    explorer.take(other.explorer, *kept);
+    for (const Known& known : other.surfaces)
+        if (auto closed = explorer.taken(*known.complex, *kept)) keep(std::move(closed));
 }
 
 std::optional<bool> Surroundings::is_around(Index surface, const Search& search) const {

@@ -328,14 +328,15 @@ class BoundaryRecord(Value):
         return _core.Slicer(self._handle)
 
 
-def glue_by(threads: int, boundary: BoundaryRecord) -> None:
-    """Compute `_complex_handle` with a number of threads, unless it is there."""
+def glue_by(threads: int, boundary: BoundaryRecord, reuse: BoundaryRecord | None = None) -> None:
+    """Compute `_complex_handle` with a number of threads, unless it is there; take faces of another boundary's."""
     if "_complex_handle" not in boundary.__dict__:
-        boundary._complex_handle = _glued(boundary, threads)
+        before = None if reuse is None else reuse.__dict__.get("_complex_handle")
+        boundary._complex_handle = _glued(boundary, threads, before)
 
 
-def _glued(boundary: BoundaryRecord, threads: int) -> _core.CellComplex:
+def _glued(boundary: BoundaryRecord, threads: int, reuse: _core.CellComplex | None = None) -> _core.CellComplex:
     try:
-        return _core.glue(boundary._handle, threads)
+        return _core.glue(boundary._handle, threads, reuse)
     except RuntimeError as error:
         raise InvariantError(f"the boundary is not closed: {error}", state=boundary.scene) from error

@@ -395,7 +395,7 @@ class FreeSpace(Value, Shown):
 
 
 @checked
-def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
+def free_space(boundary: Boundary, *, threads: int | None = None, reuse: FreeSpace | None = None) -> FreeSpace:
     """Compute the cells of the free space of a boundary.
 
     Parameters
@@ -404,6 +404,9 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
         Must be complete.
     threads : int, optional
         All cores by default. The result does not depend on it.
+    reuse : FreeSpace, optional
+        The free space of another scene with the same robot, such as the scene before an obstacle moved. Only faces
+        beside those that have changed are glued again. The result has the same bytes as without.
 
     Returns
     -------
@@ -422,6 +425,10 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
     -----
     A corridor exactly as wide as the robot is in no cell, and neither is a place where free space is pinched.
 
+    Nothing is taken from the space given as `reuse` where `boundary` takes nothing from its boundary, and if walls may
+    leave slits of no width at `bounds`. Vertices of `FreeSpace.complex` are then placed at first use, in the time of
+    gluing all faces, as their last digits depend on all of them.
+
     Examples
     --------
     >>> import cfree
@@ -434,12 +441,16 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
     [0, 1, -1]
     >>> space.cells[1].caged, space.cells[1].full_turn
     (True, True)
+    >>> more = scene.with_obstacle([(5, 5), (6, 5), (6, 6)])
+    >>> free_space(cfree.boundary(more, reuse=space.boundary), reuse=space)
+    FreeSpace(2 cells, 1 caged, 3 closed surfaces)
     """
     if threads is not None and threads < 1:
         raise ValueError(f"threads: {threads}; give at least 1")
     boundary.require_complete()
     bounding = bounding_surfaces(boundary, threads)
-    glue_by(threads or os.cpu_count() or 1, bounding)
+    before = reuse.surfaces if reuse is not None and bounding is boundary else None
+    glue_by(threads or os.cpu_count() or 1, bounding, before)
     try:
         core = _core.free_space(bounding._complex_handle)
     except RuntimeError as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -86,6 +86,43 @@ class Planner(Value):
         """The free space, computed at first use."""
         self.space = self._poses.free_space(self._options())
         return self.space
+
+    @checked
+    def updated(self, scene: Scene) -> Planner:
+        """Return a planner for another scene that shares what still holds in it, with the settings of this one.
+
+        Both scenes need the same robot. This planner stays as it is.
+
+        Parameters
+        ----------
+        scene : Scene
+            Such as the scene of this planner with an obstacle moved, or read anew. Obstacles are matched by their
+            vertices.
+
+        Notes
+        -----
+        Patches, closed surfaces and proofs are shared where nothing within the robot's reach has changed, and
+        the free space is computed with `reuse` of this one's. The last paths of this planner answer queries between
+        poses that one free motion each joins to them: short searches lead them around what is in their way.
+        So paths may be others than those of a new planner; each is checked in the new scene. Nothing is shared among
+        round shapes. While this planner answers a query in another thread, the call waits for it.
+
+        Examples
+        --------
+        >>> from cfree import Polygon
+        >>> ring = Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(1, 1), (1, 8), (8, 8), (8, 1)]])
+        >>> scene = Scene([(0, 0), (1, 0), (0, "0.5")], [ring, [(20, 0), (21, 0), (21, 1)]])
+        >>> planner = Planner(scene)
+        >>> planner.plan((4, 4, 0), (12, 4, 0)).of
+        'closed'
+        >>> planner.updated(scene.moved(1, (0, 3, 0))).plan((4, 4, 0), (12, 4, 0)).of
+        'closed'
+        >>> isinstance(planner.updated(scene.without_obstacle(0)).plan((4, 4, 0), (12, 4, 0)), Path)
+        True
+        """
+        other = replace(self, scene=scene, space=None, stop=threading.Event())
+        other._poses = self._poses.updated(scene)
+        return other
 
     @checked
     def plan(

@@ -74,6 +74,14 @@ class PosePlanner:
     def _planner(self) -> _core.Planner:
         return _core.Planner(self._known, self.angle_scale)
 
+    def updated(self, scene: Scene) -> PosePlanner:
+        """Return a planner of another scene that shares what holds in it."""
+        other = PosePlanner(scene)
+        is_polygonal = not (self.scene.curved or scene.curved)
+        if is_polygonal and (self._space is not None or "_known" in self.__dict__):
+            other._planner.take(self._planner)
+        return other
+
     def free_space(self, options: Options) -> FreeSpace:
         """Return the free space, computed at first use."""
         if self._space is None:

@@ -10,6 +10,8 @@ import pytest
 
 import cfree
 from cfree import Scene
+from cfree.formats.drawings import cells as map_cells
+from cfree.formats.drawings import grid as grid_parts
 
 ROBOT = [(0, 0), ("0.1", 0), (0, "0.1")]
 
@@ -65,3 +67,25 @@ def test_bool_masked_and_float_arrays() -> None:
 def test_wrong_grids_are_refused_with_a_remedy(array: Any, options: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         Scene.from_grid(ROBOT, array, **{"resolution": 1, **options})
+
+
+def test_a_grid_of_which_a_few_cells_have_changed_has_the_polygons_of_the_one_before() -> None:
+    rng = np.random.default_rng(3)
+    grid = np.where(rng.random((40, 40)) < 0.3, 100, 0)
+    before = Scene.from_grid(ROBOT, grid, "0.5", (1, 2, 0))
+    grid[20, 20:22] = 100 - grid[20, 20:22]
+    after = Scene.from_grid(ROBOT, grid, "0.5", (1, 2, 0))
+    kept = {id(polygon) for polygon in before.obstacles} & {id(polygon) for polygon in after.obstacles}
+    assert len(kept) >= len(after.obstacles) - 4
+    assert before != after
+
+
+def test_polygons_that_are_kept_are_those_traced_anew() -> None:
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        grid = np.where(rng.random((15, 15)) < 0.5, 100, 0)  # many parts that are cut where they touch in a corner
+        for origin in ((0, 0, 0), (1, 2, "90deg")):
+            kept = [Scene.from_grid(ROBOT, grid, "0.5", origin) for _ in range(2)]
+            grid_parts._traced_before.cache_clear()
+            map_cells._polygon_before.cache_clear()
+            assert kept[0] == kept[1] == Scene.from_grid(ROBOT, grid, "0.5", origin)

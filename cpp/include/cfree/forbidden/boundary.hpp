@@ -36,8 +36,8 @@ public:
     const Trapezoids trapezoids;
     const IsolatedParts isolated;
     const Tally tally;
-    // Parts of patches without width, on trapezoids or not; and counts by obstacle ring vertex. Only if it has been computed: no
-    // file has them.
+    // Parts of patches without width, on trapezoids or not; and counts by obstacle ring vertex. Only if it has been computed,
+    // and not regularized: no file has them, and other scenes take nothing without them.
     const std::optional<Trapezoids> thin;
     const std::vector<Count> counted;
 

@@ -10,15 +10,28 @@ namespace cfree {
 
 enum class Side : std::uint8_t { first, upper, last, lower };
 
+// Vertices of a complex, rounded; in the user's units, from `Scene::frame`.
+struct VertexPlaces {
+    std::vector<double> xy, theta;
+};
+
 struct CellComplex {
     SharedBoundary boundary;
     // half-edges, face after face in the order of their loops
-    std::vector<Index> face, twin, edge, vertex;  // vertex: at its start
+    std::vector<Index> face, twin, edge, vertex;  // edge: numbered in the order of its first half-edge; vertex: at its start
     std::vector<std::uint8_t> side;
     std::vector<Index> first;      // half-edges of face k: first[k] .. first[k + 1]
     std::vector<Index> component;  // each face's component
-    std::vector<double> xy, theta;  // the vertices, rounded; in the user's units, from `Scene::frame`
     Index edges = 0, vertices = 0, components = 0;
+    // Computed at the first call if faces of another complex were taken: by gluing anew, as last digits depend on all faces.
+    const VertexPlaces& places() const;
+
+    struct Placing {
+        std::once_flag once;
+        VertexPlaces places;
+        std::function<VertexPlaces()> later;  // empty: they are there
+    };
+    std::shared_ptr<Placing> placing = std::make_shared<Placing>();
 };
 
 // Half-edges along each edge at which more than two faces meet.
@@ -27,6 +40,9 @@ std::vector<std::vector<Index>> pinched(const CellComplex& cells);
 // Glue the sides of a boundary, with the same result for any number of threads. Throws std::logic_error, with a message that
 // names trapezoids, if a side has no partner.
 std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int threads = 1);
+
+// The same complex, with faces of that of another boundary where all that their sides meet is the same.
+std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, const CellComplex& reuse, int threads = 1);
 
 // Closed surfaces that hold the seeds, of a boundary with only some patches trimmed. `whole` is true for a trapezoid if all
 // trapezoids that its sides meet are there. If the surfaces continue over one that is not whole, it is missing, and there is

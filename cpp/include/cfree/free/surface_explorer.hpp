@@ -5,6 +5,8 @@
 
 namespace cfree {
 
+struct KeptFeatures;
+
 class SurfaceExplorer {
 public:
     SurfaceExplorer(std::shared_ptr<const Scene> scene, bool regularized);
@@ -25,6 +27,11 @@ public:
 
     // Begin another question: what is trimmed and explored stays, but no surface is grown from where an earlier one ended.
     void begin();
+
+    // Take the patches that another explorer has trimmed and that are the same in this scene.
+    void take(const SurfaceExplorer& other, const KeptFeatures& kept);
+    // Closed surface of another explorer in this scene; null if some of its patches are not the same.
+    std::shared_ptr<const CellComplex> taken(const CellComplex& surface, const KeptFeatures& kept) const;
 
     // Number of patches trimmed so far, and of those that this question has met.
     std::size_t trimmed_patches() const;

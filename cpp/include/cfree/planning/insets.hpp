@@ -33,6 +33,8 @@ public:
     // Separation by an inset of 2^power of the robot's size, if there is one. Calls from several threads run one after another.
     std::optional<Separation> closed(const RationalPose& start, const RationalPose& goal, int power, const Listener& listener);
     std::size_t known() const { return scenes.size(); }
+    // Take what has been computed of the insets of another scene and what holds in this one.
+    void take(Insets& other);
 
 private:
     struct Inner {

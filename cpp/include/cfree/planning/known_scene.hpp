@@ -61,6 +61,12 @@ public:
     // Closed surface around exactly one of two poses that touch nothing, if there is one; for one thread at a time.
     std::optional<Barrier> barrier(const RationalPose& start, const RationalPose& goal, const Listener& listener);
 
+    // Take what has been computed of another scene and what holds in this one; before any other call, and for one thread at a time,
+    // in both scenes.
+    void take(const KnownScene& other);
+    // True if there is something to take.
+    bool has_results() const { return around || built() || former; }
+
     // Null until it has been built.
     std::shared_ptr<const Built> built() const;
     std::shared_ptr<const Built> build(const Listener& listener);
@@ -70,7 +76,7 @@ private:
     std::optional<std::array<Int, 4>> frame;  // frame of a workspace: xmin, ymin, xmax, ymax
     mutable std::mutex lock;  // guards the cache
     std::shared_ptr<Surroundings> around;
-    std::shared_ptr<const Built> space;
+    std::shared_ptr<const Built> space, former;  // former: of another scene
     std::shared_ptr<const PoseChecker> poses() const;
     mutable std::unique_ptr<const Nearness> near;
     mutable std::shared_ptr<const PoseChecker> pose_checker;

@@ -6,6 +6,7 @@
 // time of the better of both. The first surfaces are those of a slightly smaller robot: they prove that there is no path, or
 // lead to one near by. The cells of the free space settle the rest: a walk along a cell's boundary is a path.
 #pragma once
+#include <deque>
 #include <variant>
 
 #include "cfree/planning/insets.hpp"
@@ -23,6 +24,11 @@ public:
     enum class Effort { few_surfaces, all };
     // The path from goal to start is the same, backwards. Slides join some neighbours on a path. Several threads may call this.
     Answer plan(const End& start, const End& goal, const Listener& listener, Effort most = Effort::all);
+
+    // Take what a planner of another scene has computed and what holds in this one; before any other call. It waits for a query
+    // of the other planner. Paths of that planner answer queries between poses near them, if they are still free, or if searches
+    // lead around what is in their way.
+    void take(Planner& other);
 
     // Path along the boundary of the first cell whose closure contains both poses, if there is one.
     std::optional<Poses> walk(const End& start, const End& goal, const Listener& listener);
@@ -46,6 +52,10 @@ private:
     std::optional<Poses> in_a_cell(const End& start, const End& goal, const Listener& listener);
     Found by_all(const End& start, const End& goal, const Listener& listener);
     std::optional<Poses> simple_way(const RationalPose& start, const RationalPose& goal) const;
+    std::optional<Poses> former_way(const End& start, const End& goal);
+    std::optional<Poses> mended(const Poses& way, int& left) const;
+    void remember(const Poses& way);
+    Poses straightened(const Poses& way) const;
     std::optional<Poses> searched(const End& start, const End& goal, int most, const Growth& growth = {}) const;
     const std::shared_ptr<const BoundaryWalker>& walker(const Listener& listener);
     Passages& passages(const Listener& listener);
@@ -55,6 +65,9 @@ private:
     std::shared_ptr<const BoundaryWalker> walks;
     std::unique_ptr<Passages> fits;
     std::unique_ptr<Insets> smaller;
+    std::mutex remembering;
+    std::deque<Poses> ways;    // the last answers, the last first
+    std::deque<Poses> former;  // those of planners of other scenes
 };
 
 // Reversed path, with as many motions; half a turn, which could go on either side, becomes two.

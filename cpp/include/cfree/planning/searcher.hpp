@@ -23,6 +23,8 @@ public:
              const std::optional<Place>& center = {});
 
     RrtConnect search(const End& start, const End& goal, std::uint64_t seed = 0, const Growth& growth = {}) const;
+    // The same in a box around both, larger by some room on each side.
+    RrtConnect search_near(const End& start, const End& goal, double room) const;
     Shortcut shortener(std::span<const End> way, std::uint64_t seed = 0) const;
     // Shortener of a path beside this one that keeps a distance from obstacles if there is room, at most so many radii.
     Shortcut balanced(std::span<const End> way, std::uint64_t seed = 0, double radii = HUGE_VAL) const;
@@ -31,6 +33,7 @@ public:
     const double unit;
 
 private:
+    RrtConnect search_in(const Area& within, const End& start, const End& goal, std::uint64_t seed, const Growth& growth) const;
     Grid grid(int place_bits, int angle_bits) const;
     Configuration configuration(const End& end) const;
     Route route(std::span<const End> way) const;

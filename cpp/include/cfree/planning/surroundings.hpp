@@ -45,6 +45,9 @@ public:
     std::optional<bool> is_around(Index surface, const Search& search) const;
     const std::shared_ptr<const CellComplex>& surface(Index k) const { return surfaces[k].complex; }
 
+    // Take what the surroundings of another scene have computed and what holds in this one.
+    void take(const Surroundings& other);
+
     // Begin another question.
     void begin() { explorer.begin(); }
 
@@ -67,8 +70,10 @@ private:
     bool pass(Search& search, Index surface) const;
     std::optional<ExactPose> beyond(const Search& search, const Known& surface, const std::vector<Index>& crossed) const;
 
+    const bool has_slits;
     SurfaceExplorer explorer;
     std::vector<Known> surfaces;
+    void keep(std::shared_ptr<const CellComplex> closed);
     Int size, radius, left;  // size of the robot, its radius about the reference point, smallest x of obstacles
 };
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
@@ -15,6 +16,7 @@ from cfree.formats.shapes import Shape
 from cfree.polygons.polygon import Polygon
 
 States = NDArray[np.int8]
+KEPT_POLYGONS, KEPT_VERTICES = 1024, 1024  # number of polygons that are kept, and the most vertices of one
 UNKNOWN, FREE, OCCUPIED, BETWEEN = -1, 0, 1, 2
 """States of cells; those in between free and occupied are obstacles."""
 
@@ -29,11 +31,25 @@ class Place:
         """Return the exact points of corners of cells, as (column, row)."""
         return list(self.origin.apply_exact([(x * self.resolution, y * self.resolution) for x, y in ring]))
 
+    def polygon(self, rings: list[list[tuple[int, int]]]) -> Polygon:
+        """Return the polygon of some rings, the outer one first."""
+        traced = _polygon_before if sum(map(len, rings)) <= KEPT_VERTICES else _polygon
+        return traced(self.resolution, self.origin, tuple(map(tuple, rings)))
+
     def middle(self, row: int, column: int) -> tuple[float, float]:
         """Return the middle of a cell."""
         half = Fraction(self.resolution) / 2
         ((x, y),) = self.origin.apply_exact([((2 * column + 1) * half, (2 * row + 1) * half)])
         return float(x), float(y)
+
+
+def _polygon(resolution: Fraction | int, origin: Pose, rings: tuple[tuple[tuple[int, int], ...], ...]) -> Polygon:
+    place = Place(resolution, origin)
+    outer, *holes = (place.ring(list(ring)) for ring in rings)
+    return Polygon(outer, holes)
+
+
+_polygon_before = lru_cache(KEPT_POLYGONS)(_polygon)  # a map that changes keeps most of its polygons
 
 
 def cell_shapes(
@@ -67,10 +83,7 @@ def cell_shapes(
             source.note("info", "unknown cell: forbidden", "more", count=unknown, remedy="--unknown free")
         else:
             source.note("assumption", "unknown cell: free", "less", count=unknown, remedy="--unknown obstacle")
-    shapes = [
-        Shape("obstacle", None, Polygon(place.ring(outer), [place.ring(hole) for hole in holes]))
-        for outer, *holes in outlines(marked, source.spend)
-    ]
+    shapes = [Shape("obstacle", None, place.polygon(rings)) for rings in outlines(marked, source.spend)]
     if not shapes:
         source.note("info", "map without an obstacle", where=source.findings.file)
     if edge == "always" or unknown_forbids:

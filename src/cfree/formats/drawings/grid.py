@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 Mask = NDArray[np.bool_]
 Runs = NDArray[np.intp]
 Point = tuple[int, int]
+KEPT_PARTS, KEPT_CELLS = 512, 1 << 18  # number of parts whose rings are kept, and the most cells of the box of one
 
 
 def outlines(mask: Mask, spend: Callable[[int], object] = lambda steps: None) -> Iterator[list[list[Point]]]:
@@ -39,15 +41,29 @@ def outlines(mask: Mask, spend: Callable[[int], object] = lambda steps: None) ->
     while waiting:
         part, (x, y) = waiting.pop()
         for piece, (column, row) in reversed(list(_connected(part, spend))):
-            pinches = _pinches(piece)
-            if pinches.size:
-                cut = int(pinches[len(pinches) // 2])
+            traced = _traced_before if piece.size <= KEPT_CELLS else _traced
+            cut, rings, steps = traced(piece.shape, np.packbits(piece).tobytes())
+            spend(steps)
+            if cut:
                 waiting += [
                     (piece[cut:], (x + column, y + row + cut)),
                     (piece[:cut], (x + column, y + row)),
                 ]
             else:
-                yield [[(x + column + p, y + row + q) for p, q in ring] for ring in _rings(piece, spend)]
+                yield [[(x + column + p, y + row + q) for p, q in ring] for ring in rings]
+
+
+def _traced(shape: tuple[int, int], cells: bytes) -> tuple[int, list[list[Point]], int]:
+    """Return the row along which a part has to be cut, or 0, its rings if it has not, and the steps that they took."""
+    bits = np.frombuffer(cells, dtype=np.uint8)
+    piece = np.unpackbits(bits, count=shape[0] * shape[1]).reshape(shape).astype(bool)
+    pinches = _pinches(piece)
+    if pinches.size:
+        return int(pinches[len(pinches) // 2]), [], 0
+    return 0, *_rings(piece)
+
+
+_traced_before = lru_cache(KEPT_PARTS)(_traced)  # a map that changes keeps most of its parts
 
 
 def specks(
@@ -131,10 +147,11 @@ def _pinches(mask: Mask) -> NDArray[np.intp]:
     return np.nonzero(((a & d & ~b & ~c) | (b & c & ~a & ~d)).any(axis=1))[0] + 1
 
 
-def _rings(mask: Mask, spend: Callable[[int], object]) -> list[list[Point]]:
-    """Return the rings around one part without pinches, its cells to the left; the outer one is first."""
+def _rings(mask: Mask) -> tuple[list[list[Point]], int]:
+    """Return the rings around one part without pinches, the outer one first, its cells to the left; and their sides."""
     padded = np.pad(mask, 1)
     follow: dict[Point, Point] = {}
+    count = 0
     sides = {
         (1, 0): padded[1:, 1:-1] & ~padded[:-1, 1:-1],  # the cell is above its lower side
         (-1, 0): padded[:-1, 1:-1] & ~padded[1:, 1:-1],
@@ -143,7 +160,7 @@ def _rings(mask: Mask, spend: Callable[[int], object]) -> list[list[Point]]:
     }
     for (dx, dy), there in sides.items():
         rows, columns = np.nonzero(there)
-        spend(len(rows))
+        count += len(rows)
         for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
             follow[column + (dx < 0), row + (dy < 0)] = dx, dy
     rings: list[list[Point]] = []
@@ -159,7 +176,7 @@ def _rings(mask: Mask, spend: Callable[[int], object]) -> list[list[Point]]:
         if len(ring) > 1 and before == _direction(ring[0], ring[1]):
             ring = ring[1:]
         rings.append(ring)
-    return rings
+    return rings, count
 
 
 def _direction(p: Point, q: Point) -> Point:
