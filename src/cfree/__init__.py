@@ -113,8 +113,8 @@ _HOMES = {
     "viewer.notebook": "widget",
 }
 _PACKAGES = (
-    "analysis arrangements collision contact curves distributed exact figures film forbidden formats free geometry "
-    "ompl paths planning plot rational verify viewer"
+    "analysis arrangements caging collision contact curves disassembly distributed exact figures film forbidden "
+    "formats free geometry ompl paths planning plot rational verify viewer"
 )
 _MOVED = {
     "analysis": "Blocker Fit Interval NearestMiss",
@@ -130,5 +130,9 @@ register("picture", "cfree.viewer.pictures", "picture")
 register("scene_from_grid", "cfree.formats.drawings.grid_scene", "scene_from_grid")
 register("drive_along", "cfree.planning.vehicles", "drive_along")
 register("figure", "cfree.plot", "picture")
+register("cage figure", "cfree.plot.cages", "plot_cage")
+register("immobility figure", "cfree.plot.cages", "plot_immobility")
+register("leaving figure", "cfree.plot.cages", "plot_leaving")
+register("disassembly figure", "cfree.plot.cages", "plot_disassembly")
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES, _MOVED)
 __all__ = ["__version__", *_NAMES]
