@@ -90,8 +90,8 @@ def leave(
     for vector in _pulls(scene, start):
         motion = Translation(vector)
         if _is_free(scene, start, motion):
-            own = {"curved": scene} if scene.curved else {"scene": scene}
-            return Path(start, [motion], scene.units, frame_of(scene), **own)
+            plain, curved = (None, scene) if scene.curved else (scene, None)
+            return Path(start, [motion], scene.units, frame_of(scene), scene=plain, curved=curved)
     answer = plan(scene, start, outside(scene, start), improve=improve, max_seconds=max_seconds, progress=progress)
     if isinstance(answer, Path | Separated):
         return answer

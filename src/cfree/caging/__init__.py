@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from cfree.caging.fewest import Escape as Escape
     from cfree.caging.fewest import FewestFingers as FewestFingers
     from cfree.caging.fewest import fewest_fingers as fewest_fingers
-    from cfree.caging.immobility import Immobility as Immobility
-    from cfree.caging.immobility import immobility as immobility
+    from cfree.caging.immobile import Immobility as Immobility
+    from cfree.caging.immobile import immobility as immobility
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
@@ -24,6 +24,6 @@ __getattr__, __dir__, __all__ = lazy_names(
         "cage": "Cage is_caged",
         "critical": "Critical Puncture critical_clearance critical_size critical_spread",
         "fewest": "Escape FewestFingers fewest_fingers",
-        "immobility": "Immobility immobility",
+        "immobile": "Immobility immobility",
     },
 )

@@ -14,7 +14,7 @@ from matplotlib.patches import PathPatch
 from cfree.arguments import checked
 from cfree.caging.cage import Cage
 from cfree.caging.fingers import Finger
-from cfree.caging.immobility import Immobility
+from cfree.caging.immobile import Immobility
 from cfree.collision.pose_checker import is_free
 from cfree.disassembly.leaving import Leaving
 from cfree.disassembly.order import Disassembly
