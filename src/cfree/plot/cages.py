@@ -25,15 +25,15 @@ from cfree.paths.path import Path
 from cfree.paths.preferences import NONE
 from cfree.planning.separation import Separated
 from cfree.plot.answer import around_surface, draw_barrier, draw_surface, picture, surface_of
-from cfree.plot.boundary import new_figure, plain, set_window
+from cfree.plot.boundary import around, new_figure, plain, set_window
 from cfree.plot.headed import headed, new_picture, window_of
 from cfree.plot.labels import BODY, Labels
 from cfree.plot.looks import looks, of_polygons, own
-from cfree.plot.path import Track, draw_track, statement
+from cfree.plot.path import Track, draw_track
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
-from cfree.scene.scene import AnyShape, Scene, box_of, polygons_for, size_of
+from cfree.scene.scene import AnyShape, Scene, polygons_for, size_of
 from cfree.scene.smooth import EDGES, smooth
-from cfree.words import listed
+from cfree.words import counted, listed
 
 STEPS, TURNS = 25, 48  # poses of a grid inside of a cage, along a side and around
 ACROSS = 3  # panels beside each other
@@ -166,7 +166,7 @@ def plot_disassembly(answer: Disassembly) -> Figure:
     >>> lid, peg = [(0, 3), (4, 3), (4, 4), (0, 4)], [(1, 1), (3, 1), (3, 2), (1, 2)]
     >>> figure = plot_disassembly(removal_order(Assembly({"frame": frame, "peg": peg, "lid": lid}, fixed=["frame"])))
     >>> [ax.get_title() for ax in figure.axes if ax.get_title()]
-    ['1. lid: 1 motion, length 9.84375, turning 0°', '2. peg: 1 motion, length 6.46875, turning 0°']
+    ['1. lid: 1 motion, straight', '2. peg: 1 motion, straight']
     """
     steps = [*answer.removed, *answer.held]
     if not steps:
@@ -181,8 +181,8 @@ def plot_disassembly(answer: Disassembly) -> Figure:
         if isinstance(step.answer, Path):
             scene = of_polygons(step.answer, step.scene)
             track = Track.of(own(step.answer, step.scene), scene)
-            labels = draw_track(ax, track, NONE)
-            title = f"{k + 1}. {plain(step.part)}: {statement(track).splitlines()[0]}"
+            draw_track(ax, track, NONE)
+            title = f"{k + 1}. {plain(step.part)}: {_motions(step.answer)}"
         else:
             shown = smooth(step.scene)
             window = window_of(shown, [step.answer.start])
@@ -190,11 +190,8 @@ def plot_disassembly(answer: Disassembly) -> Figure:
             draw_barrier(ax, looks(step.answer, shown), step.answer.obstacles if step.answer.curved is None else ())
             draw_robot(ax, shown, step.answer.start, faint=False, mark=False)
             set_window(ax, window, step.scene.units)
-            labels = Labels(ax, shown)
-            labels.avoid_robot(shown, [step.answer.start], BODY)
             title = f"{plain(step.part)} cannot leave"
-        for name, part in zip(step.scene.obstacle_names, step.scene.obstacles, strict=True):
-            labels.point_at(box_of(part), plain(name), INK)
+        _name(ax, step.scene, [step.part])
         ax.set_title(title, fontsize=10)
     return figure
 
@@ -206,13 +203,14 @@ def _held(scene: Scene, proof: Separated, headline: str, details: str) -> tuple[
     """Draw a body that is held, all that it sweeps, and the separating surface beside it."""
     polygons = of_polygons(proof, scene)
     shown = looks(proof, polygons)
-    window = window_of(shown, [proof.start])
-    figure, ax = new_picture(window, len(proof.pieces) > 0)
+    window, swept = window_of(shown, [proof.start]), None
     if len(proof.pieces):
         swept = _swept(scene, proof.start, around_surface(surface_of(proof, polygons)))
-        if swept is not None:
-            shape = path_of(rings_of_geometry(swept))
-            ax.add_patch(PathPatch(shape, facecolor=GHOST, alpha=0.45, edgecolor=ROBOT, linewidth=0.6, zorder=0.9))
+        window = window if swept is None else around([window, swept.bounds])
+    figure, ax = new_picture(window, len(proof.pieces) > 0)
+    if swept is not None:
+        shape = path_of(rings_of_geometry(swept))
+        ax.add_patch(PathPatch(shape, facecolor=GHOST, alpha=0.45, edgecolor=ROBOT, linewidth=0.6, zorder=0.9))
     draw_surroundings(ax, shown)
     draw_barrier(ax, shown, proof.obstacles)
     draw_robot(ax, shown, proof.start, faint=False)
@@ -221,10 +219,31 @@ def _held(scene: Scene, proof: Separated, headline: str, details: str) -> tuple[
     labels.avoid_robot(polygons, [proof.start], BODY)
     if len(proof.pieces):
         draw_surface(figure, ax, proof, polygons, labels)
-    for name, part in zip(scene.obstacle_names, scene.obstacles, strict=True):
-        labels.point_at(box_of(part), plain(name), BARRIER)
+    _name(ax, scene)
     headed(figure, scene, headline, details)
     return figure, ax
+
+
+def _motions(path: Path) -> str:
+    turning = f", turning {math.degrees(path.turning):.4g}°" if path.turning else ", straight"
+    return f"{counted(len(path), 'motion')}{turning}"
+
+
+def _name(ax: Any, scene: Scene, own: Sequence[str] = ()) -> None:
+    """Write the names of the obstacles on them, and of the robot at its start."""
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=2.5, foreground="white")]
+    places = [(name, _polygons([shape])) for name, shape in zip(scene.obstacle_names, scene.obstacles, strict=True)]
+    if own and scene.start is not None:
+        body = shapely.union_all([polygon.to_shapely() for polygon in _polygons(scene.robot)])
+        placed = _placed(body, float(scene.start.x), float(scene.start.y), scene.start.theta)
+        places += [(name, [placed]) for name in own]
+    for name, polygons in places:
+        shape = shapely.union_all([p if isinstance(p, shapely.Geometry) else p.to_shapely() for p in polygons])
+        part = shapely.get_geometry(shape, 0)
+        x, y = shapely.maximum_inscribed_circle(part, 1e-2 * math.sqrt(part.area)).coords[0]
+        ax.text(x, y, plain(name), ha="center", va="center", fontsize=9, color=INK, path_effects=halo, zorder=9)
 
 
 def _swept(scene: Scene, start: Pose, box: Window) -> Any:
