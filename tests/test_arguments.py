@@ -32,11 +32,11 @@ MEETING = cfree.arrangements.intersection(
 # made by cfree, and not by users
 RESULTS = """
     AlgebraicAngle AngleInterval AngleRange ArcArcSurface ArcFeature ArcGeometry ArcLine Arrangement
-    ArrangementStatistics BezierNet BezierPatch Bottleneck Boundary BoxGrid Cell CellComplex Clearance DepthCell
-    EdgeEdgeSegment EdgeFeature FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve
-    Interval LocalGeometry Mesh NearestMiss OffsetSurface Pieces RationalHelix RationalRange RationalSegment
-    RationalSurface Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed Triple TripleContact
-    Unreachable
+    ArrangementStatistics BezierNet BezierPatch Blocking Bottleneck Boundary BoxGrid Cage Cell CellComplex Clearance
+    Contact Critical DepthCell Disassembly EdgeEdgeSegment EdgeFeature Escape FewestFingers FirstContact Fit FreeSpace
+    Gap GaussBonnet Geodesic Helix Immobility Intersection IntersectionCurve Interval Leaving LocalGeometry Mesh
+    NearestMiss OffsetSurface Pieces Puncture RationalHelix RationalRange RationalSegment RationalSurface Separated
+    ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed Triple TripleContact Unreachable
 """.split()  # noqa: SIM905
 
 
@@ -93,8 +93,21 @@ def pool() -> list[Any]:
         cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING, cfree.arrangements.arrangement(SCENE),
         cfree.contact.ArcArc(0, 0), cfree.contact.arc_surface(DISC, DISC, cfree.contact.ArcArc(0, 0)),
         cfree.Car(1), Figure().add_subplot(), Figure().add_subplot(projection="3d"),
+        *caged_and_taken_apart(),
         cfree.plan(cfree.Scene(SQUARE, [[(3, -9), (4, -9), (4, 9)]], bounds=(0, 0, 7, 2)), (0, 0, 0), (6, 0, 0)),
     ]  # fmt: skip
+
+
+def caged_and_taken_apart() -> list[Any]:
+    """One answer of each kind about cages and assemblies."""
+    assembly = cfree.disassembly.Assembly({"a": SQUARE, "b": [(3, 0), (4, 0), (4, 1)]})
+    return [
+        cfree.caging.is_caged(SQUARE, [(2, 2)]),
+        cfree.caging.immobility(SQUARE, [(1, 1)]),
+        assembly,
+        cfree.disassembly.can_leave("a", assembly),
+        cfree.disassembly.removal_order(assembly),
+    ]
 
 
 def fitting(name: str, function: Callable[..., Any], pool: list[Any]) -> dict[str, Any]:

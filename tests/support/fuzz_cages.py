@@ -1,9 +1,9 @@
 """Random cages against flooding, which knows some poses to be joined and some not; and in other forms.
 
-A scene is a small body among fingers around it. `flood` gives poses with room: those of one certain class are joined, those
-of different possible classes are not. So `is_caged` must give one answer in a certain class, and all poses that escape
-must be in one possible class. The first answer of each scene is verified. Discs are between polygons inside and around them, points within
-small squares: a cage of the smaller fingers is one of the larger.
+A scene is a small body among fingers around it. `flood` gives poses with room: those of one certain class are joined,
+those of different possible classes are not. So `is_caged` must give one answer in a certain class, and all poses that
+escape must be in one possible class. The first answer of each scene is verified. Discs are between polygons inside and
+around them, points within small squares: a cage of the smaller fingers is one of the larger.
 """
 
 from __future__ import annotations
@@ -21,12 +21,11 @@ from typing import Any
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parent))
 
+import cfree
 import flood
 import oracles
-from shapes import PlainScene, Shape
-
-import cfree
 from cfree.caging import is_caged
+from shapes import PlainScene, Shape
 
 STEPS = 40
 POSES = 3  # certain classes of which a pose is decided
@@ -61,7 +60,10 @@ def fingers_around(rng: random.Random, most: int) -> list[list[tuple[float, floa
 def check(seed: int) -> Counter[str]:
     """Decide some poses of one scene, and compare; raise an `AssertionError` for a difference."""
     rng = random.Random(seed)
-    body, fingers = polygon(rng, rng.randint(4, 7), rng.uniform(0.4, 0.9), rng.choice((0.3, 0.8))), fingers_around(rng, 6)
+    body, fingers = (
+        polygon(rng, rng.randint(4, 7), rng.uniform(0.4, 0.9), rng.choice((0.3, 0.8))),
+        fingers_around(rng, 6),
+    )
     plain = plain_scene(body, fingers)
     joined, numbers = flood.flood(plain, STEPS), Counter[str]()
     order = list(range(len(joined.theta)))

@@ -7,6 +7,8 @@ from cfree.lazy import lazy_names
 if TYPE_CHECKING:
     from cfree.caging.cage import Cage as Cage
     from cfree.caging.cage import is_caged as is_caged
+    from cfree.caging.contacts import Contact as Contact
+    from cfree.caging.contacts import Gap as Gap
     from cfree.caging.critical import Critical as Critical
     from cfree.caging.critical import Puncture as Puncture
     from cfree.caging.critical import critical_clearance as critical_clearance
@@ -22,6 +24,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
         "cage": "Cage is_caged",
+        "contacts": "Contact Gap",
         "critical": "Critical Puncture critical_clearance critical_size critical_spread",
         "fewest": "Escape FewestFingers fewest_fingers",
         "immobile": "Immobility immobility",

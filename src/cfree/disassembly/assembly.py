@@ -71,6 +71,7 @@ class Assembly:
         """The parts that are not fixed."""
         return tuple(name for name in self.names if name not in self.fixed)
 
+    @checked
     def index(self, name: str, what: str = "part") -> int:
         """Return the number of a part.
 
@@ -85,6 +86,7 @@ class Assembly:
         remedy = f"did you mean {similar[0]!r}?" if similar else f"the parts are {listed(list(self.names), ', ')}"
         raise ValueError(f"{what}: {name!r} is the name of no part; {remedy}")
 
+    @checked
     def scene(self, name: str, gone: Iterable[str] = ()) -> Scene:
         """Return the scene of one part among the others, from its place to one beyond all of them.
 

@@ -8,7 +8,7 @@ that it cannot leave the others, and no order takes out any of them.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from cfree.arguments import checked
@@ -31,14 +31,14 @@ class Disassembly(Value):
     held : tuple of Leaving
         The parts that cannot leave, each with a proof. If any is left undecided, these proofs hold only as long as it
         stays.
-    undecided : dict of str to str
-        The reason for each part that stayed undecided.
+    undecided : tuple of (str, str)
+        Each part that stayed undecided, and the reason.
     """
 
     assembly: Assembly
     removed: tuple[Leaving, ...]
     held: tuple[Leaving, ...] = ()
-    undecided: dict[str, str] = field(default_factory=dict, hash=False)
+    undecided: tuple[tuple[str, str], ...] = ()
 
     def __bool__(self) -> bool:
         return not self.held and not self.undecided
@@ -46,7 +46,7 @@ class Disassembly(Value):
     def __repr__(self) -> str:
         parts = [f"order: {', '.join(self.order) or 'none'}"]
         parts += [f"held: {', '.join(one.part for one in self.held)}"] if self.held else []
-        parts += [f"undecided: {', '.join(self.undecided)}"] if self.undecided else []
+        parts += [f"undecided: {', '.join(name for name, _ in self.undecided)}"] if self.undecided else []
         return f"Disassembly({'; '.join(parts)})"
 
     @property
@@ -116,14 +116,14 @@ def removal_order(
     left, removed = list(assembly.movable), list[Leaving]()
     count = len(left)
     while True:
-        held, undecided = list[Leaving](), dict[str, str]()
+        held, undecided = list[Leaving](), list[tuple[str, str]]()
         for k, name in enumerate(left):
             if progress is not None:
                 progress((len(removed) + k / (len(left) + 1)) / (count or 1))
             try:
                 one = leaving(assembly, name, [other.part for other in removed], max_seconds=max_seconds)
             except UndecidedError as error:
-                undecided[name] = str(error)
+                undecided.append((name, str(error)))
                 continue
             if one:
                 removed.append(one)
@@ -133,4 +133,4 @@ def removal_order(
         else:
             if progress is not None:
                 progress(1.0)
-            return Disassembly(assembly, tuple(removed), tuple(held), undecided)
+            return Disassembly(assembly, tuple(removed), tuple(held), tuple(undecided))

@@ -136,12 +136,12 @@ def _in_order(assembly: Assembly, max_seconds: float | None) -> Answered:
         rows[f"{k + 1}. out"] = _path_text(step)
     for step in found.held:
         rows[f"{step.part} cannot leave"] = f"held by {', '.join(step.holding)}; proved"
-    for name, why in found.undecided.items():
+    for name, why in found.undecided:
         rows[f"{name} undecided"] = why.removeprefix("undecided: ")
     rows["answer"] = (
         "all parts can be taken out, one at a time"
         if found
-        else f"undecided: {', '.join(found.undecided)}"
+        else f"undecided: {', '.join(name for name, _ in found.undecided)}"
         if found.undecided
         else f"no order takes out {', '.join(step.part for step in found.held)}, one at a time; proved"
     )
