@@ -43,14 +43,16 @@ class Gap:
     mixed: ExactPoint = (ZERO, ZERO)
     turning: Fraction = ZERO
 
-    def slope(self, v: Velocity) -> Fraction:
-        """Return the first derivative along a velocity."""
-        return sum((a * b for a, b in zip(self.gradient, v, strict=True)), ZERO)
 
-    def bend(self, v: Velocity) -> Fraction:
-        """Return the second derivative along a velocity across the gradient."""
-        x, y, w = v
-        return self.square * (x * x + y * y) + 2 * w * (self.mixed[0] * x + self.mixed[1] * y) + self.turning * w * w
+def slope(gap: Gap, v: Velocity) -> Fraction:
+    """Return the first derivative of a gap along a velocity."""
+    return sum((a * b for a, b in zip(gap.gradient, v, strict=True)), ZERO)
+
+
+def bend(gap: Gap, v: Velocity) -> Fraction:
+    """Return the second derivative of a gap along a velocity across its gradient."""
+    x, y, w = v
+    return gap.square * (x * x + y * y) + 2 * w * (gap.mixed[0] * x + gap.mixed[1] * y) + gap.turning * w * w
 
 
 @dataclass(frozen=True)

@@ -79,8 +79,8 @@ class FewestFingers(Value):
             return False
         sets = [set(escape.blocking) for escape in self.escapes]
         places = sorted(set().union(*sets))
-        smaller = combinations(places, max(0, len(self.fingers) - 1))
-        return not self or len(self.fingers) == 0 or all(any(not one & set(few) for one in sets) for few in smaller)
+        fewer = combinations(places, min(len(places), len(self.fingers) - 1)) if self.fingers else ()
+        return all(any(not one & set(few) for one in sets) for few in fewer)
 
 
 @checked

@@ -14,7 +14,7 @@ from math import prod
 from typing import Any, Literal
 
 from cfree.arguments import checked
-from cfree.caging.contacts import ZERO, Contact, Gap, Velocity, contacts_at
+from cfree.caging.contacts import ZERO, Contact, Gap, Velocity, bend, contacts_at, slope
 from cfree.caging.fingers import FIRST, Finger, setting, to_body, to_fingers
 from cfree.collision.motion import Motion, Rotation, Translation
 from cfree.collision.motion_checker import is_free_motion
@@ -128,8 +128,8 @@ def immobility(body: Any, fingers: Sequence[Any], pose: PoseLike = (0, 0, 0)) ->
     """
     shapes, start = to_body(body, pose)
     tips = to_fingers(fingers)
-    scene = setting(shapes, tips, start, FIRST).scene
     contacts = tuple(contacts_at(shapes, tips, start))
+    scene = setting(shapes, tips, start, FIRST).scene
     sides = [contact.any_of for contact in contacts]
 
     def made(verdict: Any, order: Any, velocity: Velocity | None = None, motion: Motion | None = None) -> Immobility:
@@ -173,7 +173,7 @@ def _decided(gaps: Sequence[Gap]) -> Verdict:
     if not rays:
         return "immobile", 1, None
     inner = _sum(rays)
-    if all(gap.slope(inner) > 0 for gap in gaps):
+    if all(slope(gap, inner) > 0 for gap in gaps):
         return "mobile", 1, inner
     span = _rank(rays)
     if span == 1:
@@ -239,22 +239,22 @@ def _balances(gaps: Sequence[Gap]) -> Iterator[list[tuple[Gap, Fraction]]]:
 
 def _least(gaps: Sequence[Gap], v: Velocity) -> Fraction:
     """Return the least second derivative of a balance of the gaps that a velocity leaves as they are; 1 without any."""
-    touching = [gap for gap in gaps if not gap.slope(v)]
-    bends = [sum((weight * gap.bend(v) for gap, weight in balance), ZERO) for balance in _balances(touching)]
+    touching = [gap for gap in gaps if not slope(gap, v)]
+    bends = [sum((weight * bend(gap, v) for gap, weight in balance), ZERO) for balance in _balances(touching)]
     return min(bends, default=ONE)
 
 
 def _is_blocked(gaps: Sequence[Gap], u: Velocity, w: Velocity) -> bool:
     """True if one balance blocks all velocities between two."""
     middle = _add(u, w, ONE)
-    touching = [gap for gap in gaps if not gap.slope(middle)]
+    touching = [gap for gap in gaps if not slope(gap, middle)]
     for balance in _balances(touching):
 
-        def bend(v: Velocity, balance: list[tuple[Gap, Fraction]] = balance) -> Fraction:
-            return sum((weight * gap.bend(v) for gap, weight in balance), ZERO)
+        def total(v: Velocity, balance: list[tuple[Gap, Fraction]] = balance) -> Fraction:
+            return sum((weight * bend(gap, v) for gap, weight in balance), ZERO)
 
-        a, c = bend(u), bend(w)
-        b = (bend(middle) - a - c) / 2
+        a, c = total(u), total(w)
+        b = (total(middle) - a - c) / 2
         if a < 0 and c < 0 and (b <= 0 or b * b < a * c):
             return True
     return False
