@@ -85,6 +85,9 @@ fuzz-arcs: $(TESTED)  ## poses and motions among segments and arcs against fine 
 fuzz-rounded: $(TESTED)  ## surfaces and cells of rounded shapes against distances, slices, and the same space in other forms
 	$(BIN)/python tests/support/fuzz_rounded.py --count $(or $(COUNT),2000) --seed $(or $(SEED),0)
 
+fuzz-cages: $(TESTED)  ## cages against flooding, discs and points against polygons; COUNT=2000 SEED=0
+	$(BIN)/python tests/support/fuzz_cages.py --count $(or $(COUNT),2000) --seed $(or $(SEED),0)
+
 lint: $(TESTED)  ## style and types
 	$(BIN)/ruff check src tests benchmarks examples tools
 	$(BIN)/mypy

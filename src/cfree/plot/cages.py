@@ -89,16 +89,18 @@ def plot_immobility(answer: Immobility) -> Figure:
     >>> square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
     >>> figure = plot_immobility(immobility(square, [(0, -1), (1, 0), (0, 1), (-1, 0)]))
     >>> [text.get_text() for text in figure.texts]
-    ['immobile', 'immobile to order 2: 4 contacts, by curvature']
+    ['immobile to order 2', '4 contacts, by curvature']
     """
     fingers = [finger for finger in answer.fingers if not isinstance(finger, tuple)]
     scene = smooth(Scene(answer.body, fingers))
     window = _with_points(window_of(scene, [answer.pose]), answer.fingers)
+    size = SHARE * max(window[2] - window[0], window[3] - window[1])
+    moved = [] if answer.velocity is None else [_moved(answer.pose, answer.velocity, size)]
+    window = _with_points(window_of(scene, [answer.pose, *moved]), answer.fingers)
     figure, ax = new_picture(window, False)
     draw_surroundings(ax, scene)
-    size = SHARE * max(window[2] - window[0], window[3] - window[1])
-    if answer.velocity is not None:
-        draw_robot(ax, scene, _moved(answer.pose, answer.velocity, size), faint=True, mark=False)
+    for pose in moved:
+        draw_robot(ax, scene, pose, faint=True, mark=False)
     draw_robot(ax, scene, answer.pose, faint=False)
     _draw_points(ax, answer.fingers)
     arrow = {"arrowstyle": "->", "color": BARRIER, "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0}
@@ -108,7 +110,7 @@ def plot_immobility(answer: Immobility) -> Figure:
         ax.annotate("", xy=(x + u, y + v), xytext=(x, y), arrowprops=arrow, zorder=8)
         ax.plot(x, y, "o", color=MARK, markersize=5, zorder=8)
     set_window(ax, window, "")
-    headed(figure, scene, answer.verdict, answer.sentence())
+    headed(figure, scene, *answer.sentence().split(": ", 1))
     return figure
 
 
