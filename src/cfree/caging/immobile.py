@@ -21,6 +21,7 @@ from cfree.collision.motion_checker import is_free_motion
 from cfree.exact.pose import Pose, PoseLike
 from cfree.scene.scene import AnyShape, size_of
 from cfree.value import Value
+from cfree.words import counted
 
 MOST = 4096  # choices among the alternatives of corners
 ONE = Fraction(1)
@@ -65,7 +66,7 @@ class Immobility(Value):
 
     def sentence(self) -> str:
         """Return the answer in words."""
-        touching = f"{len(self.contacts)} contact{'s' if len(self.contacts) != 1 else ''}"
+        touching = counted(len(self.contacts), "contact")
         if self.verdict == "undecided":
             return f"undecided: curvatures at {touching} balance, and no short motion was found free"
         if self.verdict == "immobile":

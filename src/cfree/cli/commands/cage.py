@@ -12,6 +12,7 @@ from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults
 from cfree.cli.files import bar, check_outputs, read_scene
 from cfree.cli.options import Word, examples, file_option
 from cfree.cli.values import read_length, read_pose
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.caging.cage import Cage
@@ -199,7 +200,7 @@ def _exact(body: Any, fingers: Any) -> tuple[Any, Any, Any]:
 
 def _cage_rows(cage: Cage) -> Rows:
     if cage.path is not None:
-        return {"path": f"{len(cage.path)} motions, length {cage.path.length:.6g}"}
+        return {"path": f"{counted(len(cage.path), 'motion')}, length {cage.path.length:.6g}"}
     return {"fingers that hold it": _listed(cage.holding)}
 
 

@@ -11,6 +11,7 @@ from cfree.cli import drawing, options, reading
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults
 from cfree.cli.files import bar, check_outputs, read_shapes, scene_of
 from cfree.cli.options import examples, file_option
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.disassembly.assembly import Assembly
@@ -177,7 +178,7 @@ def _path_text(step: Leaving) -> str:
     if path is None:
         return ""
     turning = f", turning {math.degrees(path.turning):.4g} deg" if path.turning else ", straight"
-    return f"{step.part}: {len(path)} motion{'s' if len(path) != 1 else ''}, length {path.length:.4g}{turning}"
+    return f"{step.part}: {counted(len(path), 'motion')}, length {path.length:.4g}{turning}"
 
 
 def _write(folder: Path, steps: list[Leaving]) -> None:
