@@ -7,6 +7,7 @@ So one of them stands for every place far away, and a separation from it is a pr
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 
@@ -23,6 +24,8 @@ from cfree.planning.separation import Separated
 from cfree.scene.frame import frame_of
 from cfree.scene.scene import Scene, box_of, robot_radius
 
+PIECE = re.compile(r"^obstacle \d+ \((.*)\)$")
+"""The name of a polygon in place of a round shape, if its number is another one."""
 MOST = 64  # directions in which a straight motion is tried
 UNITS: tuple[ExactPoint, ...] = tuple(
     (Fraction(x, n), Fraction(y, n))
@@ -96,6 +99,14 @@ def leave(
     if isinstance(answer, Path | Separated):
         return answer
     raise InvariantError(f"an answer of a kind that one pose does not have: {answer}", state=scene)
+
+
+def holding(scene: Scene, proof: Separated) -> tuple[str, ...]:
+    """Return the names of the obstacles whose contacts form a proof, in the order of the scene."""
+    polygons = proof.scene if proof.curved is not None and proof.rounded is None else None
+    names = (polygons or scene).obstacle_names
+    own = {PIECE.sub(r"\1", names[k]) for k in proof.obstacles if k >= 0}
+    return tuple(name for name in dict.fromkeys(scene.obstacle_names) if name in own)
 
 
 def _is_free(scene: Scene, start: Pose, motion: Translation) -> bool:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from cfree.analysis.leaving import is_outside, leave
+from cfree.analysis.leaving import holding, is_outside, leave
 from cfree.arguments import checked
 from cfree.caging.fingers import (
     FIRST,
@@ -79,11 +79,8 @@ class Cage(Value):
     @cached_property
     def holding(self) -> tuple[int, ...]:
         """The fingers whose contacts form the proof: these alone cage the body. Empty if it is not caged."""
-        proof = self.proof
-        if proof is None:
-            return ()
-        count = len(self.fingers)
-        return tuple(k for k in proof.obstacles if k < count) if proof.curved is None else tuple(range(count))
+        names = self.scene.obstacle_names
+        return () if self.proof is None else tuple(names.index(name) for name in holding(self.scene, self.proof))
 
     def verified(self) -> bool:
         """True if independent code confirms the answer, and that it holds for fingers that are points.
@@ -170,7 +167,7 @@ def is_caged(
     >>> bool(cage), cage.proof.of
     (True, 'closed')
     >>> is_caged(square, [(1, 0), (2, 1), (1, 2)]).path
-    Path(1 motion, length 24, turning 0)
+    Path(1 motion, length 7.31346, turning 0)
     """
     shapes, start = to_body(body, pose)
     return cage_of(shapes, to_fingers(fingers), start, max_seconds=max_seconds, progress=progress)

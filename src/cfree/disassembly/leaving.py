@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from cfree.analysis.blockers import blockers
-from cfree.analysis.leaving import is_outside, leave
+from cfree.analysis.leaving import holding, is_outside, leave
 from cfree.analysis.margins import NearestMiss, nearest_miss
 from cfree.arguments import checked
 from cfree.collision.nearest_free import ForbiddenPoseError
@@ -60,11 +60,7 @@ class Leaving(Value):
     @property
     def holding(self) -> tuple[str, ...]:
         """The parts whose contacts form the proof: these alone hold it. Empty if it can leave."""
-        proof = self.proof
-        if proof is None:
-            return ()
-        names = (proof.scene or self.scene).obstacle_names
-        return tuple(dict.fromkeys(names[k] for k in proof.obstacles))
+        return () if self.proof is None else holding(self.scene, self.proof)
 
     def verified(self) -> bool:
         """True if independent code confirms the answer.
@@ -136,7 +132,7 @@ def can_leave(
     >>> can_leave("peg", parts)
     Leaving('peg': it cannot leave, held by frame, lid)
     >>> can_leave("peg", parts, gone=["lid"]).path
-    Path(1 motion, length 24, turning 0)
+    Path(1 motion, length 11.25, turning 0)
     """
     for name in gone:
         assembly.index(name, "gone")

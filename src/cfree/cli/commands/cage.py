@@ -16,6 +16,7 @@ from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.caging.cage import Cage
+    from cfree.caging.critical import Critical
     from cfree.exact.pose import Pose
     from cfree.scene.scene import Scene
 
@@ -103,7 +104,9 @@ def cage(
         from cfree.errors import IncompleteError
 
         try:
-            code, rows, figure = _answered(place, critical, precision, fewest, held, max_seconds, output, saved)
+            code, rows, figure = _answered(
+                place, critical, precision, fewest, held, max_seconds, output, saved, as_json
+            )
         except IncompleteError as error:
             fail(str(error), INCOMPLETE)
         if picture:
@@ -150,7 +153,7 @@ def _finger(text: str) -> Any:
 
 def _answered(
     place: Place, critical: str | None, precision: float, fewest: bool, held: bool, max_seconds: float | None,
-    output: Path | None, saved: Path | None,
+    output: Path | None, saved: Path | None, as_json: bool,
 ) -> tuple[int, Rows, Any]:  # fmt: skip
     """Return the exit code, the rows to print, and the answer to draw."""
     body, fingers, pose, units = place
@@ -161,6 +164,10 @@ def _answered(
             answer = immobility(body, fingers, pose)
         code = {"immobile": 0, "mobile": REFUTED}.get(answer.verdict, INCOMPLETE)
         touched = sorted({contact.finger for contact in answer.contacts})
+        if as_json:
+            velocity = None if answer.velocity is None else [*map(float, answer.velocity)]
+            facts: Rows = {"verdict": answer.verdict, "order": answer.order, "touching": touched, "velocity": velocity}
+            return code, facts, answer
         return code, {"answer": answer.sentence(), "fingers in contact": _listed(touched)}, answer
     from cfree.caging.cage import cage_of
     from cfree.caging.fingers import to_body, to_fingers
@@ -173,6 +180,9 @@ def _answered(
             say("sets of fingers ...")
             chosen = fewest_fingers(body, fingers, pose, progress=lambda n: say(f"sets of fingers {n:,} ..."))
         _write(chosen.cage, output, saved)
+        if as_json:
+            facts = {"caged": bool(chosen), "fingers": chosen.fingers, "of": len(fingers)}
+            return 0 if chosen else REFUTED, facts, chosen.cage
         if not chosen:
             return REFUTED, {"answer": "not caged, even by all fingers", **_cage_rows(chosen.cage)}, chosen.cage
         count = len(chosen.fingers)
@@ -184,12 +194,22 @@ def _answered(
             *_exact(to_body(body, pose), to_fingers(fingers)), units=units, max_seconds=max_seconds, progress=progress
         )
     _write(result, output, saved)
+    if as_json:
+        length = None if result.path is None else result.path.length
+        facts = {"caged": bool(result), "holding": result.holding, "length": length}
+        found = _criticals(place, critical, precision) if critical and result else {}
+        return (
+            0 if result else REFUTED,
+            {**facts, "critical": {k: _critical_facts(v) for k, v in found.items()}},
+            result,
+        )
     verdict = "caged: no motion leads out, not even one that touches; proved" if result else "not caged: it escapes"
     rows = {"answer": verdict, **_cage_rows(result)}
     if critical and not result:
         rows["critical"] = "not caged, so that nothing opens"
     elif critical:
-        rows |= _critical_rows(place, critical, precision)
+        found = _criticals(place, critical, precision)
+        rows |= {name: str(one).split(" ", 1)[1] for name, one in found.items()}
     return 0 if result else REFUTED, rows, result
 
 
@@ -204,7 +224,16 @@ def _cage_rows(cage: Cage) -> Rows:
     return {"fingers that hold it": _listed(cage.holding)}
 
 
-def _critical_rows(place: Place, critical: str, precision: float) -> Rows:
+def _critical_facts(found: Critical) -> Rows:
+    place = found.puncture
+    facts: Rows = {"caged": found.caged, "escapes": found.escapes, "end": found.end}
+    if place is not None:
+        pose = [float(place.pose.x), float(place.pose.y), place.pose.theta]
+        facts |= {"puncture": {"pose": pose, "fingers": place.fingers}}
+    return facts
+
+
+def _criticals(place: Place, critical: str, precision: float) -> dict[str, Critical]:
     from cfree.caging import critical as numbers
 
     body, fingers, pose, _ = place
@@ -214,13 +243,13 @@ def _critical_rows(place: Place, critical: str, precision: float) -> Rows:
         "size": (numbers.critical_size, {}),
         "clearance": (numbers.critical_clearance, {}),
     }
-    rows: Rows = {}
+    result: dict[str, Critical] = {}
     for name, (find, how) in finds.items():
         if critical in (name, "all"):
             with bar(name) as progress:
                 found = find(body, fingers, pose, tolerance=precision, progress=progress, **how)
-            rows["closing spread" if name == "close" else name] = str(found).split(" ", 1)[1]
-    return rows
+            result["closing spread" if name == "close" else name] = found
+    return result
 
 
 def _write(cage: Cage, output: Path | None, saved: Path | None) -> None:

@@ -64,9 +64,9 @@ def disassemble(
 
         try:
             if only is None:
-                code, rows, answer, steps = _in_order(assembly, max_seconds)
+                code, rows, answer, steps = _in_order(assembly, max_seconds, as_json=as_json)
             else:
-                code, rows, answer, steps = _of_one(assembly, only, max_seconds, gap=gap)
+                code, rows, answer, steps = _of_one(assembly, only, max_seconds, gap=gap, as_json=as_json)
         except IncompleteError as error:
             fail(str(error), INCOMPLETE)
         if output:
@@ -127,11 +127,17 @@ def _refuse_walls(bounds: Any, workspace: Any) -> None:
 Answered = tuple[int, Rows, Any, "list[Leaving]"]
 
 
-def _in_order(assembly: Assembly, max_seconds: float | None) -> Answered:
+def _in_order(assembly: Assembly, max_seconds: float | None, *, as_json: bool) -> Answered:
     from cfree.disassembly.order import removal_order
 
     with bar("parts") as progress:
         found = removal_order(assembly, max_seconds=max_seconds, progress=progress)
+    code = 0 if found else INCOMPLETE if found.undecided else REFUTED
+    steps = [*found.removed, *found.held]
+    if as_json:
+        held = {step.part: step.holding for step in found.held}
+        facts = {"order": found.order, "fixed": assembly.fixed, "held": held, "undecided": dict(found.undecided)}
+        return code, facts, found, steps
     rows: Rows = {"parts": f"{len(assembly.names)}, {len(assembly.fixed)} fixed"}
     for k, step in enumerate(found.removed):
         rows[f"{k + 1}. out"] = _path_text(step)
@@ -146,27 +152,34 @@ def _in_order(assembly: Assembly, max_seconds: float | None) -> Answered:
         if found.undecided
         else f"no order takes out {', '.join(step.part for step in found.held)}, one at a time; proved"
     )
-    code = 0 if found else INCOMPLETE if found.undecided else REFUTED
-    return code, rows, found, [*found.removed, *found.held]
+    return code, rows, found, steps
 
 
-def _of_one(assembly: Assembly, part: str, max_seconds: float | None, *, gap: bool) -> Answered:
+def _of_one(assembly: Assembly, part: str, max_seconds: float | None, *, gap: bool, as_json: bool) -> Answered:
     from cfree.disassembly.leaving import can_leave, missing_gap, what_blocks
 
     with bar(part) as progress:
         step = can_leave(part, assembly, max_seconds=max_seconds, progress=progress)
+    if step and as_json:
+        return 0, {"leaves": True}, step, [step]
     if step:
         return 0, {"answer": f"{part} can leave", "path": _path_text(step)}, step, [step]
     with bar("blocking parts"):
         blocking = what_blocks(part, assembly)
+    miss = None
+    if gap:
+        with bar("gap") as progress:
+            miss = missing_gap(part, assembly, progress=progress)
+    if as_json:
+        facts: Rows = {"leaves": False, "held by": step.holding, "without": blocking.single}
+        facts |= {"gap": None if miss is None else [miss.lo, miss.hi]} if gap else {}
+        return REFUTED, facts, step, [step]
     rows: Rows = {
         "answer": f"{part} cannot leave, not even on a motion that touches; proved",
         "held by": ", ".join(step.holding),
         "it can leave without": " or ".join(blocking.single) or "no single part",
     }
     if gap:
-        with bar("gap") as progress:
-            miss = missing_gap(part, assembly, progress=progress)
         rows["gap"] = "no smaller part of this shape can leave" if miss is None else str(miss)
     return REFUTED, rows, step, [step]
 
