@@ -12,6 +12,7 @@ import pytest
 import cfree
 from cfree.caging import immobility
 from cfree.curves import Arc
+from cfree.curves.similar import moved_shape
 
 TRIANGLE, INCIRCLE = [(0, 0), (12, 0), (0, 5)], [(2, 0), (0, 2), ("36/13", "50/13")]
 SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
@@ -64,6 +65,34 @@ def test_two_discs_in_dents_of_larger_radius_hold_a_body_by_curvature(radius: st
     r = Fraction(radius)
     answer = immobility(body, [DISC((0, -1 - r), r), DISC((0, 1 + r), r)])
     assert answer.verdict == verdict and answer.order == 2
+
+
+def stadium_in_dents(a: Fraction, lower: Fraction, upper: Fraction) -> str:
+    """The verdict about a stadium with ends of radius 1 and centers (0, -a) and (0, a), in dents of larger radii."""
+    body = cfree.Curved([(1, -a), (1, a), Arc((-1, a), center=(0, a)), (-1, -a), Arc((1, -a), center=(0, -a))])
+
+    def dent(radius: Fraction) -> cfree.Curved:
+        """Below the stadium; mirrored, above it."""
+        y = radius - a - 1
+        x, rim = radius * Fraction(4, 5), y - radius * Fraction(3, 5)
+        low = y - radius - 1
+        return cfree.Curved(
+            [(-x - 1, rim), (-x - 1, low), (x + 1, low), (x + 1, rim), (x, rim),
+             Arc((-x, rim), center=(0, y), clockwise=True)]
+        )  # fmt: skip
+
+    turned = moved_shape(dent(upper), cfree.Pose(0, 0, "180deg"))
+    return immobility(body, [dent(lower), turned]).verdict
+
+
+@pytest.mark.parametrize(("lower", "upper"), [("5/4", "5"), ("2", "2"), ("3/2", "3")])
+def test_dents_hold_a_stadium_if_it_is_longer_than_their_radii_allow(lower: str, upper: str) -> None:
+    """The sum of both forms is negative if and only if 2 a > R + R' - 2: both centers may roll in their dents."""
+    r, s = Fraction(lower), Fraction(upper)
+    limit = (r + s - 2) / 2
+    assert stadium_in_dents(limit * Fraction(101, 100), r, s) == "immobile"
+    assert stadium_in_dents(limit * Fraction(999, 1000), r, s) != "immobile"
+    assert stadium_in_dents(limit / 2, r, s) == "mobile"
 
 
 def test_two_discs_on_bulges_do_not_hold_a_body() -> None:
