@@ -67,6 +67,13 @@ def test_contact_is_allowed_and_overlap_is_refused_with_the_finger() -> None:
         is_caged(SQUARE, [DISC((1, 0), "0.5")])
 
 
+def test_shapes_with_other_curves_are_decided_by_polygons_around_and_inside_of_them() -> None:
+    ellipse, tips = cfree.Curved.ellipse((0, 0), (2, 1)), [(0, "1.1"), (0, "-1.1"), ("2.1", 0), ("-2.1", 0)]
+    assert is_caged(ellipse, tips).verified() and not is_caged(ellipse, tips[:1])
+    with pytest.raises(cfree.InvalidPoseError, match="is forbidden"):
+        is_caged(ellipse, [DISC((0, 1), "1/2")])
+
+
 def test_an_exact_fit_of_points_is_undecided_and_says_so() -> None:
     bracket = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]  # its corners are sqrt(2) apart, as two of the points
     points = [(Fraction("1.2"), Fraction("1.2")), (Fraction("-0.2"), 1), (1, Fraction("-0.2"))]

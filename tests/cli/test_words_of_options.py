@@ -23,7 +23,8 @@ NEEDED = {"film": [SCENE, "-o", "film.gif"], "figures": ["-o", "figures"], "conv
 OF_READING = {f"--{name.replace('_', '-')}": hint for name, hint in get_type_hints(cfree.load_shapes).items()}
 SAME = {name: OF_READING[name] for name in ("--unknown", "--map-rules", "--holes", "--fills")} | {
     "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer,
-    "--critical": Literal["spread", "close", "size", "clearance", "all"], "--gears": Gears, "--stops": Stops, "--vehicle": Literal["car", "differential", "forklift", "any"],
+    "--critical": Literal["spread", "close", "size", "clearance", "all"],
+    "--gears": Gears, "--stops": Stops, "--vehicle": Literal["car", "differential", "forklift", "any"],
 }  # fmt: skip
 
 

@@ -11,11 +11,12 @@ import re
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 
-from cfree.collision.arcs import curves_of
+from cfree.collision.arcs import arcs_of, curves_of
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import is_free_motion
 from cfree.collision.nearest_free import require_free
-from cfree.errors import InvariantError, UnsupportedError
+from cfree.collision.pose_checker import is_free
+from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, pose_at
 from cfree.paths.path import Path
@@ -65,6 +66,23 @@ def outside(scene: Scene, start: Pose) -> Pose:
     return pose_at(x + Fraction(9, 8) * far, start.y, start.tau)
 
 
+def require_start(scene: Scene, start: Pose) -> None:
+    """Check that a start is free; among other curves than arcs, that polygons do not prove it forbidden.
+
+    Raises
+    ------
+    InvalidPoseError
+        If it is forbidden.
+    """
+    if not scene.curved or arcs_of(scene) is not None:
+        require_free(scene, start, "pose")
+    elif is_free(scene, start) is False:
+        x, y, degrees = float(start.x), float(start.y), math.degrees(start.theta)
+        raise InvalidPoseError(
+            f"pose ({x:g}, {y:g}, {degrees:g} deg) is forbidden: the robot overlaps an obstacle; move it"
+        )
+
+
 def leave(
     scene: Scene,
     start: Pose,
@@ -81,7 +99,7 @@ def leave(
     ------
     ValueError
         If the scene has bounds or a workspace.
-    ForbiddenPoseError
+    InvalidPoseError
         If the start is forbidden.
     IncompleteError
         As from `plan`.
@@ -89,7 +107,7 @@ def leave(
     if scene.bounds is not None or scene.workspace is not None:
         kind = "bounds" if scene.workspace is None else "a workspace"
         raise ValueError(f"the scene has {kind}, and nothing gets out of that; leave it out")
-    require_free(scene, start, "pose")
+    require_start(scene, start)
     for vector in _pulls(scene, start):
         motion = Translation(vector)
         if _is_free(scene, start, motion):

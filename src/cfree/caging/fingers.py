@@ -15,8 +15,7 @@ from fractions import Fraction
 from math import ceil, log2
 from typing import Any
 
-from cfree.analysis.leaving import UNITS
-from cfree.collision.nearest_free import require_free
+from cfree.analysis.leaving import UNITS, require_start
 from cfree.collision.pose_checker import is_free
 from cfree.curves.curved import Curved
 from cfree.curves.rings import Circle
@@ -81,7 +80,10 @@ def to_fingers(fingers: Iterable[Any]) -> tuple[Finger, ...]:
             and len(item) == 2
             and all(map(is_single, item))
         ):
-            x, y = map(to_fraction, item)
+            try:
+                x, y = map(to_fraction, item)
+            except ValueError as error:
+                raise ValueError(f"fingers[{k}]: {error}") from None
             result.append((x, y))
         else:
             result += shapes_in([item], f"fingers[{k}]")
@@ -137,7 +139,7 @@ def setting(body: Sequence[AnyShape], fingers: Sequence[Finger], pose: Pose, bit
         for k, finger in enumerate(fingers)
     ]
     scene = Scene(body, shapes, obstacle_names=names, start=pose, units=units)
-    require_free(scene, pose, "pose")
+    require_start(scene, pose)
     if not any(map(is_point, fingers)):
         return Setting(scene, scene, Fraction(0))
     within = max(_size_at(finger, shape) for finger, shape in zip(fingers, shapes, strict=True))

@@ -25,7 +25,7 @@ Rows = dict[str, Any]
 @click.command(
     cls=drawing.Command,
     epilog=examples(
-        "cfree disassemble examples/scenes/puzzle.json --fixed housing",
+        "cfree disassemble examples/cages/puzzle.geojson --fixed housing",
         "cfree disassemble parts.svg --fixed frame --picture steps.png -o steps",
         "cfree disassemble parts.json --part lid --gap",
         "cfree verify steps/1-lid.scene.json steps/1-lid.answer.json",
