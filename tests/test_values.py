@@ -74,7 +74,7 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "Assembly": assembly,
         "Blocking": cfree.disassembly.Blocking("part", leaving, ("post",), ()),
         "Cage": cage,
-        "Contact": cfree.caging.Contact(x, (1.0, 0.0), (Fraction(1), Fraction(0)), ()),
+        "Contact": cfree.caging.Contact(x, (1.0, 0.0), (Fraction(1), Fraction(0)), (), ()),
         "Critical": cfree.caging.Critical("size", float(x), None, cage),
         "Disassembly": cfree.disassembly.removal_order(assembly),
         "Escape": cfree.caging.Escape(path, (x,)),

@@ -67,16 +67,16 @@ class Contact:
     normal : (x, y)
         Exact, of any length: from the finger to the body.
     any_of : tuple of tuples of Gap
-        The body stays free near this contact if all gaps of one tuple stay open.
-    is_exact : bool
-        True if it is forbidden otherwise. If not, it is free at least if all gaps of all tuples stay open.
+        The body is forbidden near this contact unless all gaps of one tuple stay open.
+    enough : tuple of tuples of Gap
+        The body is free near this contact if all gaps of one of these stay open; mostly the same.
     """
 
     finger: int
     point: tuple[float, float]
     normal: ExactPoint
     any_of: tuple[tuple[Gap, ...], ...]
-    is_exact: bool = True
+    enough: tuple[tuple[Gap, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -280,7 +280,7 @@ def _grouped(raw: list[tuple[ExactPoint, tuple[float, float], Gap]], k: int) -> 
             groups.append([item])
     for group in groups:
         gaps = tuple(dict.fromkeys((gap,) for _, _, gap in group))
-        yield Contact(k, group[0][1], group[0][0], gaps, len(gaps) == 1)
+        yield Contact(k, group[0][1], group[0][0], gaps, (sum(gaps, ()),))
 
 
 def _touch_line(line: _Line, circle: _Circle) -> bool:
@@ -352,21 +352,28 @@ def _corners(mine: _Corner, theirs: _Corner, r: ExactPoint, k: int) -> Contact:
     """Return the contact of two corners at one place: some edge at it separates the two."""
     place, sides = mine.place, list[tuple[Gap, ...]]()
     a = minus(place, r)
-    straight, normal = True, (ZERO, ZERO)
+    straight, normal, flush = True, (ZERO, ZERO), list[Gap]()
     for corner, other, is_body in ((theirs, mine, False), (mine, theirs, True)):
         for piece in corner.pieces:
             n = _outward(piece, place)
-            is_above = all(dot(n, e) >= 0 for e in other.directions)
+            above = [dot(n, e) for e in other.directions]
+            is_above = min(above, default=ZERO) >= 0
             if other.is_convex and (is_above or not corner.is_convex):
                 # edges that lie on each other have a second contact where they end, so that one gap will do
                 sides.append((_gap_at(piece, n, a, r, place, is_body=is_body),))
+                flush += sides[-1] if not all(above) else ()
                 straight = straight and isinstance(piece, _Line)
                 m = (-n[0], -n[1]) if is_body else n
                 size = max(map(abs, m))
                 normal = normal[0] + m[0] / size, normal[1] + m[1] / size
     if not (mine.is_convex and theirs.is_convex):  # a corner in a notch: both sides of the notch hold it
         sides = [tuple(gap for side in sides for gap in side)]
-    return Contact(k, (float(place[0]), float(place[1])), normal, tuple(sides), straight)
+        flush.clear()
+    # edges on one line: after a turn and a shift, the other one of the two gaps may be the true one
+    enough = [tuple(flush), *(side for side in sides if side[0] not in flush)] if flush else sides
+    if not straight:
+        enough = [tuple(gap for side in sides for gap in side)]
+    return Contact(k, (float(place[0]), float(place[1])), normal, tuple(sides), tuple(enough))
 
 
 def _outward(piece: _Line | _Circle, place: ExactPoint) -> ExactPoint:

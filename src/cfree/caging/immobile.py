@@ -141,8 +141,7 @@ def immobility(body: Any, fingers: Sequence[Any], pose: PoseLike = (0, 0, 0)) ->
     verdicts = [_decided([gap for side in choice for gap in side]) for choice in product(*sides)]
     if all(verdict == "immobile" for verdict, _, _ in verdicts):
         return made("immobile", max(order for _, order, _ in verdicts))
-    strict = [contact.any_of if contact.is_exact else (sum(contact.any_of, ()),) for contact in contacts]
-    for choice in product(*strict):
+    for choice in product(*(contact.enough for contact in contacts)):
         verdict, order, velocity = _decided([gap for side in choice for gap in side])
         if verdict == "mobile":
             return made("mobile", order, velocity)
