@@ -32,12 +32,13 @@ MEETING = cfree.arrangements.intersection(
 # made by cfree, and not by users
 RESULTS = """
     AlgebraicAngle AngleInterval AngleRange ArcArcSurface ArcFeature ArcGeometry ArcLine Arrangement
-    ArrangementStatistics Audit BezierNet BezierPatch Bottleneck Boundary BoxGrid Cell CellComplex Clearance
-    Compacted ContactEdge DepthCell Door EdgeEdgeSegment EdgeFeature FirstContact Fit FreeSpace GaussBonnet Geodesic
-    Helix Homology InnerFit Intersection IntersectionCurve Interval LocalGeometry Loop Mesh NFP NearestMiss
-    OffsetSurface Overlap PartMotion Pieces RationalHelix RationalRange RationalSegment RationalSurface ReachMap
-    RoundedFit Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed TopologyChange Triple
-    TripleContact Unreachable
+    ArrangementStatistics Audit BezierNet BezierPatch Blocking Bottleneck Boundary BoxGrid Cage Cell CellComplex
+    Clearance Compacted Contact ContactEdge Critical DepthCell Disassembly Door EdgeEdgeSegment EdgeFeature Escape
+    FewestFingers FirstContact Fit FreeSpace Gap GaussBonnet Geodesic Helix Homology Immobility InnerFit
+    Intersection IntersectionCurve Interval Leaving LocalGeometry Loop Mesh NFP NearestMiss OffsetSurface Overlap
+    PartMotion Pieces Puncture RationalHelix RationalRange RationalSegment RationalSurface ReachMap RoundedFit
+    Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed TopologyChange Triple TripleContact
+    Unreachable
 """.split()  # noqa: SIM905
 
 
@@ -97,8 +98,21 @@ def pool() -> list[Any]:
         cfree.nesting.Nesting([], [placed]),
         cfree.Car(1), Figure().add_subplot(), Figure().add_subplot(projection="3d"),
         cfree.reach(SCENE, orientations=1), cfree.audit(SCENE, openings={}),
+        *caged_and_taken_apart(),
         cfree.plan(cfree.Scene(SQUARE, [[(3, -9), (4, -9), (4, 9)]], bounds=(0, 0, 7, 2)), (0, 0, 0), (6, 0, 0)),
     ]  # fmt: skip
+
+
+def caged_and_taken_apart() -> list[Any]:
+    """One answer of each kind about cages and assemblies."""
+    assembly = cfree.disassembly.Assembly({"a": SQUARE, "b": [(3, 0), (4, 0), (4, 1)]})
+    return [
+        cfree.caging.is_caged(SQUARE, [(2, 2)]),
+        cfree.caging.immobility(SQUARE, [(1, 1)]),
+        assembly,
+        cfree.disassembly.can_leave("a", assembly),
+        cfree.disassembly.removal_order(assembly),
+    ]
 
 
 def fitting(name: str, function: Callable[..., Any], pool: list[Any]) -> dict[str, Any]:

@@ -17,7 +17,7 @@ CORE = "cfree._core"
 ORDER = """
     lazy libraries errors collector value arguments palette words
     exact vehicles polygons curves scene contact collision forbidden geometry free paths planning analysis formats
-    nesting verify distributed rational arrangements ompl plot figures film viewer cli __main__
+    verify nesting caging disassembly distributed rational arrangements ompl plot figures film viewer cli __main__
 """.split()  # noqa: SIM905
 """Each imports only from those before it."""
 

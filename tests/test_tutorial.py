@@ -82,3 +82,17 @@ def test_audit_a_floor_plan(run: Run) -> None:
     assert "not even one that touches. verified" in said and said.rstrip().endswith(
         "room to turn round in the hall: False"
     )
+
+
+@pytest.mark.slow
+def test_cage_a_part(run: Run) -> None:
+    found, said = run("plot_cage_a_part.py")
+    assert said.count("verified by other code: True") == 1 and "(0, 1) verified: True" in said
+    assert found["cage"] and not found["free"] and found["held"].order == 2 and not found["loose"]
+
+
+@pytest.mark.slow
+def test_take_it_apart(run: Run) -> None:
+    found, said = run("plot_take_apart.py")
+    assert "out: wedge, left block, right block" in said and "enclosed at its orientation: True" in said
+    assert "verified by other code: True" in said and found["out"].path.turning > 1

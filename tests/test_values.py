@@ -70,7 +70,25 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
     rounded = cfree.nesting.nfp(TRIANGLE, cfree.Curved.circle((0, 0), x))
     slot = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (3, 2), (3, 3), (0, 3)]
     turning = cfree.nesting.RotationalNFP([(a * x, b * x) for a, b in slot], [(0, 0), (x, 0), (x, x), (0, x)])
+    hold = [(1, 0), (2, 1), (1, 2), (0, 1)]
+    cage = cfree.caging.is_caged(SQUARE, [*hold, (x, x)])
+    post = [(x, 0), (x + 1, 0), (x, 1)]
+    assembly = cfree.disassembly.Assembly({"part": SQUARE, "post": post})
+    leaving = cfree.disassembly.can_leave("part", assembly)
+    held = cfree.caging.immobility(SQUARE, [*hold, (x, x)])
     return {
+        "Assembly": assembly,
+        "Blocking": cfree.disassembly.Blocking("part", leaving, ("post",), ()),
+        "Cage": cage,
+        "Contact": cfree.caging.Contact(x, (1.0, 0.0), (Fraction(1), Fraction(0)), (), ()),
+        "Critical": cfree.caging.Critical("size", float(x), None, cage),
+        "Disassembly": cfree.disassembly.removal_order(assembly),
+        "Escape": cfree.caging.Escape(path, (x,)),
+        "FewestFingers": cfree.caging.FewestFingers((0, 1, 2, 3), cage, ()),
+        "Gap": cfree.caging.Gap((Fraction(1), Fraction(0), Fraction(x))),
+        "Immobility": held,
+        "Leaving": leaving,
+        "Puncture": cfree.caging.Puncture(Pose(x, 0), (0, 1), 0.5),
         "AlgebraicAngle": interval.start,
         "AllSeparated": cfree.AllSeparated((separated,), ((step, step),), "closed"),
         "AngleInterval": interval,

@@ -120,8 +120,8 @@ _HOMES = {
     "viewer.notebook": "widget",
 }
 _PACKAGES = (
-    "analysis arrangements collision contact curves distributed exact figures film forbidden formats free geometry "
-    "nesting ompl paths planning plot rational verify viewer"
+    "analysis arrangements caging collision contact curves disassembly distributed exact figures film forbidden "
+    "formats free geometry nesting ompl paths planning plot rational verify viewer"
 )
 _MOVED = {
     "analysis": "Blocker Fit Interval NearestMiss",
@@ -141,5 +141,9 @@ register("nesting_picture", "cfree.plot.nesting", "picture_of_nesting")
 register("fit_picture", "cfree.plot.nesting", "picture_of_fit")
 register("save_nesting", "cfree.nesting.writing", "save_nesting")
 register("nesting_svg", "cfree.nesting.writing", "nesting_svg")
+register("cage figure", "cfree.plot.cages", "plot_cage")
+register("immobility figure", "cfree.plot.cages", "plot_immobility")
+register("leaving figure", "cfree.plot.cages", "plot_leaving")
+register("disassembly figure", "cfree.plot.cages", "plot_disassembly")
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES, _MOVED)
 __all__ = ["__version__", *_NAMES]

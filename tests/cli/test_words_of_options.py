@@ -29,6 +29,7 @@ SAME = {name: OF_READING[name] for name in ("--unknown", "--map-rules", "--holes
     "--objective": Objective, "--format": Form, "--storyboard": Storyboard, "--renderer": Renderer,
     "--toward": Toward, "--compact": Side,
     "--kind": Kind, "--which": Which,
+    "--critical": Literal["spread", "close", "size", "clearance", "all"],
     "--gears": Gears, "--stops": Stops, "--vehicle": Literal["car", "differential", "forklift", "any"],
 }  # fmt: skip
 

@@ -61,7 +61,7 @@ def _inset(shape: AnyShape, by: Fraction, error: float, outward: bool) -> Sequen
 
 def _moved(ring: Sequence[Curve], by: Fraction, *, is_hole: bool) -> list[ExactPoint | Arc] | None:
     """Return a ring moved to the shape's inside; None if it has other numbers than rationals, or pieces vanish."""
-    if (_area(ring) > 0) == is_hole:
+    if (double_area(ring) > 0) == is_hole:
         ring = [(end, start, center, -turn) for start, end, center, turn in reversed(ring)]
     joints = [_joint(one, other, by) for one, other in zip([ring[-1], *ring[:-1]], ring, strict=True)]
     path = list[ExactPoint | Arc]()
@@ -103,7 +103,7 @@ def _along(piece: Curve, at: ExactPoint) -> ExactPoint:
     return (-turn * y, turn * x) if turn else minus(end, start)
 
 
-def _area(ring: Sequence[Curve]) -> float:
+def double_area(ring: Sequence[Curve]) -> float:
     """Return about twice the signed area inside a ring."""
     area = 0.0
     for start, end, center, turn in ring:

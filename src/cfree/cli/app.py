@@ -6,6 +6,8 @@ import click
 
 from cfree.cli import reading
 from cfree.cli.commands.boundary import boundary
+from cfree.cli.commands.cage import cage
+from cfree.cli.commands.disassemble import disassemble
 from cfree.cli.commands.figures import figures
 from cfree.cli.commands.film import film
 from cfree.cli.commands.nest import nest
@@ -39,5 +41,6 @@ def app() -> None:
     """Compute the exact configuration space of a planar robot that translates and rotates among polygons."""
 
 
-for command in (check, convert, boundary, plan, cut, nest, reach, aisle, audit, film, view, verify, figures):
+COMMANDS = (check, convert, boundary, plan, cut, nest, cage, disassemble, reach, aisle, audit, film, view, verify, figures)
+for command in COMMANDS:
     app.add_command(command)

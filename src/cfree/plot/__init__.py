@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from cfree.plot.boundary import plot_overview as plot_overview
     from cfree.plot.boundary import plot_slice as plot_slice
     from cfree.plot.boundary import plot_workspace as plot_workspace
+    from cfree.plot.cages import plot_cage as plot_cage
+    from cfree.plot.cages import plot_disassembly as plot_disassembly
+    from cfree.plot.cages import plot_immobility as plot_immobility
+    from cfree.plot.cages import plot_leaving as plot_leaving
     from cfree.plot.depths import plot_depths as plot_depths
     from cfree.plot.depths import plot_faces as plot_faces
     from cfree.plot.development import plot_development as plot_development
@@ -29,6 +33,7 @@ __getattr__, __dir__, __all__ = lazy_names(
         "answer": "picture plot_path_space",
         "blockers": "plot_blockers",
         "boundary": "plot_boundary plot_overview plot_slice plot_workspace",
+        "cages": "plot_cage plot_disassembly plot_immobility plot_leaving",
         "depths": "plot_depths plot_faces",
         "development": "plot_development",
         "intersections": "plot_intersection",

@@ -212,7 +212,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     window, shown = window_of(scene, [answer.start, answer.goal]), looks(answer, scene)
     figure, ax = new_picture(window, len(answer.pieces) > 0)
     draw_surroundings(ax, shown)
-    _draw_barrier(ax, shown, answer.obstacles)
+    draw_barrier(ax, shown, answer.obstacles)
     ends = {"start": answer.start, "goal": answer.goal}
     for name, pose in ends.items():
         draw_robot(ax, shown, pose, faint=name == "goal")
@@ -222,7 +222,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     for name, pose in ends.items():
         labels.name_robot(scene, pose, name)
     if len(answer.pieces):
-        _draw_surface(figure, ax, answer, scene, labels)
+        draw_surface(figure, ax, answer, scene, labels)
     for k in [k for k in answer.obstacles if k >= 0][:MOST_NAMES]:
         labels.point_at(box_of(shown.obstacles[k]), plain(placed(scene, k)), BARRIER)
     labels.name_bounds(scene)
@@ -235,7 +235,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     return figure
 
 
-def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labels: Labels) -> None:
+def draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labels: Labels) -> None:
     """Draw the separating surface, and start and goal if they are within its rectangle."""
     surface = surface_of(answer, scene)
     box = around_surface(surface)
@@ -287,7 +287,7 @@ def _features_of(shape: ShapeFeatures, owners: NDArray[np.int32]) -> NDArray[np.
 # the plane
 
 
-def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
+def draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
     """Draw the blocking obstacles of a separating surface, and its bounds and workspace."""
     from matplotlib.patches import PathPatch, Rectangle
 
