@@ -41,6 +41,7 @@ def app() -> None:
     """Compute the exact configuration space of a planar robot that translates and rotates among polygons."""
 
 
-COMMANDS = (check, convert, boundary, plan, cut, nest, cage, disassemble, reach, aisle, audit, film, view, verify, figures)
-for command in COMMANDS:
+SCENES = check, convert, boundary, plan, cut, film, view, verify, figures
+TRADES = nest, cage, disassemble, reach, aisle, audit
+for command in SCENES + TRADES:
     app.add_command(command)
