@@ -93,8 +93,15 @@ EMSCRIPTEN_KEEPALIVE int slice(double theta) {
 EMSCRIPTEN_KEEPALIVE int pose(const char* words) {
     return answer([&] { cfree::ask_pose(given(), seen(), cfree::pose_of(words), reply); });
 }
-EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal, const char* vehicle, int attempts) {
-    return answer([&] { cfree::ask_way(given(), cfree::pose_of(start), cfree::pose_of(goal), driver(vehicle), attempts, reply); });
+EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal, const char* vehicle, int attempts, const char* wishes) {
+    const std::string_view wished = wishes ? wishes : "";
+    return answer([&] { cfree::ask_way(given(), cfree::pose_of(start), cfree::pose_of(goal), driver(vehicle), attempts, cfree::wishes_of(wished), reply); });
+}
+EMSCRIPTEN_KEEPALIVE int missing(const char* start, const char* goal) {
+    return answer([&] { cfree::ask_missing(given(), cfree::pose_of(start), cfree::pose_of(goal), reply); });
+}
+EMSCRIPTEN_KEEPALIVE int joined(const char* start, const char* goal) {
+    return answer([&] { cfree::ask_joined(seen(), cfree::pose_of(start), cfree::pose_of(goal), reply); });
 }
 EMSCRIPTEN_KEEPALIVE int walk(const char* poses, const char* vehicle) {
     return answer([&] { cfree::ask_walk(given(), poses, driver(vehicle), reply); });

@@ -10,13 +10,24 @@ namespace cfree {
 
 namespace {
 
+// How far a core reaches from the origin, with its arcs, about.
+double reach_of(const Polygon& core, const Rounding& rounding) {
+    double most = 0;
+    for (Index k = 0; k < core.vertices.size(); ++k)
+        most = std::max(most, norm(nearest(core.vertices.X[k], core.denominator), nearest(core.vertices.Y[k], core.denominator)));
+    const auto about = [](const RatioPoint& p) { return Vec<double>{nearest(p.x.n, p.x.d), nearest(p.y.n, p.y.d)}; };
+    for (const Arc& arc : rounding.arcs) {
+        const Vec<double> from = about(arc.from), to = about(arc.to), centre = about(arc.centre);
+        const bool is_farthest_on_arc = cross(from - centre, centre) >= 0 && cross(centre, to - centre) >= 0;
+        if (is_farthest_on_arc) most = std::max(most, norm(centre.x, centre.y) + nearest(arc.radius.n, arc.radius.d));
+    }
+    return most + nearest(rounding.radius.n, rounding.radius.d);
+}
+
 double radius_of(const SceneShapes& shapes) {
     double most = 0;
-    for (const auto& part : shapes.robot)
-        for (Index k = 0; k < part->vertices.size(); ++k)
-            most = std::max(most, norm(nearest(part->vertices.X[k], part->denominator), nearest(part->vertices.Y[k], part->denominator)));
-    const Ratio radius = shapes.robot_radius();
-    return most + nearest(radius.n, radius.d);
+    for (std::size_t k = 0; k < shapes.robot.size(); ++k) most = std::max(most, reach_of(*shapes.robot[k], rounding_of(shapes.robot_rounding, k)));
+    return most;
 }
 
 // The scene of shapes whose features are those of the user's shapes.

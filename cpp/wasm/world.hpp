@@ -46,7 +46,7 @@ public:
     };
     std::optional<Answer> answer;  // the last one
     std::optional<NearShapes> proved;  // the polygons of the last proof among round shapes, or smaller rounded shapes
-    std::unique_ptr<RoundCells> by_cells;  // among rounded shapes, once they are needed
+    std::unique_ptr<const RoundCells> by_cells;  // among rounded shapes, once they are needed
     std::vector<double> volumes;  // volumes of cells, once they are needed
 
     void need_space() const;

@@ -4,9 +4,10 @@ import { LEGENDS } from "./colours";
 import { Driving } from "./driving";
 import { integers, string, value } from "./engine";
 import { Editor } from "./editor";
+import { read_file } from "./files";
 import { be_hosted, show_given, spare_the_wheel, type Given } from "./host";
 import { Lessons } from "./lessons";
-import { $, json, palette, say } from "./page";
+import { $, fault, json, palette, say } from "./page";
 import { Player } from "./playing";
 import { save, save_scene } from "./saving";
 import { Session, seen_of } from "./session";
@@ -89,12 +90,13 @@ workspace.on_click = ({ x, y }) =>
 
 async function open_file(of: File | undefined): Promise<void> {
   if (!of) return;
-  if (of.size > 16 << 20)
-    return say("edit", {
-      tone: "bad",
-      text: `${of.name.slice(0, 80)}: ${(of.size / 1e6).toFixed(0)} MB; this page reads 16.`,
-    });
-  await session.open(await of.text());
+  try {
+    const { source, left_out } = await read_file(of);
+    await session.open(source);
+    if (left_out && session.now.source === source) say("edit", { tone: "plain", text: left_out });
+  } catch (error) {
+    fault("edit", error);
+  }
 }
 
 async function share(): Promise<void> {

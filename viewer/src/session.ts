@@ -220,7 +220,7 @@ export class Session {
     this.is_built = true;
     this.space?.fade(false);
     this.workspace.fade(false);
-    this.show_way(this.last_way);
+    this.show_way(this.last_way && (await this.with_cells(this.last_way)));
     await Promise.all([this.ask_slice(), this.ask_robot(this.now.robot)]);
     if (is_fine) this.is_ready(this.now.gallery ?? this.file.name);
     document.body.dataset.built = String(Number(document.body.dataset.built ?? 0) + 1);
@@ -294,7 +294,7 @@ export class Session {
       const planner = await this.planner.of(source);
       const attempts = is_last ? LONG : QUICK;
       const answer = await planner.newest("plan", words(start), words(goal), words_of(vehicle), attempts);
-      if (source === this.now.source) this.show_way(answer, vehicle);
+      if (source === this.now.source) this.show_way(await this.with_cells(answer), vehicle);
     } catch (error) {
       if (!(error instanceof Cancelled)) {
         this.show_way(undefined);
@@ -305,6 +305,15 @@ export class Session {
       this.is_waiting = false;
       if (!this.building_since) working(false);
     }
+  }
+
+  // Among round shapes the cells of the shown boundary tell of poses between which neither a path nor a proof was found.
+  private async with_cells(answer: Columns): Promise<Columns> {
+    const { start, goal, vehicle } = this.now;
+    if (string(answer, "verdict") !== "round" || !this.is_built || !start || !goal) return answer;
+    const joined = value(await this.builder.call("joined", words(start), words(goal)), "joined");
+    if (joined === 0) return { ...answer, verdict: "round apart" };
+    return joined === 1 && words_of(vehicle) === "" ? { ...answer, verdict: "round joined" } : answer;
   }
 
   show_way(answer: Columns | undefined, vehicle = this.driver): void {
