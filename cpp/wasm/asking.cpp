@@ -309,10 +309,13 @@ void ask_stop(const World& world, const RationalPose& from, const RationalPose& 
 void ask_missing(const World& world, const RationalPose& start, const RationalPose& goal, Reply& reply) {
     const End first{start, start.place()}, last{goal, goal.place()};
     const auto found = missing(world, [&](World& with_less) {
+        if (const auto joined = with_less.rounds ? joined_by_cells(*with_less.rounds, start, goal) : std::nullopt)
+            return *joined ? Joined::yes : Joined::no;
         const auto answer = with_less.rounds ? decided(with_less, first, last) : planned(with_less, first, last);
         return std::holds_alternative<Poses>(answer) ? Joined::yes : std::holds_alternative<Separation>(answer) ? Joined::no : Joined::unclear;
     });
-    if (!found) return;
+    // a robot of which nothing is left by any inset has arcs as sides, or a part without an inside
+    if (!found) return reply.text("verdict", smaller(world, ratio_of(world.radius * 0x1p-40)) ? "none" : "unknown");
     const auto show = [&](const char* name, const Ratio& by) { reply.add(name, nearest(by.n, by.d)); };
     show("lo", found->lo), show("hi", found->hi);
     reply.add("proved", found->is_proved ? 1.0 : 0.0);
@@ -341,6 +344,7 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
             reply.text("verdict", std::string(name) + " forbidden");
             return reply.add("pair", std::vector<Index>(pair->begin(), pair->end()));
         }
+    if (world.rounds && world.rounds->asked.clearance.n > 0) show_robot(*world.rounds, "grown", reply);
     const End first{start, start.place()}, last{goal, goal.place()};
     const auto answer = world.rounds ? decided(world, first, last) : planned(world, first, last);
     if (const auto* proof = std::get_if<Separation>(&answer)) {

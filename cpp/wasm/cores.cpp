@@ -19,11 +19,6 @@ constexpr int finest_cuts = 5;  // of a quarter circle in halves, for chords tha
 
 using Ring = std::vector<GivenCurve>;
 
-// The square root of a number whose root is rational.
-std::optional<Ratio> rational_root(const Ratio& square) {
-    const Int n = sqrt(square.n), d = sqrt(square.d);
-    return n * n == square.n && d * d == square.d ? std::optional(Ratio{n, d}) : std::nullopt;
-}
 std::optional<Ratio> radius_of(const GivenCurve& arc) {
     const RatioPoint u = arc.start - arc.center;
     return rational_root(dot(u, u));

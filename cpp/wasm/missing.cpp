@@ -31,12 +31,9 @@ std::optional<GivenShape> inset_of(const GivenShape& part, const Ratio& by) {
         }
         return less;
     }
-    const bool is_circle = part.rings.size() == 1 && part.rings.front().size() == 1;
-    if (!is_circle) return {};
-    const GivenCurve& circle = part.rings.front().front();
-    const Ratio radius = circle.start.x - circle.center.x + part.grown - by;
-    if (radius <= zero) return {};
-    less.rings.front() = circle_about(circle.center, radius), less.grown = zero;
+    const auto circle = circle_of(part);
+    if (!circle || circle->radius <= by) return {};
+    less.rings.front() = circle_about(circle->center, circle->radius - by);
     return less;
 }
 

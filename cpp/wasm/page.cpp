@@ -63,8 +63,10 @@ EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
                 cfree::refuse_range(shapes.shapes);
                 return std::make_shared<cfree::World>(rounds, std::move(shapes), is_drawn);
             };
-            auto inside = near(guides, false), seen = near(finest, true);
-            for (double share = 2 * finest; share <= coarsest && !seen->is_exact() && seen->known->patches() > most_patches; share *= 2)
+            auto inside = near(guides, false);
+            const bool is_drawn = rounds->asked.clearance.n == 0;
+            auto seen = is_drawn ? near(finest, true) : inside;
+            for (double share = 2 * finest; is_drawn && share <= coarsest && !seen->is_exact() && seen->known->patches() > most_patches; share *= 2)
                 seen = near(share, true);
             world = inside, drawn = seen;
         } else {

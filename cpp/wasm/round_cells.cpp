@@ -82,7 +82,21 @@ bool is_too_much(const Scene& scene) {
     return false;
 }
 
+std::shared_ptr<const Built> built(const SceneFeatures& features) {
+    const auto boundary = compute_boundary(features.scene, {1, may_have_slits(*features.scene), [](double) { return Wish::go_on; }});
+    const auto surfaces = glue(boundary);
+    return std::make_shared<const Built>(Built{boundary, surfaces, FreeSpace::of(*surfaces)});
+}
+
 }  // namespace
+
+std::optional<bool> joined_by_cells(const Rounds& rounds, const RationalPose& start, const RationalPose& goal) {
+    const NearShapes exact = rounds.drawn(1);
+    if (!exact.inexact.empty()) return {};
+    const SceneFeatures features = scene_features(exact.shapes);
+    if (is_too_much(*features.scene)) return {};
+    return built(features)->common_cell(start, goal) >= 0;
+}
 
 std::unique_ptr<RoundCells> RoundCells::of(const Rounds& rounds) {
     NearShapes shapes = rounds.drawn(1);
@@ -94,12 +108,7 @@ std::unique_ptr<RoundCells> RoundCells::of(const Rounds& rounds) {
 }
 
 std::optional<Separation> RoundCells::proof(const RationalPose& start, const RationalPose& goal) const {
-    if (!scene->built()) {
-        const Scene& smaller_scene = scene->scene();
-        const auto boundary = compute_boundary(scene->features->scene, {1, may_have_slits(smaller_scene), [](double) { return Wish::go_on; }});
-        const auto surfaces = glue(boundary);
-        scene->keep(std::make_shared<const Built>(Built{boundary, surfaces, FreeSpace::of(*surfaces)}));
-    }
+    if (!scene->built()) scene->keep(built(*scene->features));
     const auto cells = scene->built();
     if (cells->common_cell(start, goal) >= 0) return {};
     const Index first = cells->space->locate(start.exact(scene->scene())), second = cells->space->locate(goal.exact(scene->scene()));

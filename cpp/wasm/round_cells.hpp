@@ -8,6 +8,9 @@
 
 namespace cfree {
 
+// True if the closure of a cell has both poses; nothing if a shape is not rounded, or if cells would take too long.
+std::optional<bool> joined_by_cells(const Rounds& rounds, const RationalPose& start, const RationalPose& goal);
+
 class RoundCells {
 public:
     // Nothing if cells of smaller shapes prove nothing, or would take too long.

@@ -308,6 +308,13 @@ std::vector<GivenCurve> circle_about(const RatioPoint& center, const Ratio& radi
     return {{east, east, center, 1, 4, zero}};
 }
 
+std::optional<GivenCircle> circle_of(const GivenShape& shape) {
+    if (shape.polygon || shape.rings.size() != 1 || shape.rings.front().size() != 1) return {};
+    const GivenCurve& circle = shape.rings.front().front();
+    const auto radius = rational_root(dot(circle.start - circle.center, circle.start - circle.center));
+    return radius ? std::optional(GivenCircle{circle.center, *radius}) : std::nullopt;
+}
+
 bool GivenScene::is_round() const {
     const auto is = [](const GivenShape& shape) { return shape.is_round; };
     return clearance.n > 0 || std::any_of(robot.begin(), robot.end(), is) || std::any_of(obstacles.begin(), obstacles.end(), is) || (workspace && workspace->is_round);
@@ -324,12 +331,13 @@ SceneShapes GivenScene::polygons() const {
 
 namespace {
 
-// The outline of a grown polygon: around it a disc is forbidden.
-void add_union(const std::shared_ptr<const Polygon>& polygon, const Ratio& radius, Outlines& into) {
+// The outline of a grown shape: around it a disc is forbidden.
+void add_union(const RoundedShape& shape, const Ratio& radius, Outlines& into) {
     SceneShapes shapes;
     shapes.robot.push_back(std::make_shared<const Polygon>(Polygon::thin({{zero, zero}})));
     shapes.robot_rounding.push_back({radius, {}});
-    shapes.obstacles.push_back(polygon);
+    shapes.obstacles.push_back(shape.core);
+    shapes.obstacle_rounding.push_back(shape.rounding);
     const Slicer slicer(compute_boundary(scene_features(shapes).scene, {1, false, [](double) { return Wish::go_on; }}));
     const Slicer::Rings rings = slicer.rings(0, 0);
     for (std::size_t r = 0; r + 1 < rings.start.size(); ++r) {
@@ -349,13 +357,16 @@ void Outlines::add(const GivenShape& of) {
         const Outlines before = *this;
         if (of.grown != zero && !add_grown(*of.polygon, near(of.grown), *this)) {
             *this = before;
-            add_union(of.polygon, of.grown, *this);
+            add_union({of.polygon, {}}, of.grown, *this);
         }
         if (of.grown == zero)
             for (const auto& lines : lines_of(*of.polygon)) {
                 for (const auto& line : lines) xy.insert(xy.end(), {near(line.start.x), near(line.start.y)}), bend.push_back(0);
                 ring.push_back(static_cast<Index>(bend.size()));
             }
+    } else if (auto form = of.grown == zero ? std::nullopt : rounded(of)) {
+        form->rounding.radius = form->rounding.radius - of.grown;
+        add_union(*form, of.grown, *this);
     } else
         for (const auto& given : of.rings) {
             for (const auto& curve : given)
@@ -372,8 +383,12 @@ void Outlines::add(const GivenShape& of) {
 namespace {
 
 GivenScene grown(GivenScene scene) {
-    for (GivenShape& part : scene.robot)
-        if (scene.clearance.n > 0) part.grown = part.grown + scene.clearance, part.is_round = true;
+    if (scene.clearance.n == 0) return scene;
+    for (GivenShape& part : scene.robot) {
+        part.is_round = true;
+        if (const auto circle = circle_of(part)) part.rings.front() = circle_about(circle->center, circle->radius + scene.clearance);
+        else part.grown = part.grown + scene.clearance;
+    }
     return scene;
 }
 
@@ -412,7 +427,8 @@ struct Rounds::Adding {
         auto polygons = polygons_near(shape, error, is_outward);
         const bool is_robot = owner == robot_owner;
         if (shape.is_round) {
-            off[is_robot] = std::max(off[is_robot], error), result.error = std::max(result.error, error);
+            const double left_out = shape.polygon ? 0 : near(shape.grown);  // of shapes with arcs
+            off[is_robot] = std::max(off[is_robot], error + left_out), result.error = std::max(result.error, error);
             if (result.inexact.empty() || result.inexact.back() != owner) result.inexact.push_back(owner);
         }
         return polygons;

@@ -40,6 +40,12 @@ struct GivenScene {
     SceneShapes polygons() const;
 };
 
+struct GivenCircle {
+    RatioPoint center;
+    Ratio radius;
+};
+// Nothing of other shapes.
+std::optional<GivenCircle> circle_of(const GivenShape& shape);
 // Throws std::invalid_argument if the ends of an arc are not equally far from its center.
 GivenCurve arc_about(const RatioPoint& start, const RatioPoint& center, const RatioPoint& end, bool is_clockwise);
 // Throws std::invalid_argument if the three points are on one line.

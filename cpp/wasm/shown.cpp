@@ -31,17 +31,18 @@ void show_polygons(const std::string& prefix, const std::vector<std::shared_ptr<
     reply.add(prefix + ".xy", xy), reply.add(prefix + ".ring", ring), reply.add(prefix + ".polygon", polygon);
 }
 
+void show_outlines(const std::string& prefix, const std::vector<GivenShape>& shapes, Reply& reply) {
+    Outlines outlines;
+    for (const GivenShape& shape : shapes) outlines.add(shape);
+    reply.add(prefix + ".xy", outlines.xy), reply.add(prefix + ".ring", outlines.ring), reply.add(prefix + ".polygon", outlines.shape);
+    reply.add(prefix + ".bend", outlines.bend);
+}
+
 // Outlines with arcs; and the error of polygons around shapes that are not rounded.
 void show_rounds(const World& world, Reply& reply) {
     const GivenScene& scene = world.rounds->scene;
-    const auto show = [&](const std::string& prefix, const std::vector<GivenShape>& shapes) {
-        Outlines outlines;
-        for (const GivenShape& shape : shapes) outlines.add(shape);
-        reply.add(prefix + ".xy", outlines.xy), reply.add(prefix + ".ring", outlines.ring), reply.add(prefix + ".polygon", outlines.shape);
-        reply.add(prefix + ".bend", outlines.bend);
-    };
-    show("robot", scene.robot), show("obstacles", scene.obstacles);
-    if (scene.workspace) show("workspace", std::vector{*scene.workspace});
+    show_outlines("robot", scene.robot, reply), show_outlines("obstacles", scene.obstacles, reply);
+    if (scene.workspace) show_outlines("workspace", std::vector{*scene.workspace}, reply);
     if (!world.near->inexact.empty()) reply.add("around", world.near->error), reply.add("around.shapes", world.near->inexact);
 }
 
@@ -298,6 +299,8 @@ void Named::put(const std::string& prefix, Reply& reply) const {
     reply.add(prefix + ".robot_xy", robot_xy), reply.add(prefix + ".obstacle_xy", obstacle_xy);
     reply.add(prefix + ".robot_radius", robot_radius), reply.add(prefix + ".obstacle_radius", obstacle_radius);
 }
+
+void show_robot(const Rounds& rounds, const std::string& prefix, Reply& reply) { show_outlines(prefix, rounds.scene.robot, reply); }
 
 void show_scene(const World& world, Reply& reply) {
     if (world.rounds) show_rounds(world, reply);

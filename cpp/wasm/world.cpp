@@ -70,7 +70,8 @@ void World::compute(const std::function<void(double)>& share) {
 double World::clearance(const Place& at) const {
     if (rounds) {
         const HalfAngle half = half_angle_of(at.theta, false);
-        return rounds->poses.distance({ratio_of(at.x), ratio_of(at.y), half.q, half.p, at.theta}, 1e300).low;
+        const double distance = rounds->poses.distance({ratio_of(at.x), ratio_of(at.y), half.q, half.p, at.theta}, 1e300).low;
+        return distance + nearest(rounds->asked.clearance.n, rounds->asked.clearance.d);
     }
     const double unit = scene->unit();
     return std::max(0.0, known->nearness().distance({at.x / unit, at.y / unit, at.theta}, HUGE_VAL)) * unit;

@@ -182,7 +182,7 @@ def test_picked_patches_of_arcs_are_named_and_their_pose_is_exactly_in_contact(o
             break
     assert re.match(r"robot arc \d on arc 0 of obstacle \d\nS\(ψ, φ\) at ψ = .*\nK = .*", told), told
     opened.say("#pose", f"Touching: {told.splitlines()[0]}")
-    assert page.locator(".marks circle.arc").count() == 2
+    assert page.locator(".marks .arc").count() == 2
 
 
 @pytest.mark.parametrize("opened", ["triangle"], indirect=True)

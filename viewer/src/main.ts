@@ -1,11 +1,11 @@
 // The page: buttons, keys, files and links.
 import type { ColourBy } from "./colours";
-import { LEGENDS } from "./colours";
 import { Driving } from "./driving";
-import { integers, string, value } from "./engine";
+import { doubles, integers, string, value } from "./engine";
 import { Editor } from "./editor";
 import { read_file } from "./files";
 import { be_hosted, show_given, spare_the_wheel, type Given } from "./host";
+import { coloured, show_legend, show_scale } from "./legend";
 import { Lessons } from "./lessons";
 import { $, fault, json, palette, say } from "./page";
 import { Player } from "./playing";
@@ -15,6 +15,7 @@ import { snapped } from "./shapes";
 import { Space } from "./space";
 import { fragment, from_fragment, from_words, words } from "./state";
 import { cell_words, degrees, patch_words } from "./verdict";
+import { Wishing } from "./wishes";
 import { Workspace } from "./workspace";
 
 const gallery: { name: string; title?: string; text: string }[] = json("gallery");
@@ -33,6 +34,7 @@ const player = new Player(session);
 const editor = new Editor(workspace);
 session.editor = editor;
 const driving = new Driving(workspace, session);
+new Wishing(session);
 const lessons = new Lessons(session, editor, in_gallery);
 editor.on_change = (source, done) => void session.edited({ source, done });
 editor.on_cancel = () => void session.edited("back");
@@ -124,6 +126,7 @@ const actions: Record<string, () => void> = {
   "edit-shapes": () => editor.mode(!editor.is_on),
   draw: () => editor.draw(),
   remove: () => editor.remove(),
+  "frame-proof": () => space?.frame_barrier(),
 };
 for (const [id, action] of Object.entries(actions)) if (id !== "save") $(id).addEventListener("click", action);
 $("save").addEventListener("change", () => {
@@ -137,14 +140,18 @@ $<HTMLInputElement>("file").addEventListener("change", (event) => {
   input.value = ""; // else the same file, changed, is not opened again
   void open_file(file);
 });
-const coloured = (): ColourBy | "clearance" => $<HTMLSelectElement>("colour").value as ColourBy | "clearance";
+const colouring = (): ColourBy | "clearance" => $<HTMLSelectElement>("colour").value as ColourBy | "clearance";
 session.on_built = () => {
-  const by = coloured();
-  $("scale").textContent =
-    by === "clearance" ? "path: near obstacles (dark) to far from them (bright)" : LEGENDS(session.has_arcs)[by];
+  const { mesh, last_way, file } = session;
+  if (!mesh) return;
+  const by = colouring();
+  const patches = by === "clearance" ? "contact" : by;
+  const has_proof = last_way !== undefined && string(last_way, "verdict") === "apart";
+  show_legend(coloured(mesh, patches, file.names, has_proof));
+  show_scale(mesh, patches, by === "clearance" && last_way ? doubles(last_way, "clearance") : undefined, file.units);
 };
 $("colour").addEventListener("change", () => {
-  const by = coloured();
+  const by = colouring();
   space?.colour(by === "clearance" ? "contact" : by);
   session.show_path();
   session.on_built();

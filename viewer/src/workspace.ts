@@ -102,6 +102,7 @@ export class Workspace {
       "aria-roledescription": "movable robot",
       "aria-label": who,
     });
+    made("path", group, { class: "halo" });
     made("path", group, { class: "shape" });
     if (who === "robot") made("g", group, { class: "wheels" });
     made("line", group, { class: "arm" });
@@ -166,6 +167,22 @@ export class Workspace {
     const margin = 0.06 * Math.max(x1 - x0, y1 - y0);
     this.whole = { x: x0 - margin, y: y0 - margin, w: x1 - x0 + 2 * margin, h: y1 - y0 + 2 * margin };
     this.fit();
+  }
+
+  // Mark the obstacles of a proof; below 0 are the bounds and the workspace.
+  show_blocking(obstacles: number[]): void {
+    const paths = this.layers.obstacles.children;
+    for (let k = 0; k < paths.length; ++k) paths[k]!.classList.toggle("blocks", obstacles.includes(k));
+    for (const [name, k] of [
+      ["bounds", -1],
+      ["room", -2],
+    ] as const)
+      this.layers.floor.querySelector(`.${name}`)?.classList.toggle("blocks", obstacles.includes(k));
+  }
+  // Draw the robot grown by the clearance of an answer, if it has one.
+  show_halo(answer: Columns | undefined): void {
+    const d = answer?.["grown.xy"] ? outline_of(answer, "grown") : "";
+    for (const group of Object.values(this.bodies)) group.querySelector(".halo")!.setAttribute("d", d);
   }
 
   // Set the robot's outline, also during an edit.
