@@ -17,6 +17,7 @@ namespace {
 cfree::Reply reply;
 std::string error;
 std::shared_ptr<cfree::World> world, drawn;  // one that decides, and one with the boundary: another with round shapes
+cfree::SharedBoundary last;                  // computed so far; the next one has the patches that are the same
 // Errors of polygons, in parts of the robot's size: those that guide, and the least and the greatest of those that are drawn where
 // shapes are not rounded, which are as fine as so many patches allow.
 constexpr double guides = 0x1p-6, finest = 0x1p-9, coarsest = 0x1p-6;
@@ -44,6 +45,11 @@ cfree::World& some(const std::shared_ptr<cfree::World>& which) {
 }
 cfree::World& given() { return some(world); }
 cfree::World& seen() { return some(drawn); }
+
+void trim() {
+    seen().trim(report_share, last);
+    last = seen().boundary;
+}
 
 // None from an empty text.
 std::optional<cfree::GivenVehicle> driver(const char* vehicle) {
@@ -77,9 +83,14 @@ EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
         cfree::show_scene(*drawn, reply);
     });
 }
+// The boundary without its cells, for slices.
+EMSCRIPTEN_KEEPALIVE int trimmed() {
+    return answer([] { trim(); });
+}
 EMSCRIPTEN_KEEPALIVE int boundary() {
     return answer([] {
-        seen().compute([](double share) { report_share(share); });
+        trim();
+        seen().compute_cells(report_share);
         cfree::show_counts(seen(), reply);
     });
 }

@@ -348,7 +348,9 @@ void show_columns(const World& world, Reply& reply) {
 
 void show_mesh(const World& world, double error, double most, Reply& reply) {
     world.need_space();
-    while (error < world.radius && estimate_mesh(*world.cells, error, world.radius).triangles > most) error *= 2;
+    MeshEstimate estimate = estimate_mesh(*world.cells, error, world.radius);
+    if (estimate.coarsest > most) error = std::max(error, world.radius);
+    while (error < world.radius && estimate.triangles > most) error *= 2, estimate = estimate_mesh(*world.cells, error, world.radius);
     put(surface_of(world.features, *world.cells, mesh(*world.cells, error, world.radius), world.radius, world.space.get()), reply);
     reply.add("error", error);
 }
@@ -358,7 +360,7 @@ void show_surface(const SceneFeatures& features, const CellComplex& cells, doubl
 }
 
 void show_slice(const World& world, double theta, Reply& reply) {
-    world.need_space();
+    world.need_boundary();
     const auto [chart, tau] = chart_of(theta);
     const auto rings = world.slicer->rings(chart, tau);
     reply.add("xy", rings.xy), reply.add("start", rings.start), reply.add("shell", rings.shell), reply.add("bend", rings.bend);

@@ -58,13 +58,18 @@ World::World(SceneShapes given)
     : shapes(std::move(given)), known(KnownScene::of(shapes)), features(*known->features), scene(features.scene), checker(known->checker),
       radius(radius_of(shapes)), planner(std::make_unique<Planner>(known, radius)) {}
 
-void World::compute(const std::function<void(double)>& share) {
-    boundary = compute_boundary(scene, {1, false, [&](double done) { return share(0.5 * done), Wish::go_on; }});
+void World::trim(const std::function<void(double)>& share, const SharedBoundary& reuse) {
+    if (boundary) return;
+    boundary = compute_boundary(scene, {1, false, [&](double done) { return share(0.5 * done), Wish::go_on; }, {}, reuse});
+    slicer = std::make_unique<const Slicer>(boundary);
     share(0.5);
+}
+
+void World::compute_cells(const std::function<void(double)>& share) {
+    if (space) return;
     cells = glue(boundary);
     share(0.9);
     space = FreeSpace::of(*cells);
-    slicer = std::make_unique<const Slicer>(boundary);
 }
 
 double World::clearance(const Place& at) const {
@@ -75,6 +80,10 @@ double World::clearance(const Place& at) const {
     }
     const double unit = scene->unit();
     return std::max(0.0, known->nearness().distance({at.x / unit, at.y / unit, at.theta}, HUGE_VAL)) * unit;
+}
+
+void World::need_boundary() const {
+    if (!boundary) throw std::invalid_argument("the boundary is not computed yet");
 }
 
 void World::need_space() const {

@@ -14,6 +14,7 @@ import type { Drag, Seen, Who, Workspace } from "./workspace";
 // ms that a boundary may take before the next edit ends it: half as long again as the last one, within these
 const PATIENCE = 300;
 const MOST_PATIENCE = 1500;
+const REST = 2; // times that the right view takes: so long only the left one follows a drag
 const COARSE = 9000;
 const FINE = 60_000; // triangles
 const QUICK = 300;
@@ -207,10 +208,13 @@ export class Session {
     const radius = value(read, "radius");
     const began = performance.now();
     const builder = await this.builder.of(source);
+    if (!is_fine && (await this.build_slice(builder, source))) return;
+    const sliced = performance.now();
     const counts = await builder.call("boundary");
     const seconds = (performance.now() - began) / 1000;
     const mesh = this.space && (await builder.call("mesh", radius / (is_fine ? 60 : 20), is_fine ? FINE : COARSE));
     const is_now = source === this.now.source;
+    this.mesh_due = performance.now() + REST * (performance.now() - sliced);
     const cells = value(counts, "cells");
     $("facts").textContent =
       `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s${around_words(read, this.file.names, this.file.units)}`;
@@ -229,6 +233,18 @@ export class Session {
     await Promise.all([this.ask_slice(), this.ask_robot(this.now.robot)]);
     if (is_fine) this.is_ready(this.now.gallery ?? this.file.name);
     document.body.dataset.built = String(Number(document.body.dataset.built ?? 0) + 1);
+  }
+
+  // During a drag the slice follows each change. True if the right view need not follow now.
+  private mesh_due = 0;
+  private async build_slice(builder: Engine, source: string): Promise<boolean> {
+    await builder.call("trimmed");
+    if (source === this.now.source && this.seen.robot) {
+      this.workspace.show_slice(await builder.call("slice", this.seen.robot.theta));
+      this.workspace.fade(false);
+    }
+    document.body.dataset.trimmed = String(Number(document.body.dataset.trimmed ?? 0) + 1);
+    return performance.now() < this.mesh_due;
   }
 
   // Set `data-ready` to the name of the scene once all of it is shown, for code outside the page.
