@@ -163,7 +163,7 @@ export function missing_words(found: Columns, units: string): string {
   const digits = (length: number) => Number(length.toPrecision(3));
   const unit = units && ` ${units}`;
   const proved = value(found, "proved") === 1 ? "" : " The page does not decide between the two.";
-  return `Missing: the robot gets there if all its sides move inwards by ${digits(high)}${unit}, and not by ${digits(low)}. It is about ${digits(2 * high)}${unit} too wide.${proved}`;
+  return `Missing: the robot gets there if all its sides move inwards by ${digits(high)}${unit}, and not by ${digits(low)}${unit}. It is about ${digits(2 * high)}${unit} too wide.${proved}`;
 }
 
 // "Cell 5: volume 1.24, caged: obstacles alone enclose it; the robot cannot turn round in it."
