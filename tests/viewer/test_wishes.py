@@ -83,7 +83,7 @@ def test_a_proof_is_framed_and_beside_it_is_how_much_is_missing(browser: Any, tm
     page = tried.page
     tried.say("#way", "No motion, not even touching: separated by the workspace, obstacle 0 and obstacle 1.")
     tried.say("#missing", "Missing: the robot gets there if all its sides move inwards by 0.25 m, and not by 0.248 m.")
-    border = page.locator(".answer").evaluate("of => getComputedStyle(of).borderTopWidth")
+    border = page.locator(".answer").evaluate("of => getComputedStyle(of).outlineWidth")
     assert (
         border == "2px" and page.locator(".obstacle.blocks").count() == 2 and page.locator(".room.blocks").count() == 1
     )

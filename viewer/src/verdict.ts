@@ -156,7 +156,8 @@ export function way_verdict(
 
 // What beside a proof tells how much smaller the robot would have to be.
 export function missing_words(found: Columns, units: string): string {
-  if (found.verdict === "none") return "How much is missing: no inset of the robot helps.";
+  if (found.verdict === "none")
+    return "How much is missing: no inset that leaves all sides of the robot helps; `cfree plan --nearest-miss` tries more.";
   if (found.verdict === "unknown")
     return "How much is missing is not computed here for this robot: `cfree plan --nearest-miss` tells.";
   const [low, high] = [value(found, "lo"), value(found, "hi")];

@@ -211,6 +211,6 @@ test("how much is missing is an inset, none, or not computed", () => {
     "Missing: the robot gets there if all its sides move inwards by 0.25 m, and not by 0.248 m. It is about 0.5 m too wide.",
   );
   assert.match(missing_words({ ...found, ...numbers({ proved: 0 }) }, ""), /does not decide between the two\.$/);
-  assert.match(missing_words({ verdict: "none" }, ""), /no inset of the robot helps/);
+  assert.match(missing_words({ verdict: "none" }, ""), /no inset that leaves all sides of the robot helps/);
   assert.match(missing_words({ verdict: "unknown" }, ""), /`cfree plan --nearest-miss` tells/);
 });
