@@ -133,7 +133,7 @@ async function main() {
     CSP:
       `default-src 'none'; script-src 'sha256-${createHash("sha256").update(script).digest("base64")}' 'wasm-unsafe-eval'; ` +
       "worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'none'; base-uri 'none'; form-action 'none'; " +
-      "require-trusted-types-for 'script'; trusted-types worker",
+      "require-trusted-types-for 'script'; trusted-types worker drawing",
     HASH: values.hash,
     STYLE: text("viewer/src/style.css"),
     CORE: gzipSync(wasm, { level: 9 }).toString("base64"),

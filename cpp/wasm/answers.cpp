@@ -129,7 +129,7 @@ public:
 std::array<Ratio, 4> box_of(const World& world) {
     Around all;
     if (world.rounds)
-        for (const auto& part : world.rounds->scene.robot) {
+        for (const auto& part : world.rounds->asked.robot) {
             const Ratio& r = part.grown;
             const auto add = [&](const RatioPoint& p) { all.add(p.x - r, p.y - r, p.x + r, p.y + r); };
             for (const auto& curve : part.rings.front()) {
@@ -149,6 +149,11 @@ std::string head(const World& world, const char* kind, const RationalPose& start
     return std::string("{\"version\": 1,\n \"answer\": ") + quoted(kind) + ",\n \"scene\": {\"sha256\": \"{sha256}\", \"robot\": " +
            listed(box_of(world), [](const Ratio& x) { return quoted(x); }) + "},\n \"start\": " + decimals(start.place()) + ",\n \"goal\": " +
            decimals(goal.place()) + ",\n \"exact\": {\"start\": " + exact(start) + ", \"goal\": " + exact(goal) + "}";
+}
+
+// The clearance of an answer, if it has one.
+std::string clearance_text(const World& world) {
+    return world.rounds && world.rounds->asked.clearance.n > 0 ? ",\n \"clearance\": " + quoted(world.rounds->asked.clearance) : "";
 }
 
 std::string vehicle_text(const GivenVehicle& vehicle) {
@@ -306,15 +311,17 @@ std::string separation_text(const World& world, const World::Answer& answer, con
         obstacles.insert(features.obstacles.polygon[static_cast<std::size_t>(boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(face)]).obstacle)]);
     const auto same = [](const std::string& text) { return text; };
     const bool is_rounded = proof.of->scene().is_round;
+    const std::string clearance = clearance_text(world);
+    if (!clearance.empty() && !is_rounded) throw std::invalid_argument("the page does not save this proof about a clearance; `cfree plan --clearance` writes one");
     std::string text = head(world, "separated", answer.start, answer.goal) +
                        (world.proved && !is_rounded ? ",\n \"polygons\": " + polygons_text(world.proved->shapes) : "") +
                        ",\n \"of\": " + quoted(proof.is_closed ? "closed" : "interior") +
                        ",\n \"obstacles\": " + listed(obstacles, [](Index k) { return std::to_string(k); });
-    if (is_rounded) text += ",\n \"rounded\": " + cores_text(proof.of->shapes());
-    else if (proof.is_closed) {
-        text += ",\n \"smaller_robot\": " + listed(proof.of->shapes().robot, [](const auto& part) { return polygon_text(*part); });
-        if (const auto& bounds = proof.of->shapes().bounds) text += ",\n \"larger_bounds\": " + listed(*bounds, [](const Ratio& x) { return quoted(x); });
-    }
+    const SceneShapes& smaller = proof.of->shapes();
+    if (is_rounded) text += ",\n \"rounded\": " + cores_text(smaller);
+    else if (proof.is_closed) text += ",\n \"smaller_robot\": " + listed(smaller.robot, [](const auto& part) { return polygon_text(*part); });
+    if (proof.is_closed && smaller.bounds) text += ",\n \"larger_bounds\": " + listed(*smaller.bounds, [](const Ratio& x) { return quoted(x); });
+    text += clearance;
     if (const auto more = auxiliary(features, boundary, proof.surface.faces); !is_rounded && !more.empty()) text += ",\n \"auxiliary\": " + listed(more, same);
     return text + ",\n \"surface\": " + listed(proof.surface.faces, [&](Index face) { return piece(features, boundary, face); }, ",\n") + "}\n";
 }
@@ -324,7 +331,7 @@ std::string separation_text(const World& world, const World::Answer& answer, con
 void write_answer(const World& world, Reply& reply) {
     if (!world.answer) throw std::invalid_argument("there is no answer yet");
     const World::Answer& answer = *world.answer;
-    reply.text("scene", world.rounds ? scene_text(world.rounds->scene) : scene_text(world.shapes));
+    reply.text("scene", world.rounds ? scene_text(world.rounds->asked) : scene_text(world.shapes));
     if (const auto* proof = std::get_if<Separation>(&answer.found)) return reply.text("answer", separation_text(world, answer, *proof));
     const Poses& way = std::get<Poses>(answer.found);
     std::vector<std::string> motions;
@@ -334,7 +341,7 @@ void write_answer(const World& world, Reply& reply) {
         motions.push_back(slide ? motion(world.features, is_back ? reversed(*slide) : *slide, theta) : motion(way[k - 1], way[k], theta));
     }
     reply.text("answer", head(world, "path", way.front(), way.back()) +
-                             (answer.vehicle ? ",\n \"vehicle\": " + vehicle_text(*answer.vehicle) : "") + ",\n \"decimals\": \"approximate\",\n \"motions\": " +
+                             (answer.vehicle ? ",\n \"vehicle\": " + vehicle_text(*answer.vehicle) : "") + clearance_text(world) + ",\n \"decimals\": \"approximate\",\n \"motions\": " +
                              listed(motions, [](const std::string& text) { return "\n  " + text; }, ",") + "}\n");
 }
 

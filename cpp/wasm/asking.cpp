@@ -6,13 +6,14 @@
 
 #include "cfree/support/elementary.hpp"
 #include "driving.hpp"
+#include "missing.hpp"
 #include "shown.hpp"
 
 namespace cfree {
 
 namespace {
 
-constexpr int attempts = 400;  // to shorten a path
+constexpr int attempts = 400, dear = 3;  // to shorten a path; so many times as many with preferences
 // Among round shapes: errors of polygons, in parts of the robot's size; guesses of a search before and after the first proof is
 // tried; the work of all proofs.
 constexpr double shares[] = {0x1p-6, 0x1p-9, 0x1p-12};
@@ -58,13 +59,13 @@ std::optional<std::array<Index, 2>> overlap(const World& world, const RationalPo
                                 owner_of(world.scene->obstacles, world.features.obstacles, found->obstacle_piece)};
 }
 
-Poses shortened(const World& world, const Poses& way) {
+Poses shortened(const World& world, const Poses& way, const Costs& costs) {
     std::vector<End> ends;
     std::vector<Place> places;
     for (const auto& pose : way) ends.push_back({pose, pose.place()}), places.push_back(pose.place());
-    const Searcher searcher(world.planner->scene, places, {world.radius});
+    const Searcher searcher(world.planner->scene, places, costs);
     Shortcut shortcut = searcher.shortener(ends);
-    shortcut.run(attempts);
+    shortcut.run((costs.prefer() ? dear : 1) * attempts);
     shortcut.merge();
     return searcher.poses(shortcut.path());
 }
@@ -200,15 +201,14 @@ std::optional<Poses> searched(const World& world, const End& start, const End& g
     return searcher.poses(route);
 }
 
-// What cells tell of two poses: nothing, that a path exists, or that none keeps a distance.
-enum class Cells { unknown, joined, apart };
-using Decided = std::variant<Cells, Poses, Separation>;  // cells alone: undecided
+struct Undecided {};
+using Decided = std::variant<Undecided, Poses, Separation>;
 
 Decided planned(const World& world, const End& start, const End& goal) {
     auto answer = world.planner->plan(start, goal, {});
     if (auto* way = std::get_if<Poses>(&answer)) return std::move(*way);
     if (auto* proof = std::get_if<Separation>(&answer)) return std::move(*proof);
-    return Cells::unknown;
+    return Undecided{};
 }
 
 // A path among the polygons inside of round shapes, or one beside it, if it is free among these; else nothing.
@@ -223,7 +223,6 @@ std::optional<Poses> mended(const World& world, const Poses& way) {
 // A path among round shapes, or a proof among smaller rounded shapes or among polygons inside, or neither. The world's polygons
 // become finer.
 Decided decided(World& world, const End& start, const End& goal) {
-    Cells cells = Cells::unknown;
     std::int64_t left = most_patches;
     Listener counted;
     counted.spend = [&](std::int64_t patches) {
@@ -236,11 +235,10 @@ Decided decided(World& world, const End& start, const End& goal) {
         if (k == 0) {
             if (auto way = searched(here, start, goal, few_guesses)) return std::move(*way);
             if (!world.by_cells) world.by_cells = RoundCells::of(*world.rounds);
-            if (world.by_cells) cells = world.by_cells->are_joined(start.pose, goal.pose) ? Cells::joined : Cells::apart;
-            if (cells == Cells::apart)
+            if (world.by_cells)
                 if (auto proof = world.by_cells->proof(start.pose, goal.pose)) {
-                    world.proved = std::move(proof->smaller);
-                    return std::move(proof->separation);
+                    world.proved = world.by_cells->smaller;
+                    return std::move(*proof);
                 }
         }
         try {
@@ -254,12 +252,12 @@ Decided decided(World& world, const End& start, const End& goal) {
             if (const auto* way = std::get_if<Poses>(&answer))
                 if (auto better = mended(here, *way)) return std::move(*better);
         } catch (const OutOfWork&) {
-            return cells;
+            return Undecided{};
         }
         if (k == 0)
             if (auto way = searched(here, start, goal, many_guesses)) return std::move(*way);
     }
-    return cells;
+    return Undecided{};
 }
 
 }  // namespace
@@ -291,6 +289,13 @@ void ask_pose(const World& world, const World& drawn, const RationalPose& pose, 
     touching.put("touching", reply);
 }
 
+void ask_joined(const World& drawn, const RationalPose& start, const RationalPose& goal, Reply& reply) {
+    drawn.need_space();
+    if (!drawn.is_exact()) return;
+    const Built built{drawn.boundary, drawn.cells, drawn.space};
+    reply.add("joined", built.common_cell(start, goal) >= 0 ? 1.0 : 0.0);
+}
+
 void ask_stop(const World& world, const RationalPose& from, const RationalPose& to, Reply& reply) {
     FoundSlides none;
     const FreeMotions motions(*world.scene, *world.checker, none);
@@ -299,6 +304,21 @@ void ask_stop(const World& world, const RationalPose& from, const RationalPose& 
     const Ratio u = share.value_or(Ratio{1, 1});
     reply.text("pose", words_of({from.x + u * dx, from.y + u * dy, from.half}));
     reply.add("share", nearest(u.n, u.d));
+}
+
+void ask_missing(const World& world, const RationalPose& start, const RationalPose& goal, Reply& reply) {
+    const End first{start, start.place()}, last{goal, goal.place()};
+    const auto found = missing(world, [&](World& with_less) {
+        if (const auto joined = with_less.rounds ? joined_by_cells(*with_less.rounds, start, goal) : std::nullopt)
+            return *joined ? Joined::yes : Joined::no;
+        const auto answer = with_less.rounds ? decided(with_less, first, last) : planned(with_less, first, last);
+        return std::holds_alternative<Poses>(answer) ? Joined::yes : std::holds_alternative<Separation>(answer) ? Joined::no : Joined::unclear;
+    });
+    // a robot of which nothing is left by any inset has arcs as sides, or a part without an inside
+    if (!found) return reply.text("verdict", smaller(world, ratio_of(world.radius * 0x1p-40)) ? "none" : "unknown");
+    const auto show = [&](const char* name, const Ratio& by) { reply.add(name, nearest(by.n, by.d)); };
+    show("lo", found->lo), show("hi", found->hi);
+    reply.add("proved", found->is_proved ? 1.0 : 0.0);
 }
 
 void ask_walk(World& world, std::string_view lines, const std::optional<GivenVehicle>& vehicle, Reply& reply) {
@@ -317,13 +337,14 @@ void ask_walk(World& world, std::string_view lines, const std::optional<GivenVeh
 }
 
 void ask_way(World& world, const RationalPose& start, const RationalPose& goal, const std::optional<GivenVehicle>& vehicle, int attempts,
-             Reply& reply) {
+             const Wishes& wishes, Reply& reply) {
     world.answer.reset();
     for (const auto& [pose, name] : {std::pair{&start, "start"}, {&goal, "goal"}})
         if (const auto pair = overlap(world, *pose)) {
             reply.text("verdict", std::string(name) + " forbidden");
             return reply.add("pair", std::vector<Index>(pair->begin(), pair->end()));
         }
+    if (world.rounds && world.rounds->asked.clearance.n > 0) show_robot(*world.rounds, "grown", reply);
     const End first{start, start.place()}, last{goal, goal.place()};
     const auto answer = world.rounds ? decided(world, first, last) : planned(world, first, last);
     if (const auto* proof = std::get_if<Separation>(&answer)) {
@@ -331,10 +352,7 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
         world.answer = {start, goal, *proof, {}, {}};
         return show_proof(world, *proof, reply);
     }
-    if (const auto* cells = std::get_if<Cells>(&answer)) {
-        if (!world.rounds) return reply.text("verdict", "unclear");
-        return reply.text("verdict", *cells == Cells::joined ? "round joined" : *cells == Cells::apart ? "round apart" : "round");
-    }
+    if (std::holds_alternative<Undecided>(answer)) return reply.text("verdict", world.rounds ? "round" : "unclear");
     const Poses& found = std::get<Poses>(answer);
     if (vehicle) {
         std::optional<World> finer;  // a vehicle keeps more than the error of polygons
@@ -354,7 +372,9 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
     }
     const auto slides = world.planner->slides->along(found);
     reply.text("verdict", "path");
-    const Poses way = found.size() > 2 && slides.empty() ? shortened(world, found) : found;
+    const Costs costs{world.radius, wishes.sideways, wishes.backward, wishes.turning};
+    const bool may_change = slides.empty() && (found.size() > 2 || costs.prefer() || wishes.is_clear);
+    const Poses way = !may_change ? found : wishes.is_clear ? balanced(world, found, costs) : shortened(world, found, costs);
     check(world, way, slides);
     show_path(world, way, slides, reply);
     world.answer = {start, goal, way, slides, {}};

@@ -17,6 +17,7 @@ namespace {
 cfree::Reply reply;
 std::string error;
 std::shared_ptr<cfree::World> world, drawn;  // one that decides, and one with the boundary: another with round shapes
+cfree::SharedBoundary last;                  // computed so far; the next one has the patches that are the same
 // Errors of polygons, in parts of the robot's size: those that guide, and the least and the greatest of those that are drawn where
 // shapes are not rounded, which are as fine as so many patches allow.
 constexpr double guides = 0x1p-6, finest = 0x1p-9, coarsest = 0x1p-6;
@@ -45,6 +46,11 @@ cfree::World& some(const std::shared_ptr<cfree::World>& which) {
 cfree::World& given() { return some(world); }
 cfree::World& seen() { return some(drawn); }
 
+void trim() {
+    seen().trim(report_share, last);
+    last = seen().boundary;
+}
+
 // None from an empty text.
 std::optional<cfree::GivenVehicle> driver(const char* vehicle) {
     return *vehicle ? std::optional(cfree::vehicle_of(vehicle)) : std::nullopt;
@@ -63,8 +69,10 @@ EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
                 cfree::refuse_range(shapes.shapes);
                 return std::make_shared<cfree::World>(rounds, std::move(shapes), is_drawn);
             };
-            auto inside = near(guides, false), seen = near(finest, true);
-            for (double share = 2 * finest; share <= coarsest && !seen->is_exact() && seen->known->patches() > most_patches; share *= 2)
+            auto inside = near(guides, false);
+            const bool is_drawn = rounds->asked.clearance.n == 0;
+            auto seen = is_drawn ? near(finest, true) : inside;
+            for (double share = 2 * finest; is_drawn && share <= coarsest && !seen->is_exact() && seen->known->patches() > most_patches; share *= 2)
                 seen = near(share, true);
             world = inside, drawn = seen;
         } else {
@@ -75,9 +83,14 @@ EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
         cfree::show_scene(*drawn, reply);
     });
 }
+// The boundary without its cells, for slices.
+EMSCRIPTEN_KEEPALIVE int trimmed() {
+    return answer([] { trim(); });
+}
 EMSCRIPTEN_KEEPALIVE int boundary() {
     return answer([] {
-        seen().compute([](double share) { report_share(share); });
+        trim();
+        seen().compute_cells(report_share);
         cfree::show_counts(seen(), reply);
     });
 }
@@ -93,8 +106,15 @@ EMSCRIPTEN_KEEPALIVE int slice(double theta) {
 EMSCRIPTEN_KEEPALIVE int pose(const char* words) {
     return answer([&] { cfree::ask_pose(given(), seen(), cfree::pose_of(words), reply); });
 }
-EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal, const char* vehicle, int attempts) {
-    return answer([&] { cfree::ask_way(given(), cfree::pose_of(start), cfree::pose_of(goal), driver(vehicle), attempts, reply); });
+EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal, const char* vehicle, int attempts, const char* wishes) {
+    const std::string_view wished = wishes ? wishes : "";
+    return answer([&] { cfree::ask_way(given(), cfree::pose_of(start), cfree::pose_of(goal), driver(vehicle), attempts, cfree::wishes_of(wished), reply); });
+}
+EMSCRIPTEN_KEEPALIVE int missing(const char* start, const char* goal) {
+    return answer([&] { cfree::ask_missing(given(), cfree::pose_of(start), cfree::pose_of(goal), reply); });
+}
+EMSCRIPTEN_KEEPALIVE int joined(const char* start, const char* goal) {
+    return answer([&] { cfree::ask_joined(seen(), cfree::pose_of(start), cfree::pose_of(goal), reply); });
 }
 EMSCRIPTEN_KEEPALIVE int walk(const char* poses, const char* vehicle) {
     return answer([&] { cfree::ask_walk(given(), poses, driver(vehicle), reply); });

@@ -38,7 +38,7 @@ private:
 };
 
 bool begins_part(std::string_view word) {
-    return word == "robot" || word == "obstacle" || word == "workspace" || word == "bounds";
+    return word == "robot" || word == "obstacle" || word == "workspace" || word == "bounds" || word == "clearance";
 }
 
 RatioPoint point_of(Words& words) {
@@ -140,6 +140,9 @@ GivenScene scene_of(std::string_view text) {
             for (Ratio& x : *shapes.bounds) x = words.number();
             const auto& [x0, y0, x1, y1] = *shapes.bounds;
             if (!(x0 < x1 && y0 < y1)) throw std::invalid_argument("bounds: give xmin < xmax and ymin < ymax");
+        } else if (kind == "clearance") {
+            shapes.clearance = words.number();
+            if (shapes.clearance < Ratio{0, 1}) throw std::invalid_argument("clearance: give a length, 0 or more");
         } else throw std::invalid_argument("no part of a scene: " + std::string(kind.substr(0, 60)));
     }
     if (shapes.robot.empty()) throw std::invalid_argument("the robot is empty; give at least one polygon");
@@ -170,6 +173,20 @@ GivenVehicle vehicle_of(std::string_view text) {
     vehicle.x = axle.x, vehicle.y = axle.y, vehicle.heading = axle.half;
     vehicle.reverses = words.word() != "forward";
     return vehicle;
+}
+
+Wishes wishes_of(std::string_view text) {
+    Words words(text);
+    Wishes wishes;
+    if (words.ended()) return wishes;
+    wishes.is_clear = words.word() == "clear";
+    words.next();
+    for (double* factor : {&wishes.sideways, &wishes.backward, &wishes.turning}) {
+        const Ratio value = words.number();
+        *factor = nearest(value.n, value.d);
+        if (!(*factor >= 1)) throw std::invalid_argument("preferences: give factors of 1 or more");
+    }
+    return wishes;
 }
 
 std::string words_of(const RationalPose& pose) {

@@ -1,6 +1,5 @@
-// Cells among rounded shapes, and proofs by smaller ones, as in src/cfree/planning/rounded_cells.py.
+// Proofs by cells of smaller rounded shapes, as in src/cfree/planning/rounded_cells.py.
 #pragma once
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -9,31 +8,22 @@
 
 namespace cfree {
 
+// True if the closure of a cell has both poses; nothing if a shape is not rounded, or if cells would take too long.
+std::optional<bool> joined_by_cells(const Rounds& rounds, const RationalPose& start, const RationalPose& goal);
+
 class RoundCells {
 public:
-    // Nothing if a shape is not rounded, or if cells would take too long.
+    // Nothing if cells of smaller shapes prove nothing, or would take too long.
     static std::unique_ptr<RoundCells> of(const Rounds& rounds);
 
-    // True if the closure of a cell has both poses.
-    bool are_joined(const RationalPose& start, const RationalPose& goal);
-    // A closed surface of contacts of smaller shapes between the poses, with these shapes, if there is one.
-    struct Proof {
-        Separation separation;
-        NearShapes smaller;
-    };
-    std::optional<Proof> proof(const RationalPose& start, const RationalPose& goal);
+    // A closed surface of contacts of the smaller shapes between two free poses, if there is one.
+    std::optional<Separation> proof(const RationalPose& start, const RationalPose& goal) const;
+
+    const NearShapes smaller;
 
 private:
-    explicit RoundCells(NearShapes given) : near(std::move(given)) {}
-    struct Known {
-        NearShapes near;
-        std::shared_ptr<KnownScene> scene;
-    };
-    // Shapes whose radii are smaller by a part, with their cells; 0: as they are.
-    const Known& smaller_by(const Ratio& part);
-
-    const NearShapes near;
-    std::map<Ratio, Known> known;
+    RoundCells(NearShapes shapes, std::shared_ptr<KnownScene> known) : smaller(std::move(shapes)), scene(std::move(known)) {}
+    const std::shared_ptr<KnownScene> scene;  // of the smaller shapes
 };
 
 }  // namespace cfree

@@ -6,8 +6,12 @@
 #include <numbers>
 
 #include "cfree/forbidden/slice.hpp"
+#include "cores.hpp"
+#include "points.hpp"
 
 namespace cfree {
+
+using namespace rational;
 
 namespace {
 
@@ -17,23 +21,6 @@ constexpr double edges = 0.75, margin = 0.125;       // shares of an error: of t
 constexpr double most_error = 0.25, most_turn = pi / 4;  // relative to an arc's radius; of one edge
 constexpr int finer = 6;                             // divisions of an error by 4, where polygons cross themselves
 constexpr double obstacle_share = 1.0 / 16;          // of an obstacle's size, in place of the robot's if it is larger
-
-RatioPoint operator-(const RatioPoint& p, const RatioPoint& q) { return {p.x - q.x, p.y - q.y}; }
-RatioPoint operator+(const RatioPoint& p, const RatioPoint& q) { return {p.x + q.x, p.y + q.y}; }
-RatioPoint times(const RatioPoint& p, const Ratio& by) { return {p.x * by, p.y * by}; }
-Ratio cross(const RatioPoint& p, const RatioPoint& q) { return p.x * q.y - p.y * q.x; }
-Ratio dot(const RatioPoint& p, const RatioPoint& q) { return p.x * q.x + p.y * q.y; }
-RatioPoint to_left(const RatioPoint& p) { return {-p.y, p.x}; }
-double near(const Ratio& x) { return nearest(x.n, x.d); }
-const Ratio zero{0, 1}, one{1, 1};
-
-// The point after some quarter turns of an arc, and an angle whose half has a tangent.
-RatioPoint point_of(const GivenCurve& arc, int quarters, const Ratio& tangent) {
-    RatioPoint u = arc.start - arc.center;
-    for (int k = 0; k < quarters; ++k) u = times(to_left(u), {arc.turn, 1});
-    const Ratio square = one + tangent * tangent, c = (one - tangent * tangent) / square, s = (tangent + tangent) / square;
-    return arc.center + times(u, c) + times(to_left(u), {s.n * arc.turn, s.d});
-}
 
 std::vector<std::vector<GivenCurve>> lines_of(const Polygon& polygon) {
     std::vector<std::vector<GivenCurve>> rings;
@@ -269,6 +256,13 @@ bool add_grown(const Polygon& polygon, double r, Outlines& into) {
 
 }  // namespace
 
+RatioPoint point_of(const GivenCurve& arc, int quarters, const Ratio& tangent) {
+    RatioPoint u = arc.start - arc.center;
+    for (int k = 0; k < quarters; ++k) u = times(to_left(u), {arc.turn, 1});
+    const Ratio square = one + tangent * tangent, c = (one - tangent * tangent) / square, s = (tangent + tangent) / square;
+    return arc.center + times(u, c) + times(to_left(u), {s.n * arc.turn, s.d});
+}
+
 GivenCurve arc_about(const RatioPoint& start, const RatioPoint& center, const RatioPoint& end, bool is_clockwise) {
     const RatioPoint u = start - center, w = end - center;
     const Ratio square = dot(u, u), other = dot(w, w);
@@ -314,9 +308,16 @@ std::vector<GivenCurve> circle_about(const RatioPoint& center, const Ratio& radi
     return {{east, east, center, 1, 4, zero}};
 }
 
+std::optional<GivenCircle> circle_of(const GivenShape& shape) {
+    if (shape.polygon || shape.rings.size() != 1 || shape.rings.front().size() != 1) return {};
+    const GivenCurve& circle = shape.rings.front().front();
+    const auto radius = rational_root(dot(circle.start - circle.center, circle.start - circle.center));
+    return radius ? std::optional(GivenCircle{circle.center, *radius}) : std::nullopt;
+}
+
 bool GivenScene::is_round() const {
     const auto is = [](const GivenShape& shape) { return shape.is_round; };
-    return std::any_of(robot.begin(), robot.end(), is) || std::any_of(obstacles.begin(), obstacles.end(), is) || (workspace && workspace->is_round);
+    return clearance.n > 0 || std::any_of(robot.begin(), robot.end(), is) || std::any_of(obstacles.begin(), obstacles.end(), is) || (workspace && workspace->is_round);
 }
 
 SceneShapes GivenScene::polygons() const {
@@ -330,43 +331,13 @@ SceneShapes GivenScene::polygons() const {
 
 namespace {
 
-// The square root of a number whose root is rational.
-std::optional<Ratio> rational_root(const Ratio& square) {
-    const Int n = sqrt(square.n), d = sqrt(square.d);
-    return n * n == square.n && d * d == square.d ? std::optional(Ratio{n, d}) : std::nullopt;
-}
-
-RatioPoint direction(const GivenCurve& curve, bool at_end) {
-    if (curve.turn == 0) return curve.end - curve.start;
-    return times(to_left((at_end ? curve.end : curve.start) - curve.center), {curve.turn, 1});
-}
-
-// A convex ring of lines and of arcs of one radius, all tangent.
-std::optional<RoundedShape> convex(const std::vector<GivenCurve>& ring) {
-    std::optional<Ratio> square;
-    int turn = 0;
-    RatioRing centers;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-        const GivenCurve& curve = ring[k];
-        const RatioPoint before = direction(ring[k ? k - 1 : ring.size() - 1], true), after = direction(curve, false);
-        if (cross(before, after) != zero || dot(before, after) < zero) return {};
-        if (curve.turn == 0) continue;
-        const RatioPoint u = curve.start - curve.center;
-        if (square && (dot(u, u) != *square || curve.turn != turn)) return {};
-        square = dot(u, u), turn = curve.turn;
-        if (std::find(centers.begin(), centers.end(), curve.center) == centers.end()) centers.push_back(curve.center);
-    }
-    const auto radius = square ? rational_root(*square) : std::nullopt;
-    if (!radius) return {};
-    return RoundedShape{std::make_shared<const Polygon>(centers.size() < 3 ? Polygon::thin(centers) : Polygon({centers})), *radius};
-}
-
-// The outline of a grown polygon: around it a disc is forbidden.
-void add_union(const std::shared_ptr<const Polygon>& polygon, const Ratio& radius, Outlines& into) {
+// The outline of a grown shape: around it a disc is forbidden.
+void add_union(const RoundedShape& shape, const Ratio& radius, Outlines& into) {
     SceneShapes shapes;
     shapes.robot.push_back(std::make_shared<const Polygon>(Polygon::thin({{zero, zero}})));
     shapes.robot_rounding.push_back({radius, {}});
-    shapes.obstacles.push_back(polygon);
+    shapes.obstacles.push_back(shape.core);
+    shapes.obstacle_rounding.push_back(shape.rounding);
     const Slicer slicer(compute_boundary(scene_features(shapes).scene, {1, false, [](double) { return Wish::go_on; }}));
     const Slicer::Rings rings = slicer.rings(0, 0);
     for (std::size_t r = 0; r + 1 < rings.start.size(); ++r) {
@@ -381,23 +352,21 @@ void add_union(const std::shared_ptr<const Polygon>& polygon, const Ratio& radiu
 
 }  // namespace
 
-std::optional<RoundedShape> rounded(const GivenShape& shape) {
-    if (shape.polygon) return RoundedShape{shape.polygon, shape.grown};
-    return shape.rings.size() == 1 ? convex(shape.rings.front()) : std::nullopt;
-}
-
 void Outlines::add(const GivenShape& of) {
     if (of.polygon) {
         const Outlines before = *this;
         if (of.grown != zero && !add_grown(*of.polygon, near(of.grown), *this)) {
             *this = before;
-            add_union(of.polygon, of.grown, *this);
+            add_union({of.polygon, {}}, of.grown, *this);
         }
         if (of.grown == zero)
             for (const auto& lines : lines_of(*of.polygon)) {
                 for (const auto& line : lines) xy.insert(xy.end(), {near(line.start.x), near(line.start.y)}), bend.push_back(0);
                 ring.push_back(static_cast<Index>(bend.size()));
             }
+    } else if (auto form = of.grown == zero ? std::nullopt : rounded(of)) {
+        form->rounding.radius = form->rounding.radius - of.grown;
+        add_union(*form, of.grown, *this);
     } else
         for (const auto& given : of.rings) {
             for (const auto& curve : given)
@@ -411,8 +380,22 @@ void Outlines::add(const GivenShape& of) {
     shape.push_back(static_cast<Index>(ring.size()) - 1);
 }
 
+namespace {
+
+GivenScene grown(GivenScene scene) {
+    if (scene.clearance.n == 0) return scene;
+    for (GivenShape& part : scene.robot) {
+        part.is_round = true;
+        if (const auto circle = circle_of(part)) part.rings.front() = circle_about(circle->center, circle->radius + scene.clearance);
+        else part.grown = part.grown + scene.clearance;
+    }
+    return scene;
+}
+
+}  // namespace
+
 Rounds::Rounds(GivenScene given)
-    : scene(std::move(given)), motions(std::make_shared<const ArcMotionChecker>(arcs_of(scene))), poses(motions->scene), size(size_of(scene.robot)) {
+    : asked(std::move(given)), scene(grown(asked)), motions(std::make_shared<const ArcMotionChecker>(arcs_of(scene))), poses(motions->scene), size(size_of(scene.robot)) {
     const Ratio more = ratio_of(size) * power_of_two(-touch_bits);
     std::vector<ArcShape> robot;
     for (const auto& part : scene.robot) robot.push_back(exact_of(part, more, false));
@@ -444,7 +427,8 @@ struct Rounds::Adding {
         auto polygons = polygons_near(shape, error, is_outward);
         const bool is_robot = owner == robot_owner;
         if (shape.is_round) {
-            off[is_robot] = std::max(off[is_robot], error), result.error = std::max(result.error, error);
+            const double left_out = shape.polygon ? 0 : near(shape.grown);  // of shapes with arcs
+            off[is_robot] = std::max(off[is_robot], error + left_out), result.error = std::max(result.error, error);
             if (result.inexact.empty() || result.inexact.back() != owner) result.inexact.push_back(owner);
         }
         return polygons;
@@ -458,12 +442,11 @@ struct Rounds::Adding {
     void refuse(const std::string& name) const {
         throw std::invalid_argument(name + ": its outline crosses itself, or is too thin for polygons");
     }
-    void add_parts(bool is_outward) {
-        for (std::size_t k = 0; k < rounds.scene.robot.size(); ++k) {
-            const auto polygons = around(rounds.scene.robot[k], is_outward, robot_owner);
-            if (polygons.empty()) refuse("robot");
-            for (const auto& polygon : polygons) add_part(polygon, static_cast<Index>(k));
-        }
+    std::size_t add_part_polygons(std::size_t k, bool is_outward) {
+        const auto polygons = around(rounds.scene.robot[k], is_outward, robot_owner);
+        if (polygons.empty()) refuse("robot");
+        for (const auto& polygon : polygons) add_part(polygon, static_cast<Index>(k));
+        return polygons.size();
     }
     // Obstacles without a polygon inside are left out.
     std::size_t add_polygons(std::size_t k, bool is_outward) {
@@ -487,7 +470,7 @@ struct Rounds::Adding {
 
 NearShapes Rounds::polygons(double share, bool is_outward) const {
     Adding adding{*this, share};
-    adding.add_parts(is_outward);
+    for (std::size_t k = 0; k < scene.robot.size(); ++k) adding.add_part_polygons(k, is_outward);
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) adding.add_polygons(k, is_outward);
     return adding.with_limits(is_outward);
 }
@@ -495,18 +478,16 @@ NearShapes Rounds::polygons(double share, bool is_outward) const {
 NearShapes Rounds::drawn(double share) const {
     Adding adding{*this, share};
     SceneShapes& shapes = adding.result.shapes;
-    std::vector<RoundedShape> parts;
-    for (const GivenShape& part : scene.robot)
-        if (auto found = rounded(part)) parts.push_back(std::move(*found));
-    const auto is_other = [&](const RoundedShape& part) { return part.radius != parts.front().radius; };
-    if (parts.size() == scene.robot.size() && std::none_of(parts.begin(), parts.end(), is_other)) {
-        for (std::size_t k = 0; k < parts.size(); ++k) adding.add_part(parts[k].core, static_cast<Index>(k));
-        shapes.robot_rounding.assign(parts.size(), {parts.front().radius, {}});
-    } else adding.add_parts(true);
+    for (std::size_t k = 0; k < scene.robot.size(); ++k) {
+        if (auto found = rounded(scene.robot[k])) {
+            adding.add_part(found->core, static_cast<Index>(k));
+            shapes.robot_rounding.push_back(std::move(found->rounding));
+        } else shapes.robot_rounding.resize(shapes.robot_rounding.size() + adding.add_part_polygons(k, true));
+    }
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
-        if (const auto found = rounded(scene.obstacles[k])) {
+        if (auto found = rounded(scene.obstacles[k])) {
             adding.add_obstacle(found->core, static_cast<Index>(k));
-            shapes.obstacle_rounding.push_back({found->radius, {}});
+            shapes.obstacle_rounding.push_back(std::move(found->rounding));
         } else shapes.obstacle_rounding.resize(shapes.obstacle_rounding.size() + adding.add_polygons(k, true));
     }
     return adding.with_limits(true);

@@ -34,15 +34,24 @@ struct GivenScene {
     std::vector<GivenShape> robot, obstacles;
     std::optional<GivenShape> workspace;
     std::optional<std::array<Ratio, 4>> bounds;
+    Ratio clearance = {};  // by which the robot is grown
     bool is_round() const;
     // Of a scene without round shapes.
     SceneShapes polygons() const;
 };
 
+struct GivenCircle {
+    RatioPoint center;
+    Ratio radius;
+};
+// Nothing of other shapes.
+std::optional<GivenCircle> circle_of(const GivenShape& shape);
 // Throws std::invalid_argument if the ends of an arc are not equally far from its center.
 GivenCurve arc_about(const RatioPoint& start, const RatioPoint& center, const RatioPoint& end, bool is_clockwise);
 // Throws std::invalid_argument if the three points are on one line.
 GivenCurve arc_through(const RatioPoint& start, const RatioPoint& middle, const RatioPoint& end);
+// The point after some quarter turns of an arc, and an angle whose half has a tangent.
+RatioPoint point_of(const GivenCurve& arc, int quarters, const Ratio& tangent);
 // A line, or arcs of at most a quarter turn.
 std::vector<GivenCurve> quarters_of(const GivenCurve& curve);
 std::vector<GivenCurve> circle_about(const RatioPoint& center, const Ratio& radius);
@@ -54,14 +63,6 @@ struct Outlines {
     std::vector<Index> ring{0}, shape{0};
     void add(const GivenShape& shape);
 };
-
-// A polygon, segment or point grown by a radius; docs/theory/rounded-shapes.md.
-struct RoundedShape {
-    std::shared_ptr<const Polygon> core;
-    Ratio radius;
-};
-// The same as `rounded` of src/cfree/scene/rounded.py, also for paths of lines alone; nothing for other shapes.
-std::optional<RoundedShape> rounded(const GivenShape& shape);
 
 inline constexpr Index robot_owner = -3;  // beside bounds and workspace
 
@@ -77,7 +78,8 @@ class Rounds {
 public:
     explicit Rounds(GivenScene given);
 
-    const GivenScene scene;
+    const GivenScene asked;  // as it was given
+    const GivenScene scene;  // with the robot grown by the clearance
     const std::shared_ptr<const ArcMotionChecker> motions;
     const ArcPoseChecker poses;
     const double size;  // of the robot
@@ -85,7 +87,7 @@ public:
     // Polygons around everything forbidden, or inside of it, with an error of a part of the robot's size. Throws
     // std::invalid_argument if a shape has none; obstacles without one inside are left out, and `off` is infinite.
     NearShapes polygons(double share, bool is_outward) const;
-    // Rounded shapes as they are, and polygons around the others, and around the robot if its parts have several radii.
+    // Rounded shapes as they are, and polygons around the others.
     NearShapes drawn(double share) const;
     // Obstacles that the robot touches at a free pose, or the workspace. Distances below a 2^80th of its size count as 0.
     std::vector<Index> touched(const Motion& still) const;

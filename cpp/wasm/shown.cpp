@@ -31,17 +31,18 @@ void show_polygons(const std::string& prefix, const std::vector<std::shared_ptr<
     reply.add(prefix + ".xy", xy), reply.add(prefix + ".ring", ring), reply.add(prefix + ".polygon", polygon);
 }
 
+void show_outlines(const std::string& prefix, const std::vector<GivenShape>& shapes, Reply& reply) {
+    Outlines outlines;
+    for (const GivenShape& shape : shapes) outlines.add(shape);
+    reply.add(prefix + ".xy", outlines.xy), reply.add(prefix + ".ring", outlines.ring), reply.add(prefix + ".polygon", outlines.shape);
+    reply.add(prefix + ".bend", outlines.bend);
+}
+
 // Outlines with arcs; and the error of polygons around shapes that are not rounded.
 void show_rounds(const World& world, Reply& reply) {
     const GivenScene& scene = world.rounds->scene;
-    const auto show = [&](const std::string& prefix, const std::vector<GivenShape>& shapes) {
-        Outlines outlines;
-        for (const GivenShape& shape : shapes) outlines.add(shape);
-        reply.add(prefix + ".xy", outlines.xy), reply.add(prefix + ".ring", outlines.ring), reply.add(prefix + ".polygon", outlines.shape);
-        reply.add(prefix + ".bend", outlines.bend);
-    };
-    show("robot", scene.robot), show("obstacles", scene.obstacles);
-    if (scene.workspace) show("workspace", std::vector{*scene.workspace});
+    show_outlines("robot", scene.robot, reply), show_outlines("obstacles", scene.obstacles, reply);
+    if (scene.workspace) show_outlines("workspace", std::vector{*scene.workspace}, reply);
     if (!world.near->inexact.empty()) reply.add("around", world.near->error), reply.add("around.shapes", world.near->inexact);
 }
 
@@ -117,7 +118,11 @@ std::optional<Line> line_kind(const Scene& scene, const Feature& first, const Fe
     if (are_circles[0] && are_circles[1]) {
         const bool are_one = scene.robot.point[first.robot] == scene.robot.point[second.robot] &&
                              scene.obstacles.point[first.obstacle] == scene.obstacles.point[second.obstacle];
-        return are_one ? std::nullopt : std::optional(Line::crossing);
+        if (are_one) return std::nullopt;
+        // an arc and its end
+        const bool is_joint = (scene.robot.point[first.robot] == scene.robot.point[second.robot] && scene.obstacles.stub_between(first.obstacle, second.obstacle) >= 0) ||
+                              (scene.obstacles.point[first.obstacle] == scene.obstacles.point[second.obstacle] && scene.robot.stub_between(first.robot, second.robot) >= 0);
+        return is_joint ? Line::joint : Line::crossing;
     }
     if (are_circles[0] || are_circles[1]) {
         const Feature &line = are_circles[0] ? second : first, &circle = are_circles[0] ? first : second;
@@ -214,6 +219,19 @@ void put(const SurfaceColumns& columns, Reply& reply) {
     if (!columns.grown.empty()) reply.add("grown", columns.grown);
 }
 
+// Ends of an edge that is moved outwards, or of the arc about a vertex; both are the vertex if it has no arc, or a whole circle.
+void mark(std::vector<double>& xy, const Shape& shape, Index which, bool is_edge, double radius) {
+    const auto beside = [&](Index edge, const Vec<double>& p) {
+        const Vec<double> d = UserUnits{}.edge(shape, edge);
+        const double length = norm(d.x, d.y), scale = length > 0 ? radius / length : 0;
+        return Vec<double>{p.x + scale * d.y, p.y - scale * d.x};
+    };
+    const Vec<double> p = point(shape, is_edge ? shape.v[which] : which);
+    const Vec<double> first = beside(is_edge ? which : shape.previous[which], p);
+    const Vec<double> last = beside(which, is_edge ? point(shape, shape.w[which]) : p);
+    xy.insert(xy.end(), {first.x, first.y, last.x, last.y});
+}
+
 // A pose on a grid, exactly in contact; next to it where an edge of irrational length is moved outwards.
 RationalPose pose_in_contact(const Scene& scene, const Feature& contact, double t, double theta) {
     const HalfAngle half = half_angle_of(theta, false);
@@ -270,15 +288,8 @@ void Named::add(const World& world, const Feature& contact) {
     obstacle.push_back(polygon), obstacle_vertex.push_back(corner);
     const Radii radii = radii_of(*world.scene, contact);
     robot_radius.push_back(radii.robot), obstacle_radius.push_back(radii.obstacle);
-    // an edge is moved outwards
-    const auto ends = [](std::vector<double>& xy, Vec<double> p, Vec<double> q, double by) {
-        const Vec<double> d = q - p;
-        const double scale = by > 0 && (d.x != 0 || d.y != 0) ? by / norm(d.x, d.y) : 0;
-        const Vec<double> out{scale * d.y, -scale * d.x};
-        xy.insert(xy.end(), {p.x + out.x, p.y + out.y, q.x + out.x, q.y + out.y});
-    };
-    ends(robot_xy, point(A, turns ? A.v[i] : i), point(A, turns ? A.w[i] : i), robot_radius.back());
-    ends(obstacle_xy, point(O, on_edge ? O.v[j] : j), point(O, on_edge ? O.w[j] : j), obstacle_radius.back());
+    mark(robot_xy, A, i, turns, robot_radius.back());
+    mark(obstacle_xy, O, j, on_edge, obstacle_radius.back());
 }
 
 void Named::put(const std::string& prefix, Reply& reply) const {
@@ -288,6 +299,8 @@ void Named::put(const std::string& prefix, Reply& reply) const {
     reply.add(prefix + ".robot_xy", robot_xy), reply.add(prefix + ".obstacle_xy", obstacle_xy);
     reply.add(prefix + ".robot_radius", robot_radius), reply.add(prefix + ".obstacle_radius", obstacle_radius);
 }
+
+void show_robot(const Rounds& rounds, const std::string& prefix, Reply& reply) { show_outlines(prefix, rounds.scene.robot, reply); }
 
 void show_scene(const World& world, Reply& reply) {
     if (world.rounds) show_rounds(world, reply);
@@ -335,7 +348,9 @@ void show_columns(const World& world, Reply& reply) {
 
 void show_mesh(const World& world, double error, double most, Reply& reply) {
     world.need_space();
-    while (error < world.radius && estimate_mesh(*world.cells, error, world.radius).triangles > most) error *= 2;
+    MeshEstimate estimate = estimate_mesh(*world.cells, error, world.radius);
+    if (estimate.coarsest > most) error = std::max(error, world.radius);
+    while (error < world.radius && estimate.triangles > most) error *= 2, estimate = estimate_mesh(*world.cells, error, world.radius);
     put(surface_of(world.features, *world.cells, mesh(*world.cells, error, world.radius), world.radius, world.space.get()), reply);
     reply.add("error", error);
 }
@@ -345,7 +360,7 @@ void show_surface(const SceneFeatures& features, const CellComplex& cells, doubl
 }
 
 void show_slice(const World& world, double theta, Reply& reply) {
-    world.need_space();
+    world.need_boundary();
     const auto [chart, tau] = chart_of(theta);
     const auto rings = world.slicer->rings(chart, tau);
     reply.add("xy", rings.xy), reply.add("start", rings.start), reply.add("shell", rings.shell), reply.add("bend", rings.bend);

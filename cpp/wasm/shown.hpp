@@ -6,6 +6,8 @@
 namespace cfree {
 
 void show_scene(const World& world, Reply& reply);
+// The robot's outlines, grown by the clearance.
+void show_robot(const Rounds& rounds, const std::string& prefix, Reply& reply);
 void show_counts(const World& world, Reply& reply);
 // All columns of boundary and cells, as they are.
 void show_columns(const World& world, Reply& reply);
@@ -24,7 +26,7 @@ void show_cell(World& world, Index cell, Reply& reply);
 struct Named {
     std::vector<std::uint8_t> kind;
     std::vector<Index> robot_part, robot_vertex, obstacle, obstacle_vertex;
-    std::vector<double> robot_xy, obstacle_xy;  // each feature's first point and its last, the robot at rest; an arc's center
+    std::vector<double> robot_xy, obstacle_xy;  // each feature's first point and its last, the robot at rest; a disc's center
     std::vector<double> robot_radius, obstacle_radius;  // above 0: a vertex stands for an arc
     void add(const World& world, const Feature& contact);
     void put(const std::string& prefix, Reply& reply) const;

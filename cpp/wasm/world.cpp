@@ -10,13 +10,24 @@ namespace cfree {
 
 namespace {
 
+// How far a core reaches from the origin, with its arcs, about.
+double reach_of(const Polygon& core, const Rounding& rounding) {
+    double most = 0;
+    for (Index k = 0; k < core.vertices.size(); ++k)
+        most = std::max(most, norm(nearest(core.vertices.X[k], core.denominator), nearest(core.vertices.Y[k], core.denominator)));
+    const auto about = [](const RatioPoint& p) { return Vec<double>{nearest(p.x.n, p.x.d), nearest(p.y.n, p.y.d)}; };
+    for (const Arc& arc : rounding.arcs) {
+        const Vec<double> from = about(arc.from), to = about(arc.to), centre = about(arc.centre);
+        const bool is_farthest_on_arc = cross(from - centre, centre) >= 0 && cross(centre, to - centre) >= 0;
+        if (is_farthest_on_arc) most = std::max(most, norm(centre.x, centre.y) + nearest(arc.radius.n, arc.radius.d));
+    }
+    return most + nearest(rounding.radius.n, rounding.radius.d);
+}
+
 double radius_of(const SceneShapes& shapes) {
     double most = 0;
-    for (const auto& part : shapes.robot)
-        for (Index k = 0; k < part->vertices.size(); ++k)
-            most = std::max(most, norm(nearest(part->vertices.X[k], part->denominator), nearest(part->vertices.Y[k], part->denominator)));
-    const Ratio radius = shapes.robot_radius();
-    return most + nearest(radius.n, radius.d);
+    for (std::size_t k = 0; k < shapes.robot.size(); ++k) most = std::max(most, reach_of(*shapes.robot[k], rounding_of(shapes.robot_rounding, k)));
+    return most;
 }
 
 // The scene of shapes whose features are those of the user's shapes.
@@ -47,22 +58,32 @@ World::World(SceneShapes given)
     : shapes(std::move(given)), known(KnownScene::of(shapes)), features(*known->features), scene(features.scene), checker(known->checker),
       radius(radius_of(shapes)), planner(std::make_unique<Planner>(known, radius)) {}
 
-void World::compute(const std::function<void(double)>& share) {
-    boundary = compute_boundary(scene, {1, false, [&](double done) { return share(0.5 * done), Wish::go_on; }});
+void World::trim(const std::function<void(double)>& share, const SharedBoundary& reuse) {
+    if (boundary) return;
+    boundary = compute_boundary(scene, {1, false, [&](double done) { return share(0.5 * done), Wish::go_on; }, {}, reuse});
+    slicer = std::make_unique<const Slicer>(boundary);
     share(0.5);
+}
+
+void World::compute_cells(const std::function<void(double)>& share) {
+    if (space) return;
     cells = glue(boundary);
     share(0.9);
     space = FreeSpace::of(*cells);
-    slicer = std::make_unique<const Slicer>(boundary);
 }
 
 double World::clearance(const Place& at) const {
     if (rounds) {
         const HalfAngle half = half_angle_of(at.theta, false);
-        return rounds->poses.distance({ratio_of(at.x), ratio_of(at.y), half.q, half.p, at.theta}, 1e300).low;
+        const double distance = rounds->poses.distance({ratio_of(at.x), ratio_of(at.y), half.q, half.p, at.theta}, 1e300).low;
+        return distance + nearest(rounds->asked.clearance.n, rounds->asked.clearance.d);
     }
     const double unit = scene->unit();
     return std::max(0.0, known->nearness().distance({at.x / unit, at.y / unit, at.theta}, HUGE_VAL)) * unit;
+}
+
+void World::need_boundary() const {
+    if (!boundary) throw std::invalid_argument("the boundary is not computed yet");
 }
 
 void World::need_space() const {

@@ -21,8 +21,10 @@ public:
     explicit World(SceneShapes given);
     // Rounded shapes and polygons around others, for the eye, or polygons inside of shapes: then the shapes themselves decide.
     World(std::shared_ptr<const Rounds> given, NearShapes shapes, bool is_drawn);
-    // Boundary, closed surfaces, cells.
-    void compute(const std::function<void(double)>& share);
+    // Compute the boundary, and with it slices; patches that are those of another boundary are taken from it.
+    void trim(const std::function<void(double)>& share, const SharedBoundary& reuse);
+    // Compute closed surfaces and cells of the boundary.
+    void compute_cells(const std::function<void(double)>& share);
 
     const SceneShapes shapes;
     const std::shared_ptr<const Rounds> rounds;  // null without round shapes
@@ -46,9 +48,10 @@ public:
     };
     std::optional<Answer> answer;  // the last one
     std::optional<NearShapes> proved;  // the polygons of the last proof among round shapes, or smaller rounded shapes
-    std::unique_ptr<RoundCells> by_cells;  // among rounded shapes, once they are needed
+    std::unique_ptr<const RoundCells> by_cells;  // among rounded shapes, once they are needed
     std::vector<double> volumes;  // volumes of cells, once they are needed
 
+    void need_boundary() const;
     void need_space() const;
     // False if there are polygons in place of round shapes.
     bool is_exact() const { return !near || near->inexact.empty(); }

@@ -27,12 +27,13 @@ pytestmark = pytest.mark.slow
 DISC = cfree.Curved.circle((0, 0), "1/2")
 FLOOR = [(-6, -2), (6, -2), (6, "-1/2"), (-6, "-1/2")]
 HILL = cfree.Curved([(-1, -2), (1, -2), Arc((-1, -2), through=(0, "1/3"))], [])
+MOUND = cfree.Curved([(-1, -2), (1, -2), Arc((-1, -2), through=("1/2", "3/10"))], [])  # of an irrational radius
 
 
 @pytest.fixture
 def tried(browser: Any, tmp_path: Path) -> Iterator[Tried]:
     scene = cfree.Scene(
-        DISC, [FLOOR, cfree.Curved.circle((0, "5/2"), 1), HILL], start=(-5, 0, 0), goal=(5, 0, 0), name="floor"
+        DISC, [FLOOR, cfree.Curved.circle((0, "5/2"), 1), MOUND], start=(-5, 0, 0), goal=(5, 0, 0), name="floor"
     )
     tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
     tried.ready("floor")
@@ -63,10 +64,11 @@ def test_a_disc_dragged_gently_onto_an_arc_touches_it(browser: Any, tmp_path: Pa
     scene = cfree.Scene(DISC, [HILL], start=(0, 2, 0), name="hill")
     tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
     tried.ready("hill")
-    tried.say("#pose", "Free; ")
+    tried.say("#pose", "Free, in cell 0; ")
     pixels = tried.page.evaluate("document.querySelector('#workspace svg > g').transform.baseVal[0].matrix.a")
     tried.drag("robot", 0, pixels * (2 - 5 / 6) + 4)  # the arc is at 1/3, the radius 1/2
-    tried.say("#pose", "Touching obstacle 0. Allowed.")
+    told = tried.page.locator("#pose")
+    told.filter(has_text=re.compile(r"^Touching(:.*)? \S*obstacle 0\. Allowed\.$")).wait_for(timeout=30_000)
     tried.drag("robot", 0, 60)
     tried.say("#pose", "Forbidden: the robot overlaps obstacle 0.")
     tried.close()
@@ -115,7 +117,35 @@ ROUNDED = {
     ),
     "triangle": cfree.Scene(TRIANGLE, DISCS, start=(0, 0, 0), goal=(4, 3, "90deg"), name="triangle"),
 }
+LENS = cfree.Curved([("-0.8", 0), Arc(("0.8", 0), center=(0, "0.6")), Arc(("-0.8", 0), center=(0, "-0.6"))])
+DOME = cfree.Curved([(2, -1), (4, -1), (4, 0), Arc((2, 0), center=(3, 0))])
+HALF = cfree.Curved([(1, 0), Arc((-1, 0), center=(0, 0))])
+ROUNDED |= {
+    "lens": cfree.Scene(
+        LENS,
+        [DOME, cfree.Curved.circle((-2, 2), "0.7"), cfree.Curved(KITE, grown="0.2")],
+        start=(-4, 1, 0),
+        goal=(4, 2, "90deg"),
+        name="lens",
+    ),
+    "several radii": cfree.Scene(
+        [HALF, cfree.Curved.circle((0, "-0.2"), "0.2")],
+        [DOME, cfree.Curved.circle((-2, 2), "0.7"), KITE],
+        bounds=(-6, -4, 6, 5),
+        start=(-4, 1, 0),
+        goal=(4, 3, "90deg"),
+        name="several radii",
+    ),
+}
 LEGEND = {
+    "lens": ["arc or vertex on edge", "arc or vertex on arc or vertex", "smooth joint", "edge on edge"],
+    "several radii": [
+        "arc or vertex on edge",
+        "edge on arc or vertex",
+        "arc or vertex on arc or vertex",
+        "helix, smooth joint",
+        "edge on edge",
+    ],
     "disc": ["arc on edge", "arc on arc or vertex", "smooth joint"],
     "stadium": ["arc on edge", "edge on vertex", "arc on vertex", "smooth joint", "edge on edge"],
     "car park": ["arc on edge", "edge on arc", "arc on arc", "smooth joint", "edge on edge"],
@@ -155,8 +185,11 @@ def test_rounded_shapes_have_their_own_boundary_slices_and_legend(
     radii = {float(r) for r in re.findall(r"A(\S+) ", forbidden)}
     cores = rounded_shapes(scene)
     assert cores is not None
-    sums = {round(float(cores.robot[0].radius + r), 9) for r in [*(core.radius for core in cores.obstacles), 0]}
-    assert {round(r, 9) for r in radii} <= sums
+    robot, others = (
+        {radius + arc for core in shapes for radius in [core.radius] for arc in [0, *(arc.radius for arc in core.arcs)]}
+        for shapes in (cores.robot, cores.obstacles)
+    )
+    assert {round(r, 9) for r in radii} <= {round(float(r + s), 9) for r in robot for s in [*others, 0]}
     before = colours(opened)
     assert any(r > g + 40 and b > g + 20 for r, g, b in before)  # arcs on arcs, in their own colour
     for by, legend in [
@@ -182,7 +215,7 @@ def test_picked_patches_of_arcs_are_named_and_their_pose_is_exactly_in_contact(o
             break
     assert re.match(r"robot arc \d on arc 0 of obstacle \d\nS\(ψ, φ\) at ψ = .*\nK = .*", told), told
     opened.say("#pose", f"Touching: {told.splitlines()[0]}")
-    assert page.locator(".marks circle.arc").count() == 2
+    assert page.locator(".marks .arc").count() == 2
 
 
 @pytest.mark.parametrize("opened", ["triangle"], indirect=True)

@@ -53,6 +53,23 @@ def ring(radius: str) -> list[Curved]:
 
 
 GROWN = Curved(TRIANGLE, grown="1/5")
+HALF = Curved([(1, 0), Arc((-1, 0), center=(0, 0))])
+LENS = Curved([("-0.8", 0), Arc(("0.8", 0), center=(0, "0.6")), Arc(("-0.8", 0), center=(0, "-0.6"))])
+DOME = Curved([(2, -1), (4, -1), (4, 0), Arc((2, 0), center=(3, 0))])
+UNEQUAL = Curved(  # a rectangle with corners of different radii
+    [
+        (("0.2"), 0),
+        ("2.5", 0),
+        Arc((3, "0.5"), center=("2.5", "0.5")),
+        (3, 1),
+        Arc((2, 2), center=(2, 1)),
+        ("0.3", 2),
+        Arc((0, "1.7"), center=("0.3", "1.7")),
+        (0, "0.2"),
+        Arc(("0.2", 0), center=("0.2", "0.2")),
+    ]
+)
+NOTCHED = Curved([(5, 0), Arc((-5, 0), center=(0, 0)), (-1, 0), (3, 3), (1, 0)])  # whose chords are cut
 SLOT = [[(1, "0.3"), (6, "0.3"), (6, "2.5"), (1, "2.5")], [(1, "-2.5"), (6, "-2.5"), (6, "-0.3"), (1, "-0.3")]]
 SCENES = {
     "disc among polygons": Scene(disc(0, 0, "1/2"), [KITE, WALL, disc("2.2", 2, "0.4"), L]),
@@ -69,6 +86,16 @@ SCENES = {
             ),
         ],
     ),
+    "half disc among a kite and a disc": Scene(HALF, [KITE, disc(3, 1, 1)]),
+    "lens and a dome": Scene(LENS, [DOME, disc(3, 3, "0.5")]),
+    "unequal corners in a room": Scene(
+        UNEQUAL,
+        [KITE, disc(4, 0, 1), Curved([*SLOT[0], (1, "1.4")], grown="0.2")],
+        workspace=[(-6, -6), (9, -6), (9, 6), (-6, 6)],
+    ),
+    "polygon about a notched half disc": Scene(TRIANGLE, [NOTCHED]),
+    "discs of two radii": Scene([disc(0, 0, "1/2"), disc(1, 0, "1/3")], [KITE, LENS]),
+    "parts of several radii in bounds": Scene([GROWN, disc(-1, 0, "1/3"), HALF], [DOME, KITE], bounds=(-6, -6, 6, 6)),
     "two discs in bounds": Scene([disc(0, 0, "1/2"), disc(1, 0, "1/2")], [KITE, disc(3, 0, 1)], bounds=(-6, -6, 6, 6)),
 }
 
@@ -235,25 +262,35 @@ def test_a_gap_too_narrow_by_a_part_of_2_to_the_60_is_proved_closed(tmp_path: Pa
 
 
 @pytest.mark.parametrize(
-    ("width", "verdict"),
-    [(1 + Fraction(1, 1000), "path"), (1 + Fraction(1, 10**9), "round joined"), (Fraction(1), "round apart")],
+    ("width", "verdict", "joined"),
+    [(1 + Fraction(1, 1000), "path", 1), (1 + Fraction(1, 10**9), "round", 1), (Fraction(1), "round", 0)],
 )
-def test_cells_tell_of_gaps_where_searches_find_nothing(width: Fraction, verdict: str) -> None:
+def test_cells_tell_of_gaps_where_searches_find_nothing(width: Fraction, verdict: str, joined: int) -> None:
     scene = gap_of(width)
     assert scene.start is not None and isinstance(scene.goal, Pose)
-    _, answer = asked(["open", scene_text(scene)], ["plan", said(scene.start), said(scene.goal), "", 0])
-    assert answer["verdict"] == verdict
+    ends = said(scene.start), said(scene.goal)
+    answer, cells = opened(scene, ["plan", *ends, "", 0], ["joined", *ends])
+    assert answer["verdict"] == verdict and cells["joined"]["values"] == [joined]
+
+
+@pytest.mark.parametrize(("gap", "joined"), [(Fraction(6, 10), 1), (Fraction(4, 10), 0)])
+def test_cells_of_arcs_as_sides_tell_whether_poses_are_joined(gap: Fraction, joined: int) -> None:
+    high = gap / 2 + 1
+    upper = Curved([(-1, high), Arc((1, high), center=(0, high)), (1, 5), (-1, 5)])
+    lower = Curved([(1, -high), Arc((-1, -high), center=(0, -high)), (-1, -5), (1, -5)])
+    [cells] = opened(Scene(disc(0, 0, "1/4"), [upper, lower], bounds=(-4, -4, 4, 4)), ["joined", "-3 0 0", "3 0 0"])
+    assert cells["joined"]["values"] == [joined]
 
 
 def test_shapes_that_are_not_rounded_are_named_with_the_error_of_their_polygons() -> None:
-    hill = Curved([(-1, -2), (1, -2), Arc((-1, -2), through=(0, "1/3"))], [])
+    hill = Curved([(-1, -2), (1, -2), Arc((-1, -2), through=("1/2", "3/10"))], [])  # of an irrational radius
     scene = Scene(disc(0, 0, "1/2"), [KITE, hill, disc(4, 0, 1)])
     read, counts, cut, pose = asked(["open", scene_text(scene)], ["boundary"], ["all slice", 0], ["pose", "9 0 0"])
     assert read["around.shapes"]["values"] == [1] and 0 < read["around"]["values"][0] < 0.01
     assert "fault" not in counts
     assert 1.5 in cut["segments.bend"]["values"]  # the disc is exact
     assert "cells" not in pose  # of another boundary
-    two = Scene([disc(0, 0, "1/2"), disc(1, 0, "1/3")], [KITE])
+    two = Scene([disc(0, 0, "1/2"), hill], [KITE])
     assert asked(["open", scene_text(two)])[0]["around.shapes"]["values"] == [-3]
 
 

@@ -34,6 +34,11 @@ const SCALE = [
   "#fee838",
 ].map((of) => new Color(of));
 
+// The scale as a background.
+export const gradient = () => `linear-gradient(to right, ${SCALE.map((of) => `#${of.getHexString()}`).join(", ")})`;
+// Colours of numbers, which come again.
+export const of_number = (k: number) => MANY[(k + 8 * MANY.length) % MANY.length]!;
+
 // The colour at a share of the scale: at 0 its first, at 1 its last.
 export function on_scale(share: number): Color {
   const at = Math.max(0, Math.min(1, share)) * (SCALE.length - 1);
@@ -52,22 +57,29 @@ export const LEGENDS = (is_round: boolean): Record<ColourBy, string> => ({
   mean: "H: bulging (dark), 0, hollow (bright)",
 });
 
+// The values at the ends of the scale; nothing if colours are not those of values.
+export function range_of(mesh: Columns, by: ColourBy): [number, number] | undefined {
+  if (by === "gaussian") return [-1, bytes(mesh, "kind").includes(2) ? 1 : 0];
+  if (by !== "mean") return undefined;
+  const most = doubles(mesh, "mean").reduce((a, b) => Math.max(a, Math.abs(b)), 1e-30);
+  return [-most, most];
+}
+
 // Three numbers for each vertex of a mesh.
 export function vertex_colours(mesh: Columns, by: ColourBy, palette: Palette): Float32Array {
   const kind = bytes(mesh, "kind");
   const colours = new Float32Array(3 * kind.length);
   const of_kind = [palette.vertex_edge, palette.edge_vertex, palette.arc_arc].map((of) => new Color(of));
-  const many = MANY.map((of) => new Color(of));
-  const of_number = (numbers: Int32Array) => (k: number) => many[(numbers[k]! + 8 * MANY.length) % MANY.length]!;
-  const most = doubles(mesh, "mean").reduce((a, b) => Math.max(a, Math.abs(b)), 1e-30);
-  const of_value = (values: Float64Array, low: number, high: number) => (k: number) =>
-    on_scale((values[k]! - low) / (high - low));
+  const many = new Map(MANY.map((of) => [of, new Color(of)]));
+  const of_column = (numbers: Int32Array) => (k: number) => many.get(of_number(numbers[k]!))!;
+  const [low, high] = range_of(mesh, by) ?? [0, 1];
+  const of_value = (values: Float64Array) => (k: number) => on_scale((values[k]! - low) / (high - low));
   const colour = {
     contact: (k: number) => of_kind[kind[k]!]!,
-    cell: of_number(integers(mesh, "cell")),
-    obstacle: of_number(integers(mesh, "owner")),
-    gaussian: of_value(doubles(mesh, "gaussian"), -1, kind.includes(2) ? 1 : 0),
-    mean: of_value(doubles(mesh, "mean"), -most, most),
+    cell: of_column(integers(mesh, "cell")),
+    obstacle: of_column(integers(mesh, "owner")),
+    gaussian: of_value(doubles(mesh, "gaussian")),
+    mean: of_value(doubles(mesh, "mean")),
   }[by];
   for (let k = 0; k < kind.length; ++k) colour(k).toArray(colours, 3 * k);
   return colours;

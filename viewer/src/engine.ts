@@ -71,18 +71,19 @@ export class Engine {
     }
   }
 
-  // Open the scene for later calls and end work for another one. Of several requests the newest succeeds.
-  async open(text: string): Promise<Columns> {
+  // Open the scene for later calls and end work for another one. Of several requests the newest succeeds. With a clearance the
+  // robot is grown by it.
+  async open(text: string, clearance = ""): Promise<Columns> {
     const opening = (this.opening = Symbol());
     try {
-      return await this.reopened(text);
+      return await this.reopened(text, clearance);
     } finally {
       if (this.opening === opening) this.opening = undefined;
     }
   }
   private opening?: symbol;
   private wishes = 0;
-  private async reopened(text: string): Promise<Columns> {
+  private async reopened(text: string, clearance: string): Promise<Columns> {
     const before = this.opened;
     const wish = ++this.wishes;
     for (let k = 0; k < 6 && this.busy; ++k) {
@@ -90,19 +91,20 @@ export class Engine {
       if (wish !== this.wishes) throw new Cancelled();
     }
     if (this.busy) this.end();
-    this.opened = text;
+    const name = `${clearance} ${text}`;
+    this.opened = name;
     try {
-      return await this.call("open", text);
+      return await this.call("open", text, ...(clearance ? [clearance] : []));
     } catch (error) {
-      if (this.opened === text) this.opened = before;
+      if (this.opened === name) this.opened = before;
       throw error;
     }
   }
 
   // Return this engine with the scene open. It waits while `open` opens another scene, and does not interrupt it.
-  async of(text: string): Promise<this> {
+  async of(text: string, clearance = ""): Promise<this> {
     while (this.opening) await new Promise((done) => setTimeout(done, 5));
-    if (this.opened !== text) await this.reopened(text);
+    if (this.opened !== `${clearance} ${text}`) await this.reopened(text, clearance);
     return this;
   }
 

@@ -1,12 +1,13 @@
 // The page: buttons, keys, files and links.
 import type { ColourBy } from "./colours";
-import { LEGENDS } from "./colours";
 import { Driving } from "./driving";
-import { integers, string, value } from "./engine";
+import { doubles, integers, string, value } from "./engine";
 import { Editor } from "./editor";
+import { read_file } from "./files";
 import { be_hosted, show_given, spare_the_wheel, type Given } from "./host";
+import { coloured, show_legend, show_scale } from "./legend";
 import { Lessons } from "./lessons";
-import { $, json, palette, say } from "./page";
+import { $, fault, json, palette, say } from "./page";
 import { Player } from "./playing";
 import { save, save_scene } from "./saving";
 import { Session, seen_of } from "./session";
@@ -14,6 +15,7 @@ import { snapped } from "./shapes";
 import { Space } from "./space";
 import { fragment, from_fragment, from_words, words } from "./state";
 import { cell_words, degrees, patch_words } from "./verdict";
+import { Wishing } from "./wishes";
 import { Workspace } from "./workspace";
 
 const gallery: { name: string; title?: string; text: string }[] = json("gallery");
@@ -32,6 +34,7 @@ const player = new Player(session);
 const editor = new Editor(workspace);
 session.editor = editor;
 const driving = new Driving(workspace, session);
+new Wishing(session);
 const lessons = new Lessons(session, editor, in_gallery);
 editor.on_change = (source, done) => void session.edited({ source, done });
 editor.on_cancel = () => void session.edited("back");
@@ -89,12 +92,13 @@ workspace.on_click = ({ x, y }) =>
 
 async function open_file(of: File | undefined): Promise<void> {
   if (!of) return;
-  if (of.size > 16 << 20)
-    return say("edit", {
-      tone: "bad",
-      text: `${of.name.slice(0, 80)}: ${(of.size / 1e6).toFixed(0)} MB; this page reads 16.`,
-    });
-  await session.open(await of.text());
+  try {
+    const { source, left_out } = await read_file(of);
+    await session.open(source);
+    if (left_out && session.now.source === source) say("edit", { tone: "plain", text: left_out });
+  } catch (error) {
+    fault("edit", error);
+  }
 }
 
 async function share(): Promise<void> {
@@ -122,6 +126,7 @@ const actions: Record<string, () => void> = {
   "edit-shapes": () => editor.mode(!editor.is_on),
   draw: () => editor.draw(),
   remove: () => editor.remove(),
+  "frame-proof": () => space?.frame_barrier(),
 };
 for (const [id, action] of Object.entries(actions)) if (id !== "save") $(id).addEventListener("click", action);
 $("save").addEventListener("change", () => {
@@ -135,14 +140,18 @@ $<HTMLInputElement>("file").addEventListener("change", (event) => {
   input.value = ""; // else the same file, changed, is not opened again
   void open_file(file);
 });
-const coloured = (): ColourBy | "clearance" => $<HTMLSelectElement>("colour").value as ColourBy | "clearance";
+const colouring = (): ColourBy | "clearance" => $<HTMLSelectElement>("colour").value as ColourBy | "clearance";
 session.on_built = () => {
-  const by = coloured();
-  $("scale").textContent =
-    by === "clearance" ? "path: near obstacles (dark) to far from them (bright)" : LEGENDS(session.has_arcs)[by];
+  const { mesh, last_way, file } = session;
+  if (!mesh) return;
+  const by = colouring();
+  const patches = by === "clearance" ? "contact" : by;
+  const has_proof = last_way !== undefined && string(last_way, "verdict") === "apart";
+  show_legend(coloured(mesh, patches, file.names, has_proof));
+  show_scale(mesh, patches, by === "clearance" && last_way ? doubles(last_way, "clearance") : undefined, file.units);
 };
 $("colour").addEventListener("change", () => {
-  const by = coloured();
+  const by = colouring();
   space?.colour(by === "clearance" ? "contact" : by);
   session.show_path();
   session.on_built();

@@ -27,13 +27,13 @@ export const palette = (): Palette => {
   };
 };
 
-export function say(id: "pose" | "way" | "edit", verdict: Verdict): void {
+export function say(id: "pose" | "way" | "missing" | "edit", verdict: Verdict): void {
   const element = $(id);
   if (element.textContent !== verdict.text) element.textContent = verdict.text;
   element.dataset.tone = verdict.tone;
   element.classList.remove("old");
 }
-export function fault(id: "pose" | "way" | "edit", error: unknown): void {
+export function fault(id: "pose" | "way" | "missing" | "edit", error: unknown): void {
   if (error instanceof Cancelled) return;
   const text = (error instanceof Error ? error.message : String(error)).replace(/(-?\d+)\/(\d+)(?=[,)])/g, (_, p, q) =>
     String(Number((Number(p) / Number(q)).toPrecision(5))),

@@ -1,19 +1,20 @@
 // Questions to the core when something moves, and where its answers go.
-import { Cancelled, Engine, type Columns, bytes, doubles, integers, string, value } from "./engine";
+import { Cancelled, Engine, type Columns, doubles, integers, string, value } from "./engine";
 import type { Editor } from "./editor";
-import { entries, show_legend } from "./legend";
 import { $, fault, say, working } from "./page";
 import { digits, number } from "./shapes";
 import { wrapped, type Space } from "./space";
 import { History, fragment, from_words, words, type PoseText, type State } from "./state";
-import { around_words, degrees, pose_verdict, way_verdict } from "./verdict";
+import { around_words, degrees, missing_words, pose_verdict, way_verdict } from "./verdict";
 import { frame_of, track_of, usual, words_of, type Gear, type Vehicle, type Wheels } from "./vehicle";
+import { NONE, clearance_of, words_of as words_of_wishes, type Wishes } from "./wishes";
 import type { FilePose, SceneText } from "./words";
 import type { Drag, Seen, Who, Workspace } from "./workspace";
 
 // ms that a boundary may take before the next edit ends it: half as long again as the last one, within these
 const PATIENCE = 300;
 const MOST_PATIENCE = 1500;
+const REST = 2; // times that the right view takes: so long only the left one follows a drag
 const COARSE = 9000;
 const FINE = 60_000; // triangles
 const QUICK = 300;
@@ -52,6 +53,7 @@ export class Session {
     $<HTMLProgressElement>("share-done").value = share;
   }); // boundary, mesh, slices
   readonly planner = new Engine(); // ways
+  private readonly misser = new Engine(); // what is missing where there is none
   history!: History;
   file!: Omit<SceneText, "words">;
   scene?: Columns;
@@ -68,7 +70,8 @@ export class Session {
   on_opened = () => {};
   on_seen = () => {};
   on_vehicle = () => {};
-  has_arcs = false; // the boundary, patches of an arc on an arc
+  on_wishes = () => {};
+  mesh: Columns | undefined; // as shown
   on_built = () => {};
 
   constructor(
@@ -104,6 +107,7 @@ export class Session {
         ...(vehicle && { vehicle: { ...usual(doubles(read, "robot.xy")), ...vehicle } }),
         ...(start && { start }),
         ...(goal && { goal }),
+        ...(of?.wishes && { wishes: of.wishes }),
         ...(of?.gallery && { gallery: of.gallery }),
       };
       if (this.history) this.history.push(state);
@@ -147,6 +151,8 @@ export class Session {
       this.path = undefined;
       this.last_way = undefined;
       say("way", { tone: "plain", text: "" });
+      this.end_missing();
+      this.workspace.show_blocking([]);
     } else {
       this.space?.fade(true);
       this.workspace.fade(true);
@@ -155,6 +161,7 @@ export class Session {
     this.set_slider(this.seen.robot!.theta);
     this.editor?.show(now.source);
     this.on_vehicle();
+    this.on_wishes();
     this.on_opened();
     void this.ask_robot(now.robot);
     void this.ask_way();
@@ -201,18 +208,20 @@ export class Session {
     const radius = value(read, "radius");
     const began = performance.now();
     const builder = await this.builder.of(source);
+    if (!is_fine && (await this.build_slice(builder, source))) return;
+    const sliced = performance.now();
     const counts = await builder.call("boundary");
     const seconds = (performance.now() - began) / 1000;
     const mesh = this.space && (await builder.call("mesh", radius / (is_fine ? 60 : 20), is_fine ? FINE : COARSE));
     const is_now = source === this.now.source;
+    this.mesh_due = performance.now() + REST * (performance.now() - sliced);
     const cells = value(counts, "cells");
     $("facts").textContent =
       `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s${around_words(read, this.file.names, this.file.units)}`;
     if (this.space) {
       this.space.show_scene(box, radius, false);
       this.space.show_mesh(mesh!);
-      show_legend(entries(mesh!));
-      this.has_arcs = bytes(mesh!, "kind").includes(2);
+      this.mesh = mesh;
       this.on_built();
       for (const who of ["start", "goal"] as const) this.place(who);
     }
@@ -220,10 +229,22 @@ export class Session {
     this.is_built = true;
     this.space?.fade(false);
     this.workspace.fade(false);
-    this.show_way(this.last_way);
+    this.show_way(this.last_way && (await this.with_cells(this.last_way)));
     await Promise.all([this.ask_slice(), this.ask_robot(this.now.robot)]);
     if (is_fine) this.is_ready(this.now.gallery ?? this.file.name);
     document.body.dataset.built = String(Number(document.body.dataset.built ?? 0) + 1);
+  }
+
+  // During a drag the slice follows each change. True if the right view need not follow now.
+  private mesh_due = 0;
+  private async build_slice(builder: Engine, source: string): Promise<boolean> {
+    await builder.call("trimmed");
+    if (source === this.now.source && this.seen.robot) {
+      this.workspace.show_slice(await builder.call("slice", this.seen.robot.theta));
+      this.workspace.fade(false);
+    }
+    document.body.dataset.trimmed = String(Number(document.body.dataset.trimmed ?? 0) + 1);
+    return performance.now() < this.mesh_due;
   }
 
   // Set `data-ready` to the name of the scene once all of it is shown, for code outside the page.
@@ -282,6 +303,8 @@ export class Session {
   private is_waiting = false; // for a way
   async ask_way(is_last = true): Promise<void> {
     const { start, goal, source, vehicle } = this.now;
+    const { wishes } = this;
+    this.end_missing();
     if (!start || !goal)
       return say("way", { tone: "plain", text: start || goal ? "" : "No start and goal in this scene." });
     $("way").classList.add("old");
@@ -291,10 +314,14 @@ export class Session {
       say("way", { tone: "plain", text: "Looking for a motion …" });
     }, 400);
     try {
-      const planner = await this.planner.of(source);
+      const clearance = clearance_of(wishes);
+      const planner = await this.planner.of(source, clearance);
       const attempts = is_last ? LONG : QUICK;
-      const answer = await planner.newest("plan", words(start), words(goal), words_of(vehicle), attempts);
-      if (source === this.now.source) this.show_way(answer, vehicle);
+      const asked = [words(start), words(goal)] as const;
+      const answer = await planner.newest("plan", ...asked, words_of(vehicle), attempts, words_of_wishes(wishes));
+      if (source !== this.now.source || clearance !== clearance_of(this.wishes)) return;
+      this.show_way(clearance ? answer : await this.with_cells(answer), vehicle, clearance);
+      if (is_last && string(answer, "verdict") === "apart") void this.ask_missing(source, clearance, asked);
     } catch (error) {
       if (!(error instanceof Cancelled)) {
         this.show_way(undefined);
@@ -307,18 +334,57 @@ export class Session {
     }
   }
 
-  show_way(answer: Columns | undefined, vehicle = this.driver): void {
+  // How much smaller the robot would have to be, beside the proof that there is no motion.
+  private async ask_missing(source: string, clearance: string, ends: readonly [string, string]): Promise<void> {
+    const wish = (this.missing_wish = Symbol());
+    const is_wished = () => wish === this.missing_wish;
+    const show = (text: string) => say("missing", { tone: "plain", text });
+    show("How much is missing: being computed …");
+    try {
+      const misser = await this.misser.of(source, clearance);
+      const found = await misser.call("missing", ...ends);
+      if (is_wished()) show(missing_words(found, this.file.units));
+    } catch (error) {
+      if (!is_wished()) return;
+      show("");
+      fault("missing", error);
+    }
+  }
+  private missing_wish?: symbol;
+  private end_missing(): void {
+    this.missing_wish = undefined;
+    if (this.misser.busy) this.misser.end();
+    say("missing", { tone: "plain", text: "" });
+  }
+
+  // Among round shapes the cells of the shown boundary tell of poses between which neither a path nor a proof was found.
+  private async with_cells(answer: Columns): Promise<Columns> {
+    const { start, goal, vehicle } = this.now;
+    if (clearance_of(this.wishes) || string(answer, "verdict") !== "round" || !this.is_built || !start || !goal)
+      return answer;
+    const joined = value(await this.builder.call("joined", words(start), words(goal)), "joined");
+    if (joined === 0) return { ...answer, verdict: "round apart" };
+    return joined === 1 && words_of(vehicle) === "" ? { ...answer, verdict: "round joined" } : answer;
+  }
+
+  private kept = ""; // the clearance of the answer that is shown
+  show_way(answer: Columns | undefined, vehicle = this.driver, clearance = this.kept): void {
     this.last_way = answer;
     this.driver = vehicle;
+    this.kept = clearance;
     const verdict = answer && string(answer, "verdict");
     this.path = verdict === "path" ? doubles(answer!, "samples") : undefined;
     this.gears =
       this.path && answer?.gear
         ? [...integers(answer, "motion")].map((k) => (integers(answer, "gear")[k] ?? 0) as Gear)
         : undefined;
-    if (answer) say("way", way_verdict(answer, this.file.names, this.file.units, vehicle));
+    if (answer) say("way", way_verdict(answer, this.file.names, this.file.units, vehicle, clearance));
     this.show_path();
     this.space?.show_barrier(verdict === "apart" ? answer : undefined);
+    this.workspace.show_blocking(verdict === "apart" ? [...integers(answer!, "obstacles")] : []);
+    this.workspace.show_halo(answer);
+    $("frame-proof").hidden = verdict !== "apart" || !this.space;
+    this.on_built(); // the legend
     $<HTMLButtonElement>("play").disabled = !this.path;
     this.on_seen();
   }
@@ -395,7 +461,18 @@ export class Session {
     this.stop_playing();
     this.keep({ ...this.now, vehicle }, done);
     this.on_vehicle();
+    this.on_wishes();
     void this.ask_way(done);
+  }
+
+  get wishes(): Wishes {
+    return this.now.wishes ?? NONE;
+  }
+  wish(wishes: Wishes): void {
+    this.stop_playing();
+    this.keep({ ...this.now, wishes }, true);
+    this.on_wishes();
+    void this.ask_way();
   }
 
   // Take an edited text. A text that is no scene is refused, and the last valid scene stays.
@@ -500,6 +577,7 @@ export class Session {
       for (const who of ["start", "goal"] as const) this.place(who);
       this.set_slider(this.seen.robot!.theta);
       this.on_vehicle();
+      this.on_wishes();
       void this.ask_robot(state.robot);
       void this.ask_slice();
       void this.ask_way();
@@ -509,6 +587,7 @@ export class Session {
 
   stop(): void {
     this.stop_playing();
+    this.end_missing();
     if (this.building_since) this.builder.end();
     if (this.planner.busy) {
       this.planner.end();

@@ -1,5 +1,6 @@
 // The right view: the boundary of the forbidden space over x, y and theta.
 import {
+  Box3,
   BufferAttribute,
   BufferGeometry,
   CatmullRomCurve3,
@@ -26,6 +27,7 @@ import {
   Path as ShapePath,
   Plane,
   PlaneGeometry,
+  Sphere,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { type ColourBy, type Palette, on_scale, vertex_colours } from "./colours";
@@ -339,6 +341,19 @@ export class Space {
       surface.renderOrder = 3;
       this.parts.barrier.add(surface, ...this.edges(mesh, 0.6));
     }
+    this.ask();
+  }
+
+  // Look at the surface that separates start and goal from where all of it is seen.
+  frame_barrier(): void {
+    const box = new Box3().setFromObject(this.parts.barrier);
+    if (box.isEmpty()) return;
+    const ball = box.getBoundingSphere(new Sphere());
+    const away = this.camera.position.clone().sub(this.controls.target).normalize();
+    const half = (Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * Math.PI) / 360;
+    this.controls.target.copy(ball.center);
+    this.camera.position.copy(ball.center).addScaledVector(away, (1.05 * ball.radius) / Math.sin(half));
+    this.controls.update();
     this.ask();
   }
 

@@ -1,5 +1,6 @@
 // The state of a page as texts that the core reads exactly: for undo, redo and links.
 import { is_vehicle, type Vehicle } from "./vehicle";
+import { is_wishes, type Wishes } from "./wishes";
 
 export interface PoseText {
   x: string;
@@ -15,6 +16,7 @@ export interface State {
   start?: PoseText;
   goal?: PoseText;
   vehicle?: Vehicle;
+  wishes?: Wishes;
 }
 
 export const words = (pose: PoseText) => `${pose.x} ${pose.y} ${pose.tau}`;
@@ -96,7 +98,8 @@ export async function from_fragment(
   return typeof state.source === "string" &&
     state.robot &&
     [state.robot, state.start, state.goal].every(is_pose) &&
-    (state.vehicle === undefined || is_vehicle(state.vehicle))
+    (state.vehicle === undefined || is_vehicle(state.vehicle)) &&
+    (state.wishes === undefined || is_wishes(state.wishes))
     ? state
     : undefined;
 }

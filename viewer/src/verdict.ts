@@ -79,17 +79,21 @@ const machine = (vehicle: Vehicle | undefined): string =>
     : "a machine that turns in place";
 const many = (count: number, what: string) => `${count.toLocaleString("en")} ${what}${count === 1 ? "" : "s"}`;
 
-function path_words(columns: Columns, units: string, vehicle: Vehicle | undefined): string {
+// How far a path keeps away: "that keeps 0.2 m".
+const kept = (clearance: string, units: string) => `that keeps ${clearance}${units && ` ${units}`}`;
+
+function path_words(columns: Columns, units: string, vehicle: Vehicle | undefined, clearance: string): string {
   const pieces = value(columns, "motions");
   const length = `length ${value(columns, "length").toPrecision(3)}${units ? ` ${units}` : ""}`;
   if (columns.gear) {
     const cusps = value(columns, "cusps");
     const changes = `${many(cusps, "change")} of direction`;
-    const text = `${machine(vehicle)} drives there: ${many(pieces, "motion")}, ${changes}, ${length}; proved free.`;
+    const far = clearance && `, on a path ${kept(clearance, units)}`;
+    const text = `${machine(vehicle)} drives there${far}: ${many(pieces, "motion")}, ${changes}, ${length}; proved free.`;
     return text[0]!.toUpperCase() + text.slice(1);
   }
   const turning = (doubles(columns, "turning")[0]! * 180) / Math.PI;
-  return `A motion exists: ${pieces} ${pieces === 1 ? "piece" : "pieces"}, ${length}, turning ${turning.toFixed(0)} degrees; proved free.`;
+  return `A motion exists${clearance && ` ${kept(clearance, units)}`}: ${pieces} ${pieces === 1 ? "piece" : "pieces"}, ${length}, turning ${turning.toFixed(0)} degrees; proved free.`;
 }
 
 // Answers about vehicles that are neither a path nor a proof.
@@ -113,18 +117,29 @@ function open_words(verdict: string, columns: Columns, vehicle: Vehicle | undefi
   return `A way exists; ${it} needs ${needed > 0 ? `about ${needed.toLocaleString("en")}` : "too many"} manoeuvres.`;
 }
 
-export function way_verdict(columns: Columns, names: string[], units: string, vehicle?: Vehicle): Verdict {
+export function way_verdict(
+  columns: Columns,
+  names: string[],
+  units: string,
+  vehicle?: Vehicle,
+  clearance = "",
+): Verdict {
   const verdict = string(columns, "verdict");
   if (verdict.endsWith("forbidden"))
     return {
       tone: "bad",
-      text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot overlaps ${obstacle_name(names, integers(columns, "pair")[1]!)}.`,
+      text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot ${clearance ? `is nearer than ${clearance}${units && ` ${units}`} to` : "overlaps"} ${obstacle_name(names, integers(columns, "pair")[1]!)}.`,
     };
-  if (verdict === "path") return { tone: "good", text: path_words(columns, units, vehicle) };
+  if (verdict === "path") return { tone: "good", text: path_words(columns, units, vehicle, clearance) };
   if (verdict === "apart") {
     const owners = [...integers(columns, "obstacles")];
     // the proof holds for every vehicle
     const it = vehicle?.kind === "differential" ? machine(vehicle) : "a car, whatever its turning radius";
+    if (clearance)
+      return {
+        tone: "proof",
+        text: `No motion ${kept(clearance, units)}: separated by ${blocking(owners, names)}. Nor does one of ${it}.`,
+      };
     return {
       tone: "proof",
       text:
@@ -137,6 +152,19 @@ export function way_verdict(columns: Columns, names: string[], units: string, ve
     tone: "plain",
     text: open_words(verdict, columns, vehicle) ?? "Undecided here: `cfree plan` decides it.",
   };
+}
+
+// What beside a proof tells how much smaller the robot would have to be.
+export function missing_words(found: Columns, units: string): string {
+  if (found.verdict === "none")
+    return "How much is missing: no inset that leaves all sides of the robot helps; `cfree plan --nearest-miss` tries more.";
+  if (found.verdict === "unknown")
+    return "How much is missing is not computed here for this robot: `cfree plan --nearest-miss` tells.";
+  const [low, high] = [value(found, "lo"), value(found, "hi")];
+  const digits = (length: number) => Number(length.toPrecision(3));
+  const unit = units && ` ${units}`;
+  const proved = value(found, "proved") === 1 ? "" : " The page does not decide between the two.";
+  return `Missing: the robot gets there if all its sides move inwards by ${digits(high)}${unit}, and not by ${digits(low)}${unit}. It is about ${digits(2 * high)}${unit} too wide.${proved}`;
 }
 
 // "Cell 5: volume 1.24, caged: obstacles alone enclose it; the robot cannot turn round in it."

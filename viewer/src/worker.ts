@@ -59,7 +59,8 @@ scope.onmessage = async ({ data: { id, name, args } }: MessageEvent) => {
     const module = await made;
     if (name === "open") {
       const { words, ...rest } = read_scene(args[0]);
-      return scope.postMessage({ id, columns: { ...call(module, "scene", [words]), file: JSON.stringify(rest) } });
+      const scene = args[1] ? `${words} clearance ${args[1]}` : words;
+      return scope.postMessage({ id, columns: { ...call(module, "scene", [scene]), file: JSON.stringify(rest) } });
     }
     const columns = call(module, name, args);
     const buffers = Object.values(columns).flatMap((column) =>

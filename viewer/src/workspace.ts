@@ -102,6 +102,7 @@ export class Workspace {
       "aria-roledescription": "movable robot",
       "aria-label": who,
     });
+    made("path", group, { class: "halo" });
     made("path", group, { class: "shape" });
     if (who === "robot") made("g", group, { class: "wheels" });
     made("line", group, { class: "arm" });
@@ -166,6 +167,22 @@ export class Workspace {
     const margin = 0.06 * Math.max(x1 - x0, y1 - y0);
     this.whole = { x: x0 - margin, y: y0 - margin, w: x1 - x0 + 2 * margin, h: y1 - y0 + 2 * margin };
     this.fit();
+  }
+
+  // Mark the obstacles of a proof; below 0 are the bounds and the workspace.
+  show_blocking(obstacles: number[]): void {
+    const paths = this.layers.obstacles.children;
+    for (let k = 0; k < paths.length; ++k) paths[k]!.classList.toggle("blocks", obstacles.includes(k));
+    for (const [name, k] of [
+      ["bounds", -1],
+      ["room", -2],
+    ] as const)
+      this.layers.floor.querySelector(`.${name}`)?.classList.toggle("blocks", obstacles.includes(k));
+  }
+  // Draw the robot grown by the clearance of an answer, if it has one.
+  show_halo(answer: Columns | undefined): void {
+    const d = answer?.["grown.xy"] ? outline_of(answer, "grown") : "";
+    for (const group of Object.values(this.bodies)) group.querySelector(".halo")!.setAttribute("d", d);
   }
 
   // Set the robot's outline, also during an edit.
@@ -317,15 +334,17 @@ export class Workspace {
     const obstacle = doubles(columns, `${prefix}.obstacle_xy`);
     const mark = (parent: Element, of: ArrayLike<number>, k: number, radius: number) => {
       const [x0, y0, x1, y1] = [of[4 * k]!, of[4 * k + 1]!, of[4 * k + 2]!, of[4 * k + 3]!];
-      if (x0 !== x1 || y0 !== y1) made("line", parent, { x1: x0, y1: y0, x2: x1, y2: y1 });
+      if (x0 !== x1 || y0 !== y1)
+        made("path", parent, { d: `M${x0} ${y0}${to_point(of, 2 * k + 1, radius)}`, class: radius > 0 ? "arc" : "" });
       else if (radius > 0) made("circle", parent, { cx: x0, cy: y0, r: radius, class: "arc" });
       else made("circle", parent, { cx: x0, cy: y0, r: 5 * this.pixel });
     };
     const moved = made("g", this.layers.marks, { transform: frame(at) });
     const [of_robot, of_obstacle] = ["robot", "obstacle"].map((of) => doubles(columns, `${prefix}.${of}_radius`));
+    const kind = bytes(columns, `${prefix}.kind`);
     for (let k = 0; 4 * k < robot.length; ++k) {
-      mark(this.layers.marks, obstacle, k, of_obstacle![k] ?? 0);
-      mark(moved, robot, k, of_robot![k] ?? 0);
+      mark(this.layers.marks, obstacle, k, kind[k] === 0 ? 0 : (of_obstacle![k] ?? 0));
+      mark(moved, robot, k, kind[k] === 1 ? 0 : (of_robot![k] ?? 0));
     }
   }
 

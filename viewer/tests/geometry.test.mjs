@@ -4,7 +4,7 @@ import "./browser.mjs";
 import { Vector3 } from "three";
 import { LEGENDS, on_scale, vertex_colours } from "../src/colours.ts";
 import { DepthOrder } from "../src/depth.ts";
-import { entries } from "../src/legend.ts";
+import { coloured, entries } from "../src/legend.ts";
 import { seen_of } from "../src/session.ts";
 import { wrapped } from "../src/space.ts";
 import { along_arc, corners_of, outline } from "../src/outlines.ts";
@@ -145,4 +145,26 @@ test("the legend has the patches and lines of rounded shapes that are there", ()
     "he: helix, smooth joint",
   ]);
   assert.deepEqual(told([2, 0], [3, 0], [], [0, -1]), ["aa: arc on arc"]);
+});
+
+test("the legend has the colours of cells and obstacles, the lines, and the surface of a proof", () => {
+  const mesh = {
+    kind: Uint8Array.of(0, 0, 1, 0),
+    cell: Int32Array.of(0, 9, 0, -1),
+    owner: Int32Array.of(1, 0, -2, 1),
+    mean: Float64Array.of(-2, 0, 1, 0),
+  };
+  const told = (by, has_proof = false) =>
+    coloured(mesh, by, ["kite", "obstacle 1"], has_proof).map(({ text, colour }) => [text, colour].join(" ").trim());
+  assert.deepEqual(told("cell"), ["cell 0 #0072b2", "cell 9 #e69f00", "no cell #b2a13c", "helix", "edge on edge"]);
+  assert.deepEqual(told("obstacle"), [
+    "obstacle 0 (kite) #0072b2",
+    "obstacle 1 #e69f00",
+    "the workspace #8a7bd1",
+    "helix",
+    "edge on edge",
+  ]);
+  assert.deepEqual(told("mean", true), ["helix", "edge on edge", "separates start and goal"]);
+  mesh.cell = Int32Array.from({ length: 12 }, (_, k) => k);
+  assert.equal(told("cell")[8], "4 more in these colours transparent");
 });

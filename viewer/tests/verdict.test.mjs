@@ -5,6 +5,7 @@ import {
   cell_words,
   contact_words,
   degrees,
+  missing_words,
   obstacle_name,
   patch_words,
   pose_verdict,
@@ -185,4 +186,31 @@ test("arcs in contact are told from vertices, and contacts come before what touc
     ...contacts("trims", [], [], [], []),
   };
   assert.equal(patch_words(found, NAMES).split("\n")[1], "S(ψ, φ) at ψ = 180°, φ = 0°");
+});
+
+test("an answer about a clearance names it", () => {
+  const path = {
+    verdict: "path",
+    ...numbers({ motions: 2, length: 3, turning: 0 }),
+  };
+  assert.match(way_verdict(path, NAMES, "m", undefined, "0.2").text, /^A motion exists that keeps 0\.2 m: 2 pieces/);
+  const apart = { verdict: "apart", ...numbers({ closed: 1 }), obstacles: Int32Array.of(0) };
+  assert.match(way_verdict(apart, NAMES, "m", undefined, "0.2").text, /^No motion that keeps 0\.2 m: separated by/);
+  assert.match(way_verdict(apart, NAMES, "m").text, /^No motion, not even touching: separated by/);
+  const start = { verdict: "start forbidden", pair: Int32Array.of(0, 1) };
+  assert.equal(
+    way_verdict(start, NAMES, "", undefined, "1/2").text,
+    "Start: the robot is nearer than 1/2 to obstacle 1.",
+  );
+});
+
+test("how much is missing is an inset, none, or not computed", () => {
+  const found = numbers({ lo: 0.2484, hi: 0.25, proved: 1 });
+  assert.equal(
+    missing_words(found, "m"),
+    "Missing: the robot gets there if all its sides move inwards by 0.25 m, and not by 0.248 m. It is about 0.5 m too wide.",
+  );
+  assert.match(missing_words({ ...found, ...numbers({ proved: 0 }) }, ""), /does not decide between the two\.$/);
+  assert.match(missing_words({ verdict: "none" }, ""), /no inset that leaves all sides of the robot helps/);
+  assert.match(missing_words({ verdict: "unknown" }, ""), /`cfree plan --nearest-miss` tells/);
 });
