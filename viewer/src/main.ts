@@ -15,7 +15,7 @@ import { snapped } from "./shapes";
 import { Space } from "./space";
 import { fragment, from_fragment, from_words, words } from "./state";
 import { cell_words, degrees, patch_words } from "./verdict";
-import { Wishing } from "./wishes";
+import { Wishing } from "./wishing";
 import { Workspace } from "./workspace";
 
 const gallery: { name: string; title?: string; text: string }[] = json("gallery");
