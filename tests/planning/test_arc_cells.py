@@ -167,7 +167,7 @@ def test_queries_in_one_scene_share_its_cells(monkeypatch: pytest.MonkeyPatch) -
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [2, 4, 5])
+@pytest.mark.parametrize("seed", [2, 4, 5, 95])  # of the last one some angles are closer than doubles
 def test_proofs_in_random_cages_are_given_where_a_flood_finds_no_way(seed: int) -> None:
     scene = random_cage(seed)
     cells, number = round_cells(scene, Options(), 10**7), 0
