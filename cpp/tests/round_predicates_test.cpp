@@ -231,6 +231,29 @@ static void proportional_quadratics_are_one_angle() {
     CHECK(equal > 20);
 }
 
+// A vertex of the robot, (a, b) from one on the floor, is highest at a + b i times -i: on both sides of that angle it touches a disc
+// that is as high, by a hair. The two angles are in one interval of doubles; each comes back from its place among them.
+static void close_angles_come_back_from_their_places() {
+    const long sides[][3] = {{3, 4, 5}, {5, 12, 13}, {20, 21, 29}, {4, 3, 5}};
+    int fine = 0;
+    for (const auto& [a, b, c] : sides)
+        for (unsigned n = 90; n < 240; n += 3) {
+            const Int one = Int(1) << n;
+            const SceneFeatures made = scene_of(polygon({{0, 0}, {a, b}}), {1, 1}, {polygon({{0, 0}, {4, 0}, {0, 4}}), polygon({{9, 0}})},
+                                                {{1, 1}, {(c - 3) * one - 1, one}});
+            Predicates decide(*made.scene, {{Kind::vertex_edge, 0, 0}, 0});
+            const auto touches = decide.event_roots({Kind::vertex_vertex, 1, 3, 1}, {}, chart_begin, chart_end);
+            CHECK(touches.at.size() == 2);
+            for (const Event& x : touches.at) {
+                const int place = decide.place(x);
+                fine += place > 0;
+                const Event back = decide.restored({x.first, x.second, x.lo, x.hi}, place);
+                for (const Event& y : touches.at) CHECK(decide.order(back, y) == decide.order(x, y));
+            }
+        }
+    CHECK(fine > 200);
+}
+
 int main() {
     certain_signs_in_doubles_are_exact();
     proportional_quadratics_are_one_angle();
@@ -238,5 +261,6 @@ int main() {
     circles_that_always_meet_in_a_point_are_tied();
     smooth_neighbours_touch_in_their_joint();
     angles_are_ordered();
+    close_angles_come_back_from_their_places();
     return failures > 0;
 }

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import math
 import random
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
 
+import cfree._core as core
 from arc_rings import CONVEX, HALF, RINGS, SECTOR, random_arcs, shape
 from cfree import Curved, Pose, Scene, boundary, free_space, is_free
 from cfree.contact import shape_features
 from cfree.curves import Arc
-from cfree.scene.rounded import rounded
+from cfree.planning.smaller_shapes import smaller
+from cfree.scene.features import features_of_cores
+from cfree.scene.rounded import Cores, rounded, rounded_shapes
 
 
 def fine(shape: Any, n: int = 400) -> Any:
@@ -125,3 +129,18 @@ def test_places_of_arcs_have_names() -> None:
         part = found.trapezoid(k)
         named = [part.lower, part.upper, *part.start.features, *part.stop.features]
         assert all(feature.obstacle.polygon in (0, 1) and feature.robot.polygon == 0 for feature in named)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("power", [30, 56, 60, 70, 100])
+def test_boundaries_are_glued_where_angles_are_closer_than_doubles(power: int) -> None:
+    scene = random_arcs(15)
+    shapes = rounded_shapes(scene)
+    assert shapes is not None
+    parts = [smaller([part], Fraction(1, 2**power)) for part in shapes.robot]
+    features = features_of_cores(Cores(tuple(part[0] for part in parts if part), shapes.obstacles), scene, None)
+    found = core.compute_boundary(features.core, 1, True, lambda _: True)
+    places = np.concatenate([found.trapezoids.from_place, found.trapezoids.to_place])
+    assert places.any() == (power > 40), "places of angles among others of one interval"
+    volumes, _ = core.free_space(core.glue(found, 1)).volumes()
+    assert np.allclose(np.sort(volumes), np.sort(free_space(boundary(scene)).volumes))

@@ -70,11 +70,19 @@ std::vector<SurdRoot> Predicates::roots_around(const Event& x) const {
     return roots_between(round_orders().exactly(x.first, x.second), Dyadic::from(std::nextafter(x.lo, -2)),
                          Dyadic::from(std::nextafter(x.hi, 2)));
 }
+
+// True if a root is in an interval that holds one root of its polynomial. Intervals of neighbours may overlap: the sign tells them
+// apart, as each root is the only one in its own.
+static bool is_within(const LongRoot& x, const Dyadic& lo, const Dyadic& hi) {
+    const Dyadic from = cfree::compare(x.lo, lo) < 0 ? lo : x.lo, to = cfree::compare(x.hi, hi) < 0 ? x.hi : hi;
+    return cfree::compare(from, to) <= 0 && cfree::sign_at(x.p, from) * cfree::sign_at(x.p, to) <= 0;
+}
+
 int Predicates::place_round(const Event& x) const {
     const auto roots = roots_around(x);
     const auto& [lo, hi] = fine[x.fine];
     for (std::size_t k = 0; k < roots.size(); ++k)
-        if (cfree::compare(roots[k].at.lo, hi) <= 0 && cfree::compare(lo, roots[k].at.hi) <= 0) return static_cast<int>(k) + 1;
+        if (is_within(roots[k].at, lo, hi)) return static_cast<int>(k) + 1;
     throw std::logic_error("an angle is not among the roots of its polynomial");
 }
 Event Predicates::restored_round(Event x, int place) {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import inf, nextafter
 
-from flint import arb, arb_poly
+from flint import arb, arb_poly, ctx
 
 from cfree.verify.round_algebra import Trig
 from cfree.verify.round_surfaces import Fault, UndecidedError
@@ -63,7 +63,7 @@ def simple_root(poly: arb_poly, lo: arb, hi: arb, width: arb) -> arb | None:
     if below.contains(0) or above.contains(0) or (below > 0) == (above > 0):
         return None
     slope, x = poly.derivative(), (lo + hi) / 2
-    for _ in range(60):
+    for _ in range(ctx.prec):  # near another root, a step only halves the distance
         there = slope(x)
         step = x - poly(x) / there if not there.contains(0) else None
         if step is not None and lo < step < hi:
