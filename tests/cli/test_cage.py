@@ -81,6 +81,12 @@ def test_faults_end_with_exit_code_2_in_one_line(words: list[str], text: str) ->
     assert result.exit_code == 2 and text in last and last.startswith("error: ") and "Traceback" not in result.stderr
 
 
+def test_answer_and_scene_in_one_file_are_refused_before_either_is_written() -> None:
+    result = run("cage", HAND, "-o", "cage.json", "--save-scene", "./cage.json")
+    assert result.exit_code == 2 and "this would be the answer and the scene in one file" in result.stderr
+    assert not Path("cage.json").exists()
+
+
 def test_undecided_cages_end_with_exit_code_3() -> None:
     part = {"version": 1, "robot": {"outer": [[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]]}}
     Path("bracket.json").write_text(json.dumps(part))
