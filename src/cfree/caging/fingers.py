@@ -20,7 +20,7 @@ from cfree.collision.pose_checker import is_free
 from cfree.curves.curved import Curved
 from cfree.curves.rings import Circle
 from cfree.curves.similar import moved_shape
-from cfree.errors import InvalidPoseError
+from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.number import ExactPoint, is_single, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.exact.vectors import cross, dot, minus
@@ -131,6 +131,8 @@ def setting(body: Sequence[AnyShape], fingers: Sequence[Finger], pose: Pose, bit
     ------
     InvalidPoseError
         If the body overlaps a finger at the pose, or has a point in its interior.
+    UndecidedError
+        If a point is on a curve of the body other than an arc, or almost.
     """
     size = Fraction(2) ** (ceil(log2(max(map(size_of, body)))) - bits)
     names = [f"finger {k}" for k in range(len(fingers))]
@@ -168,14 +170,22 @@ def radius_of(shape: AnyShape) -> tuple[ExactPoint, Fraction] | None:
 def _triangle(body: Sequence[AnyShape], point: ExactPoint, pose: Pose, size: Fraction, k: int) -> Polygon:
     """Return a triangle with a corner at a point, at most so large, that the body does not overlap."""
     x, y = point
+    almost = False
     for _ in range(HALVINGS):
         for u, v in UNITS:
             a, b = (15 * u - v, 15 * v + u), (15 * u + v, 15 * v - u)
             corners = [(x + size * p / 16, y + size * q / 16) for p, q in (b, a)]
             triangle = Polygon([point, *corners])
-            if is_free(Scene(body, [triangle]), pose):
+            free = is_free(Scene(body, [triangle]), pose)
+            if free:
                 return triangle
+            almost = almost or free is None
         size /= 2
+    if almost:
+        raise UndecidedError(
+            f"undecided: finger {k} at ({float(x):g}, {float(y):g}) touches the body, or almost does, at a curve that "
+            "is not an arc; move the finger off it, or give polygons for the body: scene.outer(error)"
+        )
     raise InvalidPoseError(
         f"pose: finger {k} at ({float(x):g}, {float(y):g}) is inside the body, or in a notch of it that is too narrow; "
         "move the finger or the body"
