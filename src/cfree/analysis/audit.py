@@ -36,7 +36,7 @@ from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, box_of, polygons_around, shapes_in, with_robot, with_shapes
 from cfree.scene.smooth import smooth
-from cfree.words import counted
+from cfree.words import counted, ends, near
 
 Result = Literal["passes", "blocked", "around", "no room"]
 Progress = Callable[[float], object]
@@ -85,9 +85,9 @@ class Door:
     proofs: tuple[Separated, ...] = field(default=(), repr=False)
 
     def __str__(self) -> str:
-        x, y = self.middle
-        place = f"{self.name}, {self.width:.3g} wide at ({x:.4g}, {y:.4g}), {self.rooms[0]} - {self.rooms[1]}"
-        missing = f", {self.missing.lo:.3g} to {self.missing.hi:.3g} too wide" if self.missing else ""
+        where = ", ".join(near(value, self.width) for value in self.middle)
+        place = f"{self.name}, {self.width:.3g} wide at ({where}), {self.rooms[0]} - {self.rooms[1]}"
+        missing = f", {' to '.join(ends(self.missing.lo, self.missing.hi, 3))} too wide" if self.missing else ""
         return f"{place}: {self.machine} {WORDS[self.result]}{missing}"
 
     @property

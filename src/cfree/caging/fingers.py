@@ -124,8 +124,17 @@ def spread(fingers: Sequence[Finger], scale: Fraction, about: ExactPoint) -> tup
     return tuple(result)
 
 
-def setting(body: Sequence[AnyShape], fingers: Sequence[Finger], pose: Pose, bits: int, units: str = "") -> Setting:
+def setting(
+    body: Sequence[AnyShape],
+    fingers: Sequence[Finger],
+    pose: Pose,
+    bits: int,
+    units: str = "",
+    names: Sequence[str] = (),
+) -> Setting:
     """Return scenes of a body among fingers, with triangles so many bits smaller than the body.
+
+    Fingers without names are named "finger 0" and so on.
 
     Raises
     ------
@@ -135,7 +144,7 @@ def setting(body: Sequence[AnyShape], fingers: Sequence[Finger], pose: Pose, bit
         If a point is on a curve of the body other than an arc, or almost.
     """
     size = Fraction(2) ** (ceil(log2(max(map(size_of, body)))) - bits)
-    names = [f"finger {k}" for k in range(len(fingers))]
+    names = names or [f"finger {k}" for k in range(len(fingers))]
     shapes = [
         _triangle(body, finger, pose, size, k) if isinstance(finger, tuple) else finger
         for k, finger in enumerate(fingers)

@@ -61,14 +61,14 @@ def plot_cage(cage: Cage) -> Figure:
     >>> square = [(0, 0), (2, 0), (2, 2), (0, 2)]
     >>> figure = plot_cage(is_caged(square, [(1, 0), (2, 1), (1, 2), (0, 1)]))
     >>> [text.get_text() for text in figure.texts]
-    ['caged', 'held by fingers 0, 1, 2, 3; no motion leads out, proved']
+    ['caged', 'held by finger 0, finger 1, finger 2, finger 3; no motion leads out, proved']
     """
     if isinstance(cage.answer, Path):
         figure = picture(cage.answer, cage.scene)
         _draw_points(figure.axes[0], cage.fingers)
         return figure
-    names = listed([str(k) for k in cage.holding], ", ")
-    figure, ax = _held(cage.scene, cage.answer, "caged", f"held by fingers {names}; no motion leads out, proved")
+    names = listed([cage.scene.obstacle_names[k] for k in cage.holding], ", ")
+    figure, ax = _held(cage.scene, cage.answer, "caged", f"held by {plain(names)}; no motion leads out, proved")
     _draw_points(ax, cage.fingers)
     return figure
 
