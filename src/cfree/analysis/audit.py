@@ -373,7 +373,9 @@ def _given(floor: Any, name: str, ends: Any) -> Segment:
         raise ValueError(f"openings: {name}: {ends!r}; give two points, as in ((1, 2), (1, 2.9))") from None
     segment = to_walls(floor, ((x, y), (u, v)))
     if segment is None:
-        raise ValueError(f"openings: {name}: ({x:g}, {y:g}) to ({u:g}, {v:g}) does not end near walls; give their ends")
+        raise ValueError(
+            f"openings: {name}: ({x:.10g}, {y:.10g}) to ({u:.10g}, {v:.10g}) does not end near walls; give their ends"
+        )
     return segment
 
 
@@ -391,7 +393,7 @@ def _rooms(
             raise ValueError(f"places: {name}: {place!r}; give a point, as in (1, 2.5)") from None
         k = next((k for k, part in enumerate(parts) if part.intersects(shapely.Point(x, y))), None)
         if k is None:
-            raise ValueError(f"places: {name}: ({x:g}, {y:g}) is in a wall or outside; give a point of the floor")
+            raise ValueError(f"places: {name}: ({x:.10g}, {y:.10g}) is in a wall or outside; give a point of the floor")
         if k in names:
             raise ValueError(f"places: {name} and {names[k]} are in one room; leave one out, or name the door between")
         names[k] = name

@@ -200,6 +200,7 @@ def audit(
 
         if output is not None:
             check_audit_path(output)
+        _refuse_twice([*map(_machine_name, machines)], "--machine", "NAME=FILE")
         shapes = {_machine_name(text): read_machine(_machine_file(text)) for text in machines}
         loaded, robot = read_shapes(plan)
         if shapes and robot is not None:
@@ -284,7 +285,13 @@ def _named(texts: tuple[str, ...], option: str) -> list[tuple[str, str]]:
         raise ValueError(
             f'{option}: {wrong!r}; write it like "kitchen={"1,2" if option == "--place" else "1,2,1,2.9"}"'
         )
+    _refuse_twice([name for name, _, _ in pairs], option, "NAME=...")
     return [(name, value) for name, _, value in pairs]
+
+
+def _refuse_twice(names: list[str], option: str, form: str) -> None:
+    if twice := next((name for name in names if names.count(name) > 1), None):
+        raise ValueError(f"{option}: the name {twice!r} is there twice; give {form} with different names")
 
 
 def _numbers(text: str, name: str, count: int, option: str) -> list[Any]:
