@@ -67,6 +67,11 @@ def test_contact_is_allowed_and_overlap_is_refused_with_the_finger() -> None:
         is_caged(SQUARE, [DISC((1, 0), "0.5")])
 
 
+def test_a_body_without_shapes_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"^body: there is no shape; give at least one$"):
+        is_caged([], [(1, 2)])
+
+
 def test_a_point_on_an_ellipse_is_undecided_and_not_called_inside() -> None:
     ellipse = cfree.Curved.ellipse((0, 0), (2, 1))
     for point in ((2, 0), (0, 1), ("1.2", "0.8")):

@@ -21,6 +21,7 @@ from cfree.exact.pose import Pose, PoseLike
 from cfree.paths.path import Path
 from cfree.scene.scene import AnyShape
 from cfree.value import Value
+from cfree.words import counted
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -63,8 +64,10 @@ class FewestFingers(Value):
         return bool(self.cage)
 
     def __repr__(self) -> str:
-        chosen = f"fingers {', '.join(map(str, self.fingers))} cage it" if self else "all fingers do not cage it"
-        return f"FewestFingers({chosen}; {len(self.escapes)} paths exclude fewer)"
+        if not self:
+            return "FewestFingers(all fingers do not cage it)"
+        paths = counted(len(self.escapes), "path")
+        return f"FewestFingers(fingers {', '.join(map(str, self.fingers))} cage it; {paths} out of fewer)"
 
     def verified(self) -> bool:
         """True if the cage is verified, and no smaller set of places hits the blocking fingers of each path.

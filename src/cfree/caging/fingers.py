@@ -256,4 +256,6 @@ def _square_from(p: ExactPoint, side: Side) -> Fraction:
 
 def to_body(body: Any, pose: PoseLike) -> tuple[tuple[AnyShape, ...], Pose]:
     """Return the shapes of a body, and its pose."""
-    return tuple(shapes_in(body, "body")), to_pose(pose, "pose")
+    if not (shapes := tuple(shapes_in(body, "body"))):
+        raise ValueError("body: there is no shape; give at least one")
+    return shapes, to_pose(pose, "pose")
