@@ -1,10 +1,20 @@
 """Pictures of taking apart: names of parts cover no other text."""
 
 import pytest
+import shapely
 
 import cfree
+from cfree.caging import is_caged
 from cfree.disassembly import Assembly, removal_order
 from overlaps import touching, written
+
+
+@pytest.mark.slow
+def test_the_name_of_a_finger_that_is_a_point_is_beside_it() -> None:
+    figure = is_caged([(-1, -1), (1, -1), (1, 1), (-1, 1)], [(0, 1), (1, 0), (0, -1), (-1, 0), (3, 3)]).plot()
+    name = dict(written(figure))["finger 4"]
+    assert not name.contains(shapely.Point(figure.axes[0].transData.transform((3, 3))))
+    assert list(touching(figure)) == []
 
 
 @pytest.mark.slow

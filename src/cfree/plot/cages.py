@@ -39,6 +39,7 @@ STEPS, TURNS = 25, 48  # poses of a grid inside of a cage, along a side and arou
 ACROSS = 3  # panels beside each other
 PLACES = 15  # of a name in its part, along a side
 BEYOND = 0.2  # cost of a name's area outside of its part, in that of text below it
+SMALL = 12  # pixels: names of smaller parts are beside them
 SHARE = 0.12  # length of a normal, in shares of the picture
 
 
@@ -252,7 +253,10 @@ def _name(ax: Any, scene: Scene, own: Sequence[str] = ()) -> None:
 
 
 def _put_inside(ax: Any, text: Any, part: shapely.Geometry) -> None:
-    """Move a name, within its part and in lines if need be, to a place where it covers no other text."""
+    """Move a name, within its part and in lines if need be, to a place where it covers no other text.
+
+    The name of a part that is too small to be seen, such as a finger that is a point, is above or below it.
+    """
     ax.apply_aspect()
     others = shapely.union_all([_box_of(other) for other in ax.texts if other is not text])
     x0, y0, x1, y1 = part.bounds
@@ -260,6 +264,10 @@ def _put_inside(ax: Any, text: Any, part: shapely.Geometry) -> None:
     grid = shapely.points([(x, y) for x in xs for y in ys])
     inside = [text.get_position(), *shapely.get_coordinates(grid[shapely.contains(part, grid)]).tolist()]
     window, own = shapely.box(*ax.get_window_extent().extents), shapely.transform(part, ax.transData.transform)
+    u0, v0, u1, v1 = own.bounds
+    if max(u1 - u0, v1 - v0) < SMALL:
+        beside = [((u0 + u1) / 2, v1 + SMALL), ((u0 + u1) / 2, v0 - SMALL)]
+        inside = ax.transData.inverted().transform(beside).tolist()
     costs = list[tuple[float, str, Any]]()
     for form in dict.fromkeys([text.get_text(), text.get_text().replace(" ", "\n")]):
         text.set_text(form)
