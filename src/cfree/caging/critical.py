@@ -97,7 +97,8 @@ class Critical(Value):
     def __str__(self) -> str:
         if self.escapes is None:
             return f"{self.what} {self.caged:.6g}: still caged; {self.end}"
-        low, high = ends(*sorted((self.caged, self.escapes)), digits=6)
+        one, other = sorted((self.caged, self.escapes))
+        low, high = ends(one, other, 6)
         place = f"; {self.puncture}" if self.puncture else ""
         return f"{self.what} {low} to {high}{place}{f' ({self.end})' if self.end else ''}"
 
