@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
+
+MOST_DIGITS = 17
+"""Enough for every double."""
 
 MOST_NAMES = 8
 """Names in one message at most; longer lists end with their count."""
@@ -25,6 +29,33 @@ def counted(count: int, noun: str, plural: str | None = None) -> str:
     ('1 polygon', '1,200 polygons', '0 contact patches')
     """
     return f"{count:,} {noun if count == 1 else plural or plural_of(noun)}"
+
+
+def ends(low: float, high: float, digits: int) -> tuple[str, str]:
+    """Return the ends of an interval with so many digits, or more if that tells them apart.
+
+    Examples
+    --------
+    >>> ends(1.25, 1.5, 4), ends(1.1963812, 1.1963826, 5), ends(2.0, 2.0, 3)
+    (('1.25', '1.5'), ('1.196381', '1.196383'), ('2', '2'))
+    """
+    while digits < MOST_DIGITS and low != high and f"{low:.{digits}g}" == f"{high:.{digits}g}":
+        digits += 1
+    return f"{low:.{digits}g}", f"{high:.{digits}g}"
+
+
+def near(value: float, size: float) -> str:
+    """Return a coordinate to a hundredth of a size, however large it is.
+
+    Examples
+    --------
+    >>> near(456789.1234, 0.9), near(-6.0, 0.9), near(123.4, 2000.0)
+    ('456789.123', '-6', '123')
+    """
+    decimals = min(MOST_DIGITS, max(0, 2 - math.floor(math.log10(size)))) if size > 0 else 6
+    text = f"{value:.{decimals}f}"
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return "0" if text == "-0" else text
 
 
 _AFTER_THE_NOUN = re.compile(

@@ -11,6 +11,7 @@ import pytest
 
 import cfree
 import cfree.verify
+from cfree.analysis.audit import Door
 from cfree.formats.answers.audit_file import save_audit, save_proofs
 from cfree.plot import plot_audit
 
@@ -65,6 +66,11 @@ def test_another_way_round_is_told_apart_from_the_door_itself() -> None:
     """Two doors between the rooms: the narrow one is not passed, and yet the bed gets there."""
     narrow, wide = cfree.audit(plan_with(wall(6, (1, "1.8"), (3, "4.1"))), {"bed": BED}).doors
     assert (narrow.result, wide.result) == ("around", "passes") and not narrow.proofs
+
+
+def test_places_of_doors_are_told_apart_far_from_the_origin() -> None:
+    ends = (500000.25, 5400000.0), (500000.25, 5400000.9)
+    assert "0.9 wide at (500000.25, 5400000.45), a - b" in str(Door("W1", "bot", ends, 0.9, ("a", "b"), "passes"))
 
 
 def test_a_room_too_small_for_the_machine_is_named() -> None:

@@ -53,6 +53,21 @@ def test_an_oblique_door_is_found() -> None:
     assert widths(turned) == [0.9]
 
 
+def test_a_door_is_found_once_in_spite_of_rounding() -> None:
+    """Corners of a turned map differ in the last digits, so that two segments across one door do."""
+    doorway = shapely.Polygon([(6, 1), (6.2, 1), (6.2, 1.9), (6, 1.9)])
+    for shift in (1e-15, 1e-12, 1e-9):
+        jamb = shapely.Polygon([(6, 1), (6.2, 1), (6.2, 0), (6, 0), (6, 0.5), (6 - shift, 1 - shift)])
+        floor = ROOM - shapely.box(6, 1.9, 6.2, 6) - jamb | doorway
+        assert len(openings_of(floor, 1.2)) == 1
+    cells = [shapely.box(k, j, k + 1, j + 1) for k in range(60) for j in range(40)]
+    walls = [shapely.box(30, j, 31, j + 1) for j in range(40) if not 18 <= j < 24]
+    turned = shapely.affinity.rotate(shapely.MultiPolygon(cells).buffer(0), 17.2, (0, 0))
+    for wall_cell in walls:
+        turned -= shapely.affinity.rotate(wall_cell, 17.2, (0, 0))
+    assert widths(turned, 9.0) == [6]
+
+
 def test_bars_across_the_openings_part_the_floor() -> None:
     floor = ROOM - wall(4, [(1, 1.9)]) - wall(8, [(1, 1.8), (4, 4.8)])
     shut = floor.difference(shapely.union_all([bar(segment) for segment in openings_of(floor, 1.0)]))

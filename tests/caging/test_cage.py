@@ -67,6 +67,20 @@ def test_contact_is_allowed_and_overlap_is_refused_with_the_finger() -> None:
         is_caged(SQUARE, [DISC((1, 0), "0.5")])
 
 
+def test_a_body_without_shapes_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"^body: there is no shape; give at least one$"):
+        is_caged([], [(1, 2)])
+
+
+def test_a_point_on_an_ellipse_is_undecided_and_not_called_inside() -> None:
+    ellipse = cfree.Curved.ellipse((0, 0), (2, 1))
+    for point in ((2, 0), (0, 1), ("1.2", "0.8")):
+        with pytest.raises(cfree.UndecidedError, match=r"finger 0 at .* touches the body, or almost does, at a curve"):
+            is_caged(ellipse, [point])
+    with pytest.raises(cfree.InvalidPoseError, match=r"finger 0 at \(1, 0\) is inside the body"):
+        is_caged(ellipse, [(1, 0)])
+
+
 def test_shapes_with_other_curves_are_decided_by_polygons_around_and_inside_of_them() -> None:
     ellipse, tips = cfree.Curved.ellipse((0, 0), (2, 1)), [(0, "1.1"), (0, "-1.1"), ("2.1", 0), ("-2.1", 0)]
     assert is_caged(ellipse, tips).verified() and not is_caged(ellipse, tips[:1])

@@ -81,6 +81,34 @@ def test_faults_end_with_exit_code_2_in_one_line(words: list[str], text: str) ->
     assert result.exit_code == 2 and text in last and last.startswith("error: ") and "Traceback" not in result.stderr
 
 
+def test_answer_and_scene_in_one_file_are_refused_before_either_is_written() -> None:
+    result = run("cage", HAND, "-o", "cage.json", "--save-scene", "./cage.json")
+    assert result.exit_code == 2 and "this would be the answer and the scene in one file" in result.stderr
+    assert not Path("cage.json").exists()
+
+
+@pytest.mark.slow
+def test_fingers_have_the_names_of_the_scene_in_answers_scenes_and_numbers() -> None:
+    words = ["cage", HAND, "--finger", "9,9", "--finger", "2,-1"]
+    result = run(*words, "--critical", "spread", "--save-scene", "named.json")
+    assert "lower, upper" in result.stdout and re.search(r"between lower and\s+upper", result.stdout)
+    assert cfree.load_scene("named.json").obstacle_names == ("lower", "upper", "finger 2", "finger 3")
+    result = run("cage", HAND, "--finger", "2,0.5", "--fewest", "--save-scene", "fewest.json")
+    chosen = cfree.load_scene("fewest.json").obstacle_names
+    assert re.search(rf"fingers +{', '.join(chosen)}\n", result.stdout) and len(chosen) == 2
+    assert json.loads(run(*words, "--json").stdout)["names"] == ["lower", "upper", "finger 2", "finger 3"]
+    assert run("cage", HAND, "--immobility").stdout.count("mobile: no finger touches it") == 1
+
+
+def test_names_that_are_there_twice_or_look_like_numbers_are_numbers() -> None:
+    scene = json.loads(Path(HAND).read_text())
+    lower, upper = scene["obstacles"]
+    for one, other in (("tip", "tip"), ("finger 1", "finger 0")):
+        scene["obstacles"] = [lower | {"name": one}, upper | {"name": other}]
+        Path("twice.json").write_text(json.dumps(scene))
+        assert "finger 0, finger 1" in run("cage", "twice.json").stdout
+
+
 def test_undecided_cages_end_with_exit_code_3() -> None:
     part = {"version": 1, "robot": {"outer": [[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]]}}
     Path("bracket.json").write_text(json.dumps(part))

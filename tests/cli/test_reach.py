@@ -52,6 +52,11 @@ def test_a_heading_turns_the_machine_with_a_vehicle_and_without() -> None:
         (["reach", FLAT, "-o", "a.yaml", "--picture", "a.png"], "--picture: a.png is the image of the map"),
         (["reach", FLAT, "--vehicle", "car", "--turning-radius", "3", "--gears", "forward"], "vehicle: a car without"),
         (["audit", FLAT, "--place", "1,2"], "--place: '1,2'; write it like \"kitchen=1,2\""),
+        (["audit", FLAT, "--place", "a=1,2", "--place", "a=2,2"], "--place: the name 'a' is there twice; give NAME="),
+        (
+            ["audit", FLAT, "--machine", BED, "--machine", BED],
+            "--machine: the name 'machine' is there twice; give NAME=",
+        ),
         (["audit", FLAT, "--opening", "d=1,2"], "--opening: d=1,2; give 4 numbers after the name"),
         (["audit", FLAT, "-o", "doors.pdf"], "doors.pdf: no audit format; name the file .csv or .geojson"),
         (["audit", FLAT, "--robot", BED, "--machine", BED], "--robot: and --machine; give one of them"),

@@ -31,5 +31,5 @@ def test_a_path_of_a_disc_out_of_a_jaw_is_free() -> None:
 
 
 def test_an_index_beyond_the_parts_is_refused() -> None:
-    with pytest.raises(IndexError):
+    with pytest.raises(IndexError, match=r"^part: 1 of 1 placed part; count from 0$"):
         can_be_cut_free(Nesting([], [BAR]), 1)

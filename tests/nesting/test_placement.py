@@ -36,6 +36,19 @@ def test_thirds_fill_a_sheet() -> None:
     assert place(third, [(0, 0), (1, 0), (1, 1), (0, 1)]).density == pytest.approx(1)
 
 
+@pytest.mark.parametrize("far", ["0", "1e6", "1e9", "-123456789.125"])
+@pytest.mark.parametrize("size", ["1", "1e-6", "1e6"])
+def test_parts_and_sheets_far_from_the_origin_are_placed_as_beside_it(far: str, size: str) -> None:
+    x, s = Fraction(far), Fraction(size)
+    wedge = Part([(x, x), (x + 3 * s, x), (x, x + s)], "wedge", 2)
+    sheet = [(-x, x), (4 * s - x, x), (4 * s - x, x + 4 * s), (-x, x + 4 * s)]
+    placed = place(wedge, sheet).placed
+    assert len(placed) == 2 and overlaps(Nesting([sheet], placed)) == ()
+    tops = [max(y for _, y in shape.exact_vertices) for one in placed for shape in one.shapes]  # type: ignore[union-attr]
+    if abs(x) < 10**8 * s:
+        assert [float((top - x) / s) for top in tops] == pytest.approx([1, 1], abs=1e-3)
+
+
 def test_a_part_fills_a_hole_of_its_own_shape() -> None:
     hole = [(1, 1), (1, 3), (3, 1)]
     plate = Part(Polygon([(0, 0), (4, 0), (4, 4), (0, 4)], [hole]), "plate")

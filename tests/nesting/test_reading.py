@@ -84,6 +84,11 @@ def test_a_strip_has_its_height_and_room_for_all(tmp_path: Path) -> None:
         ({"items": 3}, "items: expected a list of items, got 3"),
         ({"items": []}, "items: there is none; give at least one"),
         ({"bins": [{"shape": {"type": "blob"}}]}, r"bins\[0\].shape: expected a shape"),
+        ({"items": [ITEMS[0] | {"demand": "two"}]}, r'items\[0\].demand: expected a whole number, got "two"'),
+        ({"items": [ITEMS[0] | {"demand": -1}]}, r"items\[0\].demand: expected a number of copies, 0 or more, got -1"),
+        ({"items": [ITEMS[0] | {"allowed_orientations": ["a"]}]}, r"items\[0\].allowed_orientations: expected a list"),
+        ({"items": [ITEMS[0] | {"allowed_orientations": 90}]}, r"items\[0\].allowed_orientations: expected a list"),
+        ({"bins": [{"stock": 1.5, "shape": ITEMS[0]["shape"]}]}, r"bins\[0\].stock: expected a whole number, got 1.5"),
     ],
 )
 def test_faults_have_their_place(tmp_path: Path, change: dict[str, Any], fault: str) -> None:
@@ -102,6 +107,22 @@ def test_layers_named_sheet_are_sheets_and_copies_are_one_part(tmp_path: Path) -
     nesting = load_nesting(file)
     assert len(nesting.sheets) == 1 and [one.part.name for one in nesting.placed] == ["a", "a", "c"]
     assert overlaps(nesting) == () and nesting.placed[2].part.is_round
+
+
+@pytest.mark.parametrize(
+    ("name", "sheets"),
+    [("sheet2", 2), ("sheet_b", 2), ("Sheets", 2), ("bin-7", 2), ("stock:2", 2), ("binder", 1), ("sheeting", 1)],
+)
+def test_a_name_that_begins_with_the_word_is_a_sheet_whatever_follows_but_letters(
+    tmp_path: Path, name: str, sheets: int
+) -> None:
+    file = tmp_path / "drawing.svg"
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 99 99">'
+        '<rect id="sheet" x="0" y="0" width="50" height="40"/>'
+        f'<rect id="{name}" x="60" y="0" width="30" height="40"/></svg>'
+    )
+    assert len(load_nesting(file).sheets) == sheets
 
 
 def test_options_of_drawings_are_refused_for_instances(tmp_path: Path) -> None:

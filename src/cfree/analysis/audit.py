@@ -36,7 +36,7 @@ from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, box_of, polygons_around, shapes_in, with_robot, with_shapes
 from cfree.scene.smooth import smooth
-from cfree.words import counted
+from cfree.words import counted, ends, near
 
 Result = Literal["passes", "blocked", "around", "no room"]
 Progress = Callable[[float], object]
@@ -85,9 +85,9 @@ class Door:
     proofs: tuple[Separated, ...] = field(default=(), repr=False)
 
     def __str__(self) -> str:
-        x, y = self.middle
-        place = f"{self.name}, {self.width:.3g} wide at ({x:.4g}, {y:.4g}), {self.rooms[0]} - {self.rooms[1]}"
-        missing = f", {self.missing.lo:.3g} to {self.missing.hi:.3g} too wide" if self.missing else ""
+        where = ", ".join(near(value, self.width) for value in self.middle)
+        place = f"{self.name}, {self.width:.3g} wide at ({where}), {self.rooms[0]} - {self.rooms[1]}"
+        missing = f", {' to '.join(ends(self.missing.lo, self.missing.hi, 3))} too wide" if self.missing else ""
         return f"{place}: {self.machine} {WORDS[self.result]}{missing}"
 
     @property
@@ -373,7 +373,9 @@ def _given(floor: Any, name: str, ends: Any) -> Segment:
         raise ValueError(f"openings: {name}: {ends!r}; give two points, as in ((1, 2), (1, 2.9))") from None
     segment = to_walls(floor, ((x, y), (u, v)))
     if segment is None:
-        raise ValueError(f"openings: {name}: ({x:g}, {y:g}) to ({u:g}, {v:g}) does not end near walls; give their ends")
+        raise ValueError(
+            f"openings: {name}: ({x:.10g}, {y:.10g}) to ({u:.10g}, {v:.10g}) does not end near walls; give their ends"
+        )
     return segment
 
 
@@ -391,7 +393,7 @@ def _rooms(
             raise ValueError(f"places: {name}: {place!r}; give a point, as in (1, 2.5)") from None
         k = next((k for k, part in enumerate(parts) if part.intersects(shapely.Point(x, y))), None)
         if k is None:
-            raise ValueError(f"places: {name}: ({x:g}, {y:g}) is in a wall or outside; give a point of the floor")
+            raise ValueError(f"places: {name}: ({x:.10g}, {y:.10g}) is in a wall or outside; give a point of the floor")
         if k in names:
             raise ValueError(f"places: {name} and {names[k]} are in one room; leave one out, or name the door between")
         names[k] = name

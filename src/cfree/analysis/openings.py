@@ -34,7 +34,7 @@ def openings_of(floor: Any, widest: float) -> list[Segment]:
     chosen = list[Segment]()
     bars = list[Any]()
     for segment in _narrow(floor, widest):
-        if _parts_wider(floor, segment, bars):
+        if not _is_repeated(segment, chosen) and _parts_wider(floor, segment, bars):
             chosen.append(segment)
             bars.append(bar(segment))
     return chosen
@@ -97,6 +97,12 @@ def _narrow(floor: Any, widest: float) -> list[Segment]:
         (x, y), (u, v) = sorted(map(tuple, ends[k].tolist()))
         segments.append(((x, y), (u, v)))
     return list(dict.fromkeys(segments))
+
+
+def _is_repeated(segment: Segment, chosen: list[Segment]) -> bool:
+    """True if the middle is on an opening before it, but for rounding: points beside it would be beyond both."""
+    middle = shapely.Point(middle_of(segment))
+    return any(shapely.LineString(other).distance(middle) <= SIDE * math.dist(*segment) for other in chosen)
 
 
 def _parts_wider(floor: Any, segment: Segment, bars: list[Any]) -> bool:

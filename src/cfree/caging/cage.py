@@ -179,6 +179,7 @@ def cage_of(
     pose: Pose,
     *,
     units: str = "",
+    names: Sequence[str] = (),
     improve: float | None = None,
     max_seconds: float | None = None,
     progress: Progress | None = None,
@@ -186,7 +187,7 @@ def cage_of(
     """Decide as `is_caged` does, from exact values."""
     options: dict[str, Any] = {"improve": improve, "max_seconds": max_seconds, "progress": progress}
     for bits in range(FIRST, MOST + 1, NEXT):
-        place = setting(body, fingers, pose, bits, units)
+        place = setting(body, fingers, pose, bits, units, names)
         answer = _answer(place, pose, options, is_last=bits + NEXT > MOST)
         if answer is not None:
             scene = place.scene if isinstance(answer, Path) else place.smaller

@@ -24,6 +24,7 @@ from cfree.exact.pose import Pose, PoseLike
 from cfree.paths.path import Path
 from cfree.scene.scene import AnyShape, Scene, box_of, polygons_for, size_of
 from cfree.value import Value
+from cfree.words import ends
 
 BITS = 6  # the first step away from a cage is 2**-BITS
 MOST = 40  # more steps, each twice as long
@@ -96,9 +97,10 @@ class Critical(Value):
     def __str__(self) -> str:
         if self.escapes is None:
             return f"{self.what} {self.caged:.6g}: still caged; {self.end}"
-        low, high = sorted((self.caged, self.escapes))
+        one, other = sorted((self.caged, self.escapes))
+        low, high = ends(one, other, 6)
         place = f"; {self.puncture}" if self.puncture else ""
-        return f"{self.what} {low:.6g} to {high:.6g}{place}{f' ({self.end})' if self.end else ''}"
+        return f"{self.what} {low} to {high}{place}{f' ({self.end})' if self.end else ''}"
 
 
 @checked

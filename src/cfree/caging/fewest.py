@@ -21,6 +21,7 @@ from cfree.exact.pose import Pose, PoseLike
 from cfree.paths.path import Path
 from cfree.scene.scene import AnyShape
 from cfree.value import Value
+from cfree.words import counted
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -63,8 +64,10 @@ class FewestFingers(Value):
         return bool(self.cage)
 
     def __repr__(self) -> str:
-        chosen = f"fingers {', '.join(map(str, self.fingers))} cage it" if self else "all fingers do not cage it"
-        return f"FewestFingers({chosen}; {len(self.escapes)} paths exclude fewer)"
+        if not self:
+            return "FewestFingers(all fingers do not cage it)"
+        paths = counted(len(self.escapes), "path")
+        return f"FewestFingers(fingers {', '.join(map(str, self.fingers))} cage it; {paths} out of fewer)"
 
     def verified(self) -> bool:
         """True if the cage is verified, and no smaller set of places hits the blocking fingers of each path.
@@ -123,7 +126,20 @@ def fewest_fingers(
     """
     shapes, start = to_body(body, pose)
     tips = to_fingers(places)
-    whole = cage_of(shapes, tips, start, improve=0)
+    return fewest_of(shapes, tips, start, [f"finger {k}" for k in range(len(tips))], progress=progress)
+
+
+def fewest_of(
+    shapes: tuple[AnyShape, ...],
+    tips: tuple[Finger, ...],
+    start: Pose,
+    names: Sequence[str],
+    *,
+    units: str = "",
+    progress: Callable[[int], object] | None = None,
+) -> FewestFingers:
+    """Decide as `fewest_fingers` does, from exact values, with different names of the fingers."""
+    whole = cage_of(shapes, tips, start, units=units, names=names, improve=0)
     if not whole:
         return FewestFingers((), whole, (Escape(whole.answer, ()),) if isinstance(whole.answer, Path) else ())
     escapes = list[Escape]()
@@ -131,11 +147,12 @@ def fewest_fingers(
     while True:
         chosen = smallest_hitting([set(escape.blocking) for escape in escapes])
         try:
-            cage = cage_of(shapes, tuple(tips[k] for k in chosen), start, improve=0)
+            those = [names[k] for k in chosen]
+            cage = cage_of(shapes, tuple(tips[k] for k in chosen), start, units=units, names=those, improve=0)
         except UndecidedError as error:
-            names = ", ".join(map(str, chosen))
             raise UndecidedError(
-                f"at least {len(chosen)} and at most {len(whole.holding)} fingers cage the body; of {names}: {error}"
+                f"at least {len(chosen)} and at most {len(whole.holding)} fingers cage the body; "
+                f"of {', '.join(those)}: {error}"
             ) from None
         known.add(frozenset(chosen))
         if progress is not None:

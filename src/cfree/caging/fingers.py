@@ -20,7 +20,7 @@ from cfree.collision.pose_checker import is_free
 from cfree.curves.curved import Curved
 from cfree.curves.rings import Circle
 from cfree.curves.similar import moved_shape
-from cfree.errors import InvalidPoseError
+from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.number import ExactPoint, is_single, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.exact.vectors import cross, dot, minus
@@ -124,16 +124,27 @@ def spread(fingers: Sequence[Finger], scale: Fraction, about: ExactPoint) -> tup
     return tuple(result)
 
 
-def setting(body: Sequence[AnyShape], fingers: Sequence[Finger], pose: Pose, bits: int, units: str = "") -> Setting:
+def setting(
+    body: Sequence[AnyShape],
+    fingers: Sequence[Finger],
+    pose: Pose,
+    bits: int,
+    units: str = "",
+    names: Sequence[str] = (),
+) -> Setting:
     """Return scenes of a body among fingers, with triangles so many bits smaller than the body.
+
+    Fingers without names are named "finger 0" and so on.
 
     Raises
     ------
     InvalidPoseError
         If the body overlaps a finger at the pose, or has a point in its interior.
+    UndecidedError
+        If a point is on a curve of the body other than an arc, or almost.
     """
     size = Fraction(2) ** (ceil(log2(max(map(size_of, body)))) - bits)
-    names = [f"finger {k}" for k in range(len(fingers))]
+    names = names or [f"finger {k}" for k in range(len(fingers))]
     shapes = [
         _triangle(body, finger, pose, size, k) if isinstance(finger, tuple) else finger
         for k, finger in enumerate(fingers)
@@ -168,14 +179,22 @@ def radius_of(shape: AnyShape) -> tuple[ExactPoint, Fraction] | None:
 def _triangle(body: Sequence[AnyShape], point: ExactPoint, pose: Pose, size: Fraction, k: int) -> Polygon:
     """Return a triangle with a corner at a point, at most so large, that the body does not overlap."""
     x, y = point
+    almost = False
     for _ in range(HALVINGS):
         for u, v in UNITS:
             a, b = (15 * u - v, 15 * v + u), (15 * u + v, 15 * v - u)
             corners = [(x + size * p / 16, y + size * q / 16) for p, q in (b, a)]
             triangle = Polygon([point, *corners])
-            if is_free(Scene(body, [triangle]), pose):
+            free = is_free(Scene(body, [triangle]), pose)
+            if free:
                 return triangle
+            almost = almost or free is None
         size /= 2
+    if almost:
+        raise UndecidedError(
+            f"undecided: finger {k} at ({float(x):g}, {float(y):g}) touches the body, or almost does, at a curve that "
+            "is not an arc; move the finger off it, or give polygons for the body: scene.outer(error)"
+        )
     raise InvalidPoseError(
         f"pose: finger {k} at ({float(x):g}, {float(y):g}) is inside the body, or in a notch of it that is too narrow; "
         "move the finger or the body"
@@ -237,4 +256,6 @@ def _square_from(p: ExactPoint, side: Side) -> Fraction:
 
 def to_body(body: Any, pose: PoseLike) -> tuple[tuple[AnyShape, ...], Pose]:
     """Return the shapes of a body, and its pose."""
-    return tuple(shapes_in(body, "body")), to_pose(pose, "pose")
+    if not (shapes := tuple(shapes_in(body, "body"))):
+        raise ValueError("body: there is no shape; give at least one")
+    return shapes, to_pose(pose, "pose")

@@ -72,6 +72,8 @@ class Immobility(Value):
         if self.verdict == "immobile":
             why = "the contact normals alone" if self.order == 1 else "curvature"
             return f"immobile to order {self.order}: {touching}, by {why}"
+        if not self.contacts:
+            return "mobile: no finger touches it"
         x, y, turning = map(float, self.velocity or (ZERO, ZERO, ZERO))
         return f"mobile: it can move with velocity ({x:.4g}, {y:.4g}) and turn at {turning:.4g}, at {touching}"
 

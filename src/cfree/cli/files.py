@@ -171,8 +171,12 @@ def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str
     from cfree.formats.text.atomic import check_place
 
     files = {name: path for name, path in wanted.items() if path is not None}
+    contents = dict[Path, str]()
     for name, path in files.items():
         check_place(path)
+        other = contents.setdefault(path.resolve(), name)
+        if other != name:
+            raise ValueError(f"{path}: this would be the {other} and the {name} in one file; give two names")
         if path.exists() and source.exists() and path.samefile(source):
             raise FileExistsError(errno.EEXIST, "is the input; give another name", str(path))
         _check_name(name, path)

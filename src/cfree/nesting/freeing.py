@@ -12,6 +12,7 @@ from cfree.nesting.layout import Nesting, shape_box, union
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
 from cfree.scene.scene import Scene
+from cfree.words import counted
 
 
 @checked
@@ -63,6 +64,8 @@ def way_out(nesting: Nesting, part: int, *, max_seconds: float | None = None) ->
     -------
     Path, or a proof as of `cfree.plan`
     """
+    if not -len(nesting.placed) <= part < len(nesting.placed):
+        raise IndexError(f"part: {part} of {counted(len(nesting.placed), 'placed part')}; count from 0")
     index = range(len(nesting.placed))[part]
     whole = nesting.scene(index)
     scene = Scene(whole.robot, whole.obstacles, obstacle_names=whole.obstacle_names, units=whole.units)

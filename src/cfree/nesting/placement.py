@@ -35,6 +35,7 @@ from cfree.scene.scene import shapes_in
 
 SIDES_OF_GAP = 16  # of the polygon around a disc that keeps parts apart
 MARGIN = 1e-8  # share of the size: candidates that far inside of a no-fit polygon are dropped in doubles
+FAR = 2.0**-20  # share of the coordinates that the size is at least, for rounding far from the origin
 MOST_ANGLES = 16  # orientations tried for a part that may be turned by any angle
 MOST_SIMPLE = 10**6  # common denominator of simple fractions
 QUARTERS: tuple[Fraction | None, ...] = (Fraction(0), Fraction(1), None, Fraction(-1))  # tau of quarter turns
@@ -233,11 +234,17 @@ def _rounded(edges: Sequence[Segment]) -> Floats:
 
 
 class _Field:
-    """Candidates for the position of one part at one orientation on one sheet."""
+    """Candidates for the position of one part at one orientation on one sheet.
 
-    def __init__(self, fit: _Obstacle, box: Floats, toward: Toward, error: float, simple: int) -> None:
-        self.fit, self.box, self.toward, self.simple = fit, box, toward, simple
-        self.size = float(np.abs(box).max(initial=1.0))
+    The limits are those of positions at which the part's box is in the sheet's; the extent is that of the sheet.
+    """
+
+    def __init__(
+        self, fit: _Obstacle, limits: Segment, extent: float, toward: Toward, error: float, simple: int
+    ) -> None:
+        self.fit, self.limits, self.toward, self.simple = fit, limits, toward, simple
+        self.box = box = np.array([[float(c) for c in corner] for corner in limits])
+        self.size = max(extent, FAR * float(np.abs(box).max()))
         self.step = max(MARGIN * self.size, error)  # positions are equally low within it
         self.unit = Fraction(10) ** (math.floor(math.log10(self.size)) - DECIMALS)
         self.origin: ExactPoint = Fraction(0), Fraction(0)
@@ -248,7 +255,7 @@ class _Field:
         self.xy: Floats = np.empty((0, 2))
         self.pairs: NDArray[np.int64] = np.empty((0, 2), np.int64)  # edges that cross; -1 and a number of `exact`
         self.exact: list[ExactPoint] = []
-        if (box[0] <= box[1]).all():
+        if limits[0][0] <= limits[1][0] and limits[0][1] <= limits[1][1]:
             self.add(fit, self.origin)
 
     def add(self, obstacle: _Obstacle, shift: ExactPoint) -> None:
@@ -310,10 +317,9 @@ class _Field:
 
     def is_free(self, position: ExactPoint) -> bool:
         """True if the part at this position overlaps nothing, decided exactly."""
-        (x0, y0), (x1, y1) = self.box
+        (x0, y0), (x1, y1) = self.limits
         x, y = position
-        margin = MARGIN * self.size
-        if not (x0 - margin <= x <= x1 + margin and y0 - margin <= y <= y1 + margin):
+        if not (x0 <= x <= x1 and y0 <= y <= y1):
             return False
         return not any(
             obstacle.sums.cover((x - shift[0], y - shift[1])) for obstacle, shift in reversed(self.obstacles)
@@ -454,9 +460,9 @@ class _Nester:
     def _field(self, kind: _Kind, tau: Tau, sheet: int) -> _Field:
         parts, container = kind.turned(tau), self.sheets[sheet]
         (x0, y0, x1, y1), (u0, v0, u1, v1) = box_of([container]), box_of(parts)
-        box = np.array([[float(x0 - u0), float(y0 - v0)], [float(x1 - u1), float(y1 - v1)]])
+        limits, extent = ((x0 - u0, y0 - v0), (x1 - u1, y1 - v1)), float(max(x1 - x0, y1 - y0))
         fit = _Obstacle.of(sums_of(complement(container, parts), parts, self.inset))
-        return _Field(fit, box, self.toward, self.error, self.simple)
+        return _Field(fit, limits, extent, self.toward, self.error, self.simple)
 
     def _obstacle(self, one: Placed, kind: _Kind, tau: Tau) -> _Obstacle:
         fixed, own = self._kinds[id(one.part)], one.pose.tau

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -29,6 +30,7 @@ from cfree.scene.scene import AnyShape
 
 SHEET_NAMES = ("sheet", "stock", "bin", "container")
 """First words of layers, groups and names whose shapes are sheets."""
+_SHEET = re.compile(rf"\s*(?:{'|'.join(SHEET_NAMES)})s?(?![^\W\d_])", re.IGNORECASE)
 MOST_SHEETS = 1000
 ITEM_KEYS = frozenset({"items", "Items"})
 
@@ -207,8 +209,7 @@ def job_of(shapes: Shapes) -> Job:
 
 
 def _is_sheet(shape: Shape) -> bool:
-    words = (shape.name or "").lower().split()
-    return shape.role == "workspace" or bool(words and words[0] in SHEET_NAMES)
+    return shape.role == "workspace" or _SHEET.match(shape.name or "") is not None
 
 
 def _sheet_at(sheets: list[AnyShape], shape: AnyShape) -> int:

@@ -37,6 +37,9 @@ from cfree.words import counted, listed
 
 STEPS, TURNS = 25, 48  # poses of a grid inside of a cage, along a side and around
 ACROSS = 3  # panels beside each other
+PLACES = 15  # of a name in its part, along a side
+BEYOND = 0.2  # cost of a name's area outside of its part, in that of text below it
+SMALL = 12  # pixels: names of smaller parts are beside them
 SHARE = 0.12  # length of a normal, in shares of the picture
 
 
@@ -59,14 +62,14 @@ def plot_cage(cage: Cage) -> Figure:
     >>> square = [(0, 0), (2, 0), (2, 2), (0, 2)]
     >>> figure = plot_cage(is_caged(square, [(1, 0), (2, 1), (1, 2), (0, 1)]))
     >>> [text.get_text() for text in figure.texts]
-    ['caged', 'held by fingers 0, 1, 2, 3; no motion leads out, proved']
+    ['caged', 'held by finger 0, finger 1, finger 2, finger 3; no motion leads out, proved']
     """
     if isinstance(cage.answer, Path):
         figure = picture(cage.answer, cage.scene)
         _draw_points(figure.axes[0], cage.fingers)
         return figure
-    names = listed([str(k) for k in cage.holding], ", ")
-    figure, ax = _held(cage.scene, cage.answer, "caged", f"held by fingers {names}; no motion leads out, proved")
+    names = listed([cage.scene.obstacle_names[k] for k in cage.holding], ", ")
+    figure, ax = _held(cage.scene, cage.answer, "caged", f"held by {plain(names)}; no motion leads out, proved")
     _draw_points(ax, cage.fingers)
     return figure
 
@@ -244,8 +247,42 @@ def _name(ax: Any, scene: Scene, own: Sequence[str] = ()) -> None:
     for name, polygons in places:
         shape = shapely.union_all([p if isinstance(p, shapely.Geometry) else p.to_shapely() for p in polygons])
         part = shapely.get_geometry(shape, 0)
-        x, y = shapely.maximum_inscribed_circle(part, 1e-2 * math.sqrt(part.area)).coords[0]
-        ax.text(x, y, plain(name), ha="center", va="center", fontsize=9, color=INK, path_effects=halo, zorder=9)
+        middle = shapely.maximum_inscribed_circle(part, 1e-2 * math.sqrt(part.area)).coords[0]
+        style = {"ha": "center", "va": "center", "fontsize": 9, "color": INK, "path_effects": halo, "zorder": 9}
+        _put_inside(ax, ax.text(*middle, plain(name), **style), part)
+
+
+def _put_inside(ax: Any, text: Any, part: shapely.Geometry) -> None:
+    """Move a name, within its part and in lines if need be, to a place where it covers no other text.
+
+    The name of a part that is too small to be seen, such as a finger that is a point, is above or below it.
+    """
+    ax.apply_aspect()
+    others = shapely.union_all([_box_of(other) for other in ax.texts if other is not text])
+    x0, y0, x1, y1 = part.bounds
+    xs, ys = np.linspace(x0, x1, PLACES), np.linspace(y0, y1, PLACES)
+    grid = shapely.points([(x, y) for x in xs for y in ys])
+    inside = [text.get_position(), *shapely.get_coordinates(grid[shapely.contains(part, grid)]).tolist()]
+    window, own = shapely.box(*ax.get_window_extent().extents), shapely.transform(part, ax.transData.transform)
+    u0, v0, u1, v1 = own.bounds
+    if max(u1 - u0, v1 - v0) < SMALL:
+        beside = [((u0 + u1) / 2, v1 + SMALL), ((u0 + u1) / 2, v0 - SMALL)]
+        inside = ax.transData.inverted().transform(beside).tolist()
+    costs = list[tuple[float, str, Any]]()
+    for form in dict.fromkeys([text.get_text(), text.get_text().replace(" ", "\n")]):
+        text.set_text(form)
+        for place in inside:
+            text.set_position(place)
+            box = _box_of(text)
+            costs.append(((box & others).area + (box - window).area + BEYOND * (box - own).area, form, place))
+    _, form, place = min(costs, key=lambda cost: cost[0])
+    text.set_text(form)
+    text.set_position(place)
+
+
+def _box_of(text: Any) -> shapely.Geometry:
+    """Return the box of a text in pixels."""
+    return shapely.box(*text.get_window_extent().extents)
 
 
 def _swept(scene: Scene, start: Pose, box: Window) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
 Rows = dict[str, Any]
+NUMBERED = r"finger (\d+)"
 FEW = 2, 3  # numbers of a finger on the command line: a point, a disc
 
 
@@ -119,11 +121,11 @@ def cage(
         raise click.exceptions.Exit(code)
 
 
-Place = tuple[Any, list[Any], "Pose", str]
+Place = tuple[Any, list[Any], "Pose", str, list[str]]
 
 
 def _place(scene: Scene, start: str | None, more: tuple[str, ...], *, ignore_bounds: bool) -> Place:
-    """Return the body, the fingers, the pose, and the unit."""
+    """Return the body, the fingers, the pose, the unit, and different names of the fingers."""
     from cfree.exact.pose import Pose
 
     walls = [text for text in ("bounds", "a workspace") if getattr(scene, text.split()[-1]) is not None]
@@ -134,7 +136,24 @@ def _place(scene: Scene, start: str | None, more: tuple[str, ...], *, ignore_bou
     fingers = [*scene.obstacles, *map(_finger, more)]
     if not fingers:
         raise ValueError("there are no fingers: the scene has no obstacles; give --finger X,Y or --finger X,Y,R")
-    return scene.robot, fingers, read_pose(start, "--start") or scene.start or Pose(0, 0), scene.units
+    pose = read_pose(start, "--start") or scene.start or Pose(0, 0)
+    return scene.robot, fingers, pose, scene.units, _names(scene, len(fingers))
+
+
+def _names(scene: Scene, count: int) -> list[str]:
+    """Return the names of a scene's obstacles if they have their own; else "finger" and the number."""
+    from cfree.scene.scene import default_name
+
+    names = [*scene.obstacle_names, *[""] * (count - len(scene.obstacles))]
+    own = [name for k, name in enumerate(names) if name not in (default_name(k), "")]
+    taken = {name for name in own if own.count(name) == 1 and not re.fullmatch(NUMBERED, name)}
+    return [name if name in taken else f"finger {k}" for k, name in enumerate(names)]
+
+
+def _named(text: str, names: list[str]) -> str:
+    """Return a text with the names of fingers instead of their numbers."""
+    text = re.sub(rf"obstacle \d+ \(({NUMBERED})\)", r"\1", text)
+    return re.sub(NUMBERED, lambda match: names[int(match[1])] if int(match[1]) < len(names) else match[0], text)
 
 
 def _finger(text: str) -> Any:
@@ -156,7 +175,7 @@ def _answered(
     output: Path | None, saved: Path | None, as_json: bool,
 ) -> tuple[int, Rows, Any]:  # fmt: skip
     """Return the exit code, the rows to print, and the answer to draw."""
-    body, fingers, pose, units = place
+    body, fingers, pose, units, names = place
     if held:
         from cfree.caging.immobile import immobility
 
@@ -167,36 +186,44 @@ def _answered(
         if as_json:
             velocity = None if answer.velocity is None else [*map(float, answer.velocity)]
             facts: Rows = {"verdict": answer.verdict, "order": answer.order, "touching": touched, "velocity": velocity}
+            facts["names"] = names
             return code, facts, answer
-        return code, {"answer": answer.sentence(), "fingers in contact": _listed(touched)}, answer
+        return code, {"answer": answer.sentence(), "fingers in contact": _listed(touched, names)}, answer
     from cfree.caging.cage import cage_of
     from cfree.caging.fingers import to_body, to_fingers
 
     if fewest:
-        from cfree.caging.fewest import fewest_fingers
+        from cfree.caging.fewest import fewest_of
         from cfree.cli.terminal import status
 
         with status() as say:
             say("sets of fingers ...")
-            chosen = fewest_fingers(body, fingers, pose, progress=lambda n: say(f"sets of fingers {n:,} ..."))
+            chosen = fewest_of(
+                *_exact(to_body(body, pose), to_fingers(fingers)), names, units=units,
+                progress=lambda n: say(f"sets of fingers {n:,} ..."),
+            )  # fmt: skip
         _write(chosen.cage, output, saved)
         if as_json:
-            facts = {"caged": bool(chosen), "fingers": chosen.fingers, "of": len(fingers)}
+            facts = {"caged": bool(chosen), "fingers": chosen.fingers, "of": len(fingers), "names": names}
             return 0 if chosen else REFUTED, facts, chosen.cage
         if not chosen:
-            return REFUTED, {"answer": "not caged, even by all fingers", **_cage_rows(chosen.cage)}, chosen.cage
+            return REFUTED, {"answer": "not caged, even by all fingers", **_cage_rows(chosen.cage, names)}, chosen.cage
         count = len(chosen.fingers)
         rows: Rows = {"answer": f"caged by {count} of {len(fingers)} fingers, proved; by no fewer"}
-        rows |= {"fingers": _listed(chosen.fingers), "paths that exclude fewer": len(chosen.escapes)}
+        rows |= {"fingers": _listed(chosen.fingers, names), "paths that exclude fewer": len(chosen.escapes)}
         return 0, rows, chosen.cage
     with bar("cage") as progress:
         result = cage_of(
-            *_exact(to_body(body, pose), to_fingers(fingers)), units=units, max_seconds=max_seconds, progress=progress
+            *_exact(to_body(body, pose), to_fingers(fingers)),
+            units=units,
+            names=names,
+            max_seconds=max_seconds,
+            progress=progress,
         )
     _write(result, output, saved)
     if as_json:
         length = None if result.path is None else result.path.length
-        facts = {"caged": bool(result), "holding": result.holding, "length": length}
+        facts = {"caged": bool(result), "holding": result.holding, "names": names, "length": length}
         found = _criticals(place, critical, precision) if critical and result else {}
         return (
             0 if result else REFUTED,
@@ -204,12 +231,12 @@ def _answered(
             result,
         )
     verdict = "caged: no motion leads out, not even one that touches; proved" if result else "not caged: it escapes"
-    rows = {"answer": verdict, **_cage_rows(result)}
+    rows = {"answer": verdict, **_cage_rows(result, names)}
     if critical and not result:
         rows["critical"] = "not caged, so that nothing opens"
     elif critical:
         found = _criticals(place, critical, precision)
-        rows |= {name: str(one).split(" ", 1)[1] for name, one in found.items()}
+        rows |= {name: _named(str(one).split(" ", 1)[1], names) for name, one in found.items()}
     return 0 if result else REFUTED, rows, result
 
 
@@ -218,10 +245,10 @@ def _exact(body: Any, fingers: Any) -> tuple[Any, Any, Any]:
     return shapes, fingers, pose
 
 
-def _cage_rows(cage: Cage) -> Rows:
+def _cage_rows(cage: Cage, names: list[str]) -> Rows:
     if cage.path is not None:
         return {"path": f"{counted(len(cage.path), 'motion')}, length {cage.path.length:.6g}"}
-    return {"fingers that hold it": _listed(cage.holding)}
+    return {"fingers that hold it": _listed(cage.holding, names)}
 
 
 def _critical_facts(found: Critical) -> Rows:
@@ -236,7 +263,7 @@ def _critical_facts(found: Critical) -> Rows:
 def _criticals(place: Place, critical: str, precision: float) -> dict[str, Critical]:
     from cfree.caging import critical as numbers
 
-    body, fingers, pose, _ = place
+    body, fingers, pose, _, _ = place
     finds: dict[str, tuple[Any, Rows]] = {
         "spread": (numbers.critical_spread, {}),
         "close": (numbers.critical_spread, {"direction": "close"}),
@@ -261,5 +288,5 @@ def _write(cage: Cage, output: Path | None, saved: Path | None) -> None:
         save(cage.answer, output)
 
 
-def _listed(numbers: Any) -> str:
-    return ", ".join(map(str, numbers)) or "none"
+def _listed(numbers: Any, names: list[str]) -> str:
+    return ", ".join(names[k] for k in numbers) or "none"

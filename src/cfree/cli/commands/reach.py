@@ -14,7 +14,7 @@ from cfree.cli.files import bar, check_outputs, read_scene, read_shapes, scene_o
 from cfree.cli.options import FILE, Word, examples, file_option
 from cfree.cli.terminal import columns, print_json, printable, status, terminal_width
 from cfree.cli.values import read_angle, read_length, read_pose, read_vehicle
-from cfree.words import counted
+from cfree.words import counted, ends, near
 
 if TYPE_CHECKING:
     from cfree.analysis.aisles import Kind
@@ -200,6 +200,7 @@ def audit(
 
         if output is not None:
             check_audit_path(output)
+        _refuse_twice([*map(_machine_name, machines)], "--machine", "NAME=FILE")
         shapes = {_machine_name(text): read_machine(_machine_file(text)) for text in machines}
         loaded, robot = read_shapes(plan)
         if shapes and robot is not None:
@@ -255,8 +256,8 @@ def read_machine(text: str) -> Any:
 
 
 def _width(width: Interval) -> str:
-    low, high = f"{width.lo:.5g}", f"{width.hi:.5g}"
-    return f"more than {high}" if low == high else f"{low} is too narrow, {high} will do"
+    low, high = ends(width.lo, width.hi, 5)
+    return f"more than {high}" if width.lo == width.hi else f"{low} is too narrow, {high} will do"
 
 
 def _driven(scene: Scene, vehicle: Vehicle | Any | None) -> Scene:
@@ -284,7 +285,13 @@ def _named(texts: tuple[str, ...], option: str) -> list[tuple[str, str]]:
         raise ValueError(
             f'{option}: {wrong!r}; write it like "kitchen={"1,2" if option == "--place" else "1,2,1,2.9"}"'
         )
+    _refuse_twice([name for name, _, _ in pairs], option, "NAME=...")
     return [(name, value) for name, _, value in pairs]
+
+
+def _refuse_twice(names: list[str], option: str, form: str) -> None:
+    if twice := next((name for name in names if names.count(name) > 1), None):
+        raise ValueError(f"{option}: the name {twice!r} is there twice; give {form} with different names")
 
 
 def _numbers(text: str, name: str, count: int, option: str) -> list[Any]:
@@ -304,10 +311,10 @@ def _table(result: Any) -> list[str]:
 
     rows = [["machine", "door", "width", "at", "between", "", "missing"]]
     for door in result.doors:
-        x, y = door.middle
-        missing = f"{door.missing.lo:.3g} to {door.missing.hi:.3g}" if door.missing else ""
+        where = ", ".join(near(value, door.width) for value in door.middle)
+        missing = " to ".join(ends(door.missing.lo, door.missing.hi, 3)) if door.missing else ""
         rows.append([
-            printable(door.machine), printable(door.name), f"{door.width:.3g}", f"{x:.4g}, {y:.4g}",
+            printable(door.machine), printable(door.name), f"{door.width:.3g}", where,
             printable(" - ".join(door.rooms)), WORDS[door.result], missing,
         ])  # fmt: skip
     return columns(rows, "<<><<<<", max(terminal_width(), 100))

@@ -62,6 +62,7 @@ def _member(value: Any, *names: str) -> tuple[Any, str]:
     return None, names[0]
 
 
+MOST_DEGREES = 10**6
 Item = tuple[str, list[float], list[Polygon]]
 
 
@@ -84,14 +85,15 @@ class NestingReader:
             self.source.spend()
             number, _ = _member(item, "id")
             number = number if type(number) is int else k
-            degrees, _ = _member(item, "allowed_orientations")
-            allowed = [float(d) for d in degrees or () if isinstance(d, int | Decimal) and -(10**6) < d < 10**6]
+            allowed = self._degrees(item, (key, k))
             shape, shape_key = _member(item, "shape")
             if number in by_id:
                 self.findings.under((key, k), f"id {number} is there twice; keep one")
             by_id[number] = f"item {number}", allowed, self.polygons(shape, (key, k, shape_key))
-            demand, _ = _member(item, "demand")
-            self.demand[number] = demand if type(demand) is int and demand >= 0 else 1
+            demand = self._count(item, "demand", (key, k))
+            self.demand[number] = 1 if demand is None else demand
+            if self.demand[number] < 0:
+                self.findings.under((key, k, "demand"), "expected a number of copies, 0 or more, got {got}")
             if self.demand[number] > 1:
                 self.source.note("info", "item, wanted several times and read once")
         return by_id
@@ -102,12 +104,28 @@ class NestingReader:
         by_id: dict[int, tuple[int, list[Polygon]]] = {}
         for k, one in enumerate(bins if isinstance(bins, list) else ()):
             self.source.spend()
-            number, stock = _member(one, "id")[0], _member(one, "stock")[0]
+            number, stock = _member(one, "id")[0], self._count(one, "stock", (key, k))
             shape, shape_key = _member(one, "shape")
             polygons = self.polygons(shape, (key, k, shape_key))
-            stock = stock if type(stock) is int and stock >= 0 else -1
+            stock = -1 if stock is None else max(-1, stock)
             by_id[number if type(number) is int else k] = stock, polygons
         return by_id
+
+    def _count(self, item: Any, name: str, path: tuple[Any, ...]) -> int | None:
+        """Return a whole number; None without one."""
+        value, key = _member(item, name)
+        if value is None or type(value) is int:
+            return value
+        self.findings.under((*path, key), "expected a whole number, got {got}")
+        return None
+
+    def _degrees(self, item: Any, path: tuple[Any, ...]) -> list[float]:
+        value, key = _member(item, "allowed_orientations")
+        degrees = [] if value is None else value
+        if isinstance(degrees, list) and all(type(d) in (int, Decimal) and abs(d) < MOST_DEGREES for d in degrees):
+            return [float(d) for d in degrees]
+        self.findings.under((*path, key), "expected a list of angles in degrees, got {got}")
+        return []
 
     def strip_height(self, data: Any) -> Fraction | None:
         """Return the height of the strip; None if the instance has none."""
