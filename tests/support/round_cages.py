@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 import cfree
-from arc_rings import RINGS, shape
+from arc_rings import CONCAVE, RINGS, Ring, plate, shape
 from cfree import Curved, Pose, Scene
 from flood import flood
 from shapes import PlainScene
@@ -51,6 +51,33 @@ def random_cage(seed: int) -> Scene:
         chord = 2 * far * math.sin(math.pi / count)
         obstacles.append(random_part(rng, place, Fraction(round(8 * chord * rng.uniform(0.9, 1.6)), 8)))
     return Scene(random_robot(rng), obstacles, bounds=(-SIZE, -SIZE, SIZE, SIZE))
+
+
+JAR: Ring = [(-8, -8), (8, -8), (8, 4), (3, 4, (0, 0), "concave"), (-3, 4), (-8, 4)]
+TUB: Ring = [(-8, -8), (8, -8), (8, 0), (5, 0, (0, 0), "concave"), (-5, 0), (-8, 0)]
+
+
+def random_hollow_cage(seed: int) -> Scene:
+    """A jar or a tub below shapes with concave arcs; or a robot that has them among discs and grown triangles."""
+    rng = random.Random(f"hollow {seed}")
+
+    def plain(x: Any, y: Any, size: Fraction) -> Any:
+        third = size / 3
+        ring = [(x - third, y - third), (x + third, y - third), (x, y + third)]
+        return rng.choice([Curved.circle((x, y), size / 2), Curved(ring, grown=size / 12), ring])
+
+    def eighths(low: int, high: int) -> Fraction:
+        return Fraction(rng.randint(8 * low, 8 * high), 8)
+
+    bounds = (-SIZE, -SIZE, SIZE, SIZE)
+    if seed % 3 == 2:
+        robot = shape(CONCAVE[rng.choice(["bay", "bracket"])], by=Fraction(rng.randint(3, 6), 10))
+        places = [(8 * math.cos(k), 8 * math.sin(k)) for k in range(6)]
+        cage = [plain(Fraction(round(8 * x), 8), Fraction(round(8 * y), 8), eighths(5, 10)) for x, y in places]
+        return Scene(robot, cage, bounds=bounds)
+    lid = plate(eighths(-4, 4), 14) if seed % 2 else shape(CONCAVE["bracket"], -4, eighths(6, 8))
+    parts = [plain(0, 0, eighths(3, 8)), plain(eighths(-2, 2), eighths(-2, 2), eighths(2, 4))]
+    return Scene(parts[: rng.randint(1, 2)], [shape(rng.choice([JAR, TUB])), lid], bounds=bounds)
 
 
 def decided(scene: Scene, most: int, seed: int) -> Iterator[tuple[Pose, Pose, bool]]:

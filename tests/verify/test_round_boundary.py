@@ -11,14 +11,20 @@ from typing import Any
 
 import numpy as np
 import pytest
+from flint import arb
 
 import cfree
 import cfree.verify
-from arc_rings import RINGS, random_arcs, shape
+from arc_rings import BRACKET, CONCAVE, RINGS, plate, random_arcs, random_concave, shape
 from cfree import Polygon, Scene, boundary
+from cfree.exact.pose import pose_at
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import IsolatedParts, Trapezoids
+from cfree.scene.rounded import rounded, rounded_shapes
 from cfree.verify.result import MEASURED, PROVED, SAMPLED, SKIPPED
+from cfree.verify.round_algebra import Turn, precision
+from cfree.verify.round_boundary import _Covering
+from cfree.verify.round_world import RoundWorld, _has_fillets_inside
 from rounded_scenes import MIXED, ONE_RADIUS, SCENES, SQUARE, TRIANGLE, disc, grown, random_scene
 from rounded_ties import SCENES as TIES
 from rounded_ties import scene_of
@@ -51,6 +57,78 @@ def test_boundaries_of_random_shapes_with_arcs_are_verified(seed: int) -> None:
     result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
     assert result.verified, result
     assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(20))
+def test_boundaries_of_random_shapes_with_concave_arcs_are_verified(seed: int) -> None:
+    scene = random_concave(seed)
+    result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
+    assert result.verified, result
+    assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(20))
+def test_poses_are_covered_among_concave_arcs_where_exact_tests_forbid_them(seed: int) -> None:
+    """Convex pieces and pairs of a fillet and a vertex, against segments and arcs at rational poses."""
+    scene, rng = random_concave(seed), random.Random(seed)
+    cores = rounded_shapes(scene)
+    assert cores is not None and cores.has_concave
+    covered = 0
+    with precision(200):
+        covering = _Covering(RoundWorld(scene, cores))
+        for _ in range(150):
+            x, y, tau = rng.randint(-(2**20), 2**20), rng.randint(-(2**20), 2**20), rng.randint(-64, 64)
+            pose = pose_at(Fraction(x, 2**16), Fraction(y, 2**16), Fraction(tau, 64))
+            place = arb(x) / 2**16, arb(y) / 2**16
+            found = covering.covers_place(place, Turn.of(0, arb(tau) / 64), arb(2) ** -40)
+            covered += found
+            assert found != cfree.is_free(scene, pose), pose
+    assert covered
+
+
+@pytest.mark.parametrize("name", [*CONCAVE, "plate"])
+def test_fillets_have_to_be_in_their_shape(name: str) -> None:
+    """Points beyond an arc that are too far out or too near are found."""
+    core = rounded(plate() if name == "plate" else shape(CONCAVE[name]))
+    assert core is not None and core.has_concave
+    assert _has_fillets_inside(core)
+    k = next(k for k, arc in enumerate(core.arcs) if arc.beyond)
+    arc = core.arcs[k]
+    assert arc.beyond is not None
+    inner, outer = arc.beyond
+    for share in (Fraction(-1), Fraction(100)):
+        far = inner[0] + share * (outer[0] - inner[0]), inner[1] + share * (outer[1] - inner[1])
+        other = replace(arc, beyond=(inner, far))
+        assert not _has_fillets_inside(replace(core, arcs=(*core.arcs[:k], other, *core.arcs[k + 1 :])))
+
+
+def test_a_fillet_covers_what_no_piece_does() -> None:
+    """A disc that is larger than a fillet's circle allows, in the corner, and one that is as large."""
+    for radius, is_covered in ((1, False), (Fraction(5, 2), True)):
+        scene = Scene(disc(0, 0, radius), [shape(BRACKET)])  # walls at 2, the arc of radius 3 about (5, 5)
+        cores = rounded_shapes(scene)
+        assert cores is not None
+        with precision(200):
+            world = RoundWorld(scene, cores)
+            place, turn, near = (arb(41) / 10, arb(41) / 10), Turn.of(0, arb(0)), arb(2) ** -40
+            assert _Covering(world).covers_place(place, turn, near) is is_covered
+            assert any(pair.overlaps(turn, place, near) for pair in world.fillet_pairs) is is_covered
+
+
+def test_obstacles_may_reach_beyond_bounds() -> None:
+    scene = Scene(grown(SQUARE, "1/8"), [[(0, 0), (9, 0), (9, 2), (2, 9), (0, 9)]], bounds=(-3, -3, 3, 3))
+    result = cfree.verify.boundary(boundary(scene), scene, slices=4)
+    assert result.verified, result
+
+
+def test_a_free_surface_in_a_round_hole_that_is_left_out_is_refuted() -> None:
+    scene = Scene(disc(0, 0, 1), [plate()])
+    right = boundary(scene)
+    hole = right.complex.component[np.flatnonzero(right.patch_radius[right.trapezoids.patch] < 0)[0]]
+    found = cfree.verify.boundary(rows(right, np.flatnonzero(right.complex.component != hole)), scene, slices=2)
+    assert {finding.kind for finding in found.findings} == {"nothing missing"}
 
 
 @pytest.mark.slow
@@ -220,12 +298,17 @@ MUTANTS: list[Callable[[Boundary, random.Random], Boundary]] = [
 ]  # fmt: skip
 
 
+NO_BRANCH = (0, 2, 4)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda f: f.__name__)
 def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random], Boundary]) -> None:
-    for seed, scene in enumerate([MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3), random_arcs(4)]):
-        result, rng = boundary(scene), random.Random(seed)
-        if mutant is on_the_other_branch and seed in (0, 2):
+    scenes = [MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3), random_arcs(4), random_concave(5), random_concave(8)]
+    for seed, scene in enumerate(scenes):
+        result = boundary(scene)
+        rng = random.Random(20 + seed if mutant is with_another_curve else seed)  # a joint's other names are right
+        if mutant is on_the_other_branch and seed in NO_BRANCH:
             continue  # no lower curve has one
         for _ in range(3):
             found = cfree.verify.boundary(mutant(result, rng), scene, slices=3)

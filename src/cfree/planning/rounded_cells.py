@@ -98,8 +98,8 @@ def round_cells(scene: Scene, options: Options, most: int = WORK) -> RoundCells 
     Returns
     -------
     RoundCells, or None
-        None if shapes are not polygons with convex arcs, segments and points, some of them grown by discs; if neither
-        the robot nor all obstacles can be made smaller; or if that would take longer.
+        None if shapes are not polygons with arcs, segments and points, some of them grown by discs; if neither the
+        robot nor all obstacles can be made smaller; or if that would take longer.
     """
     end = None if options.max_seconds is None else time.monotonic() + options.max_seconds
     made, clearance = kept(scene, _Made.none_for), options.clearance
@@ -142,7 +142,7 @@ class _Made:
 def _shapes_for(scene: Scene, clearance: Fraction) -> tuple[Cores, Bounds | None] | None:
     """Return smaller shapes and larger bounds; None if there are none, or if all shapes are polygons."""
     shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
-    if shapes is None or not shapes.is_round or shapes.has_concave:
+    if shapes is None or not shapes.is_round:
         return None
     by = Fraction(1, 2 ** max(SMALLER, 2 * _digits(scene, shapes)))
     cores, bounds = _smaller(shapes, by, is_in_workspace=scene.workspace is not None), None
@@ -202,7 +202,7 @@ def work_for(features: SceneFeatures) -> int:
     size = np.ptp(robot.near, axis=0) + 2 * robot.radius.max()
     rings = len(others.previous)
     ends = np.stack([others.near[others.v[:rings]], others.near[others.w[:rings]]])
-    radius = others.radius[:rings, None]
+    radius = np.abs(others.radius[:rings, None])  # below 0 at concave arcs
     low, high = ends.min(axis=0) - radius, ends.max(axis=0) + radius
     starts = others.core.piece[:-1]
     corners = others.core.piece_vertex

@@ -21,7 +21,8 @@ def smaller(shapes: Sequence[Rounded], by: Fraction) -> tuple[Rounded, ...] | No
     """Return shapes that are smaller by about a part of their sizes, each strictly inside; None if one has none.
 
     Discs of a grown core are smaller. A core without a disc is scaled about a point from which all of its rim is seen,
-    if possible about one for all of them. A polygon without such a point has its edges moved inwards.
+    if possible about one for all of them. A polygon without such a point has its edges moved inwards. A core with
+    concave arcs and without a disc has none.
 
     Examples
     --------
@@ -34,6 +35,8 @@ def smaller(shapes: Sequence[Rounded], by: Fraction) -> tuple[Rounded, ...] | No
     Fraction(7, 8)
     """
     sharp = [shape for shape in shapes if not shape.radius]
+    if any(shape.has_concave for shape in sharp):
+        return None
     common = center_of_view(sharp) if len(sharp) > 1 else None
     result = list[Rounded]()
     for shape in shapes:

@@ -54,6 +54,11 @@ class CoreArc:
         return self.beyond is None
 
     @property
+    def signed_radius(self) -> Fraction:
+        """The radius; negative if the arc is concave."""
+        return self.radius if self.is_convex else -self.radius
+
+    @property
     def numbers(self) -> tuple[Fraction, ...]:
         """All of its numbers, in the core's order."""
         more = (*self.beyond[0], *self.beyond[1]) if self.beyond else ()
@@ -61,10 +66,11 @@ class CoreArc:
 
 
 def is_arc(arc: CoreArc) -> bool:
-    """True if an arc has its radius, is counter-clockwise, and has at most a quarter of its circle."""
+    """True if an arc has its radius, the direction of its kind, and at most a quarter of its circle."""
     first, last = minus(arc.start, arc.center), minus(arc.end, arc.center)
     squares = {dot(first, first), dot(last, last), arc.radius**2}
-    return len(squares) == 1 and arc.radius > 0 and cross(first, last) > 0 and dot(first, last) >= 0
+    turn = cross(first, last) if arc.is_convex else cross(last, first)
+    return len(squares) == 1 and arc.radius > 0 and turn > 0 and dot(first, last) >= 0
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ from fractions import Fraction
 import numpy as np
 from flint import arb
 
-from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.scene.rounded import Cores, rounded_shapes
@@ -44,8 +43,6 @@ def round_boundary(
     begin = time.perf_counter()
     cores = rounded_shapes(stored.scene)
     assert cores is not None, "the boundary has its features"
-    if cores.has_concave:
-        raise UnsupportedError("verify.boundary: concave arcs; of shapes whose arcs are all convex only")
     count = len(stored.trapezoids)
     chosen = range(count) if sample is None else sorted(random.Random(seed).sample(range(count), min(sample, count)))
     proof, world = _as_pieces(stored, cores), RoundWorld(stored.scene, cores)
@@ -137,6 +134,7 @@ class _Covering:
 
     def __init__(self, world: RoundWorld) -> None:
         self._size = world.size
+        self._fillet_pairs = world.fillet_pairs
         self._pairs: list[tuple[Part, Part]] = [(a, b) for some, others in world.layers for a in some for b in others]
         ends = [[_around(part) for part in side] for side in zip(*self._pairs, strict=True)]
         self._centers = np.array([[center for center, _ in side] for side in ends])
@@ -158,7 +156,7 @@ class _Covering:
                 continue
             if not is_apart(robot, obstacle, turn, place, near):
                 return True
-        return False
+        return any(pair.overlaps(turn, place, near) for pair in self._fillet_pairs)
 
 
 def _around(part: Part) -> tuple[complex, float]:
@@ -176,7 +174,7 @@ def _middle(piece: Piece, turn: Turn) -> tuple[arb, arb]:
         return x, y
     p = arb(s.b[0]) - turn.cos * arb(s.a[0]) + turn.sin * arb(s.a[1])
     q = arb(s.b[1]) - turn.sin * arb(s.a[0]) - turn.cos * arb(s.a[1])
-    far = arb(s.radius) / ((x - p) ** 2 + (y - q) ** 2).sqrt()
+    far = abs(arb(s.radius)) / ((x - p) ** 2 + (y - q) ** 2).sqrt()
     return p + far * (x - p), q + far * (y - q)
 
 

@@ -272,7 +272,9 @@ def _rough(level: Level) -> tuple[tuple[Any, ...], float]:
     """Number that is nearly equal for equal lines or circles."""
     (x, y), _ = level.ends
     if level.surface.edge is None:
-        key = "circle", level.quadrant, int(level.surface.radius.p), int(level.surface.radius.q)
+        r = level.surface.radius
+        # the points of a negative radius are in the opposite quadrant
+        key = "circle", (level.quadrant + (2 if r < 0 else 0)) % 4, abs(int(r.p)), int(r.q)
         b, a, turn = level.surface.b, level.surface.a, level.turn
         return key, float((arb(b[0]) - turn.cos * arb(a[0]) + turn.sin * arb(a[1])).mid())
     u, v = direction(level.surface, level.turn)

@@ -135,7 +135,7 @@ def room(smaller: Rounded, shape: AnyShape) -> Fraction | None:
     base, grown = _base(shape)
     if not is_of_arcs(base) or not all(map(is_arc, smaller.arcs)):
         return None
-    region, rings = region_of(base), [*_rings_of(smaller)]
+    region, rings = region_of(base), [*rim_parts(smaller)]
     if _is_on(rings, region):
         return grown - smaller.radius if smaller.radius <= grown else None
     if not all(region.holds(Spot.of(ring[0].p)) for ring in rings):
@@ -153,7 +153,7 @@ def is_same(one: Rounded, shape: AnyShape) -> bool:
     base, grown = _base(shape)
     if not is_of_arcs(base) or not all(map(is_arc, one.arcs)):
         return False
-    region, rings = region_of(base), [*_rings_of(one)]
+    region, rings = region_of(base), [*rim_parts(one)]
     corners = {f.p for ring in rings for f in ring}
     return grown == one.radius and _is_on(rings, region) and all(g.p in corners for g in region.parts)
 
@@ -170,12 +170,14 @@ def _is_on(rings: Sequence[Sequence[Part]], region: Region) -> bool:
     return all(any(_is_part(f, g) for g in region.parts) for ring in rings for f in ring)
 
 
-def _rings_of(shape: Rounded) -> Iterator[list[Part]]:
+def rim_parts(shape: Rounded) -> Iterator[list[Part]]:
     """Lines and arcs of a core."""
-    arcs = {(exact(arc.start), exact(arc.end)): exact(arc.center) for arc in shape.arcs}
+    arcs = {(arc.start, arc.end): (exact(arc.center), 1 if arc.is_convex else -1) for arc in shape.arcs}
+    beyond = {arc.beyond[0] for arc in shape.arcs if arc.beyond}
     for ring in shape.core.exact_rings if isinstance(shape.core, Polygon) else [shape.core]:
-        sides = pairwise([*map(exact, ring), exact(ring[0])])
-        yield [Part(p, q, arcs.get((p, q)), int((p, q) in arcs)) for p, q in sides if p != q or len(ring) == 1]
+        corners = [p for p in ring if p not in beyond]
+        sides = pairwise([*corners, corners[0]])
+        yield [Part(exact(p), exact(q), *arcs.get((p, q), (None, 0))) for p, q in sides if p != q or len(corners) == 1]
 
 
 def _is_part(part: Part, whole: Part) -> bool:

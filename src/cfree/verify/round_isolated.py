@@ -95,4 +95,5 @@ class IsolatedParts:
     def _point(self, k: int, side: str, turn: Turn) -> Place:
         parts = self._stored.isolated
         contact, quadrant = self._contact(int(getattr(parts, f"{side}_patch")[k]))
-        return self._reader.curve(self._reader.surface(*contact), quadrant, int(getattr(parts, side)[k])).point(turn)
+        surface = self._reader.surface(*contact)
+        return self._reader.curve(surface, quadrant, int(getattr(parts, side)[k])).point(turn)

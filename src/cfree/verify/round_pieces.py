@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
-from itertools import product
+from itertools import pairwise, product
 from typing import Any
 
 from flint import arb, fmpq, fmpz
@@ -256,6 +256,8 @@ class Reader:
         turn = self.scale.turn(piece.chart, (piece.start + piece.stop) // 2)
         low, high = lower.place(turn), upper.place(turn)
         gap = high - low if surface.edge is not None else low[0] * high[1] - low[1] * high[0]
+        if surface.edge is None and surface.radius < 0:
+            gap = -gap  # clockwise, so that forbidden is on the left
         if not gap > -self.scale.near:
             raise Fault("its upper curve is below the lower one")
 
@@ -350,7 +352,10 @@ class Rim:
 
     @classmethod
     def of(cls, shape: Rounded) -> Rim:
-        chords = {(arc.start, arc.end) for arc in shape.arcs}
+        chords: set[tuple[ExactPoint, ...]] = set()
+        for arc in shape.arcs:
+            beyond = arc.beyond[:1] if arc.beyond else ()
+            chords |= {*pairwise((arc.start, *beyond, arc.end)), *((p,) for p in beyond)}
         return cls({*_outline(shape.core)} - chords, shape.radius, tuple(filter(is_arc, shape.arcs)))
 
     def directions(self, points: tuple[ExactPoint, ...], radius: Fraction) -> list[Cone]:
@@ -358,9 +363,10 @@ class Rim:
         if radius == self.radius and points in self.outline:
             return [()]
         r = radius - self.radius
-        own = [arc for arc in self.arcs if points == (arc.center,) and arc.radius == r]
+        own = [arc for arc in self.arcs if points == (arc.center,) and arc.signed_radius == r]
         ends = [[_over(_difference(p, arc.center), r) for p in (arc.start, arc.end)] for arc in own]
-        return [((first, 1), (last, -1)) for first, last in ends]
+        turn = 1 if r > 0 else -1  # of the normals along an arc
+        return [((first, turn), (last, -turn)) for first, last in ends]
 
 
 def unpacked(code: int) -> tuple[int, int, int, int]:

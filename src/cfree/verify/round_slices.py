@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from cfree.verify.round_algebra import Turn
 from cfree.verify.round_pieces import Piece, Scale
 from cfree.verify.round_surfaces import AXES
-from cfree.verify.round_world import Complexes, Corner, Part, RoundWorld
+from cfree.verify.round_world import Complexes, Corner, FilletPair, Part, RoundWorld
 
 SAME, SURE = 1e-7, 1e-8  # lengths, in the scene's size: of curves that are one, and of distances that are certain
 LEAST = 1e-5  # parts of less length are not compared
@@ -28,7 +28,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Contact:
-    """A segment of a line, from `place` in a direction; or an arc about `place`, with angles as positions."""
+    """A segment of a line, from `place` in a direction; or an arc about `place`, with angles as positions.
+
+    The radius of a concave arc is negative: points are in the directions opposite to these angles.
+    """
 
     place: complex
     along: complex  # a unit vector; 0 for a circle
@@ -55,8 +58,8 @@ class Contact:
         if self.along:
             position = (self.along.conjugate() * (point - self.place)).real
             return self.first + near < position < self.last - near
-        margin = near / self.radius
-        position = self.first + (cmath.phase(point - self.place) - self.first) % math.tau
+        margin = near / abs(self.radius)
+        position = self.first + (cmath.phase((point - self.place) / self.radius) - self.first) % math.tau
         return self.first + margin < position < self.last - margin
 
 
@@ -191,7 +194,51 @@ class ArcPillar:
         return _has(-self.hulls[1].centers, self.hulls[0].centers, contact, near)
 
 
-AnyPillar = Pillar | ArcPillar
+@dataclass(frozen=True)
+class FilletPillar:
+    """The positions that a fillet and a vertex of the other shape forbid: a quadrangle less a disc; see `Pillar`."""
+
+    corners: Complexes  # the first is the circle's center
+    reach: float
+    robot: complex
+    obstacle: complex
+
+    @classmethod
+    def of(cls, pair: FilletPair, turned: complex) -> FilletPillar:
+        corners, vertex = pair.fillet.rough, complex(*pair.vertex)
+        reach = float(pair.fillet.room(pair.radius))
+        if pair.is_of_robot:
+            return cls(vertex - turned * corners, reach, turned * complex(corners[0]), vertex)
+        return cls(corners - turned * vertex, reach, turned * vertex, complex(corners[0]))
+
+    @property
+    def centers(self) -> Complexes:
+        return self.corners[:1]
+
+    @property
+    def radii(self) -> Floats:
+        return np.array([self.reach])
+
+    @property
+    def units(self) -> Complexes:
+        along = np.roll(self.corners, -1) - self.corners
+        return np.asarray(along / np.abs(along))
+
+    @property
+    def starts(self) -> Complexes:
+        return self.corners
+
+    def room(self, points: Complexes) -> Floats:
+        """Numbers that are positive outside, negative inside, and at most a distance from the rim."""
+        heights = ((points[None] - self.starts[:, None]) * self.units[:, None].conj()).imag
+        return np.asarray(np.maximum(-heights.min(axis=0), self.reach - np.abs(points - self.corners[0])))
+
+    def has(self, contact: Contact, near: float) -> bool:
+        """True if the contact is that of the arc and the vertex."""
+        return _has(np.array([self.robot]), np.array([self.obstacle]), contact, near)
+
+
+AnyPillar = Pillar | ArcPillar | FilletPillar
 
 
 def _has(robot: Complexes, obstacle: Complexes, contact: Contact, near: float) -> bool:
@@ -216,8 +263,11 @@ def compared(world: RoundWorld, pieces: Sequence[Piece], scale: Scale, chart: in
     wrong = [f"trapezoids on one another near {_text(at)}" for at in _doubled(stored, size)]
     met = np.zeros(len(stored), bool)
     number = 0
-    for (robot, obstacles), (parts, others) in zip(world.corners, world.layers, strict=True):
-        pillars = [pillar_of(a, b, turned) for a in parts for b in others]
+    pillars: list[AnyPillar] = [
+        pillar_of(a, b, turned) for parts, others in world.layers for a in parts for b in others
+    ]
+    pillars += [FilletPillar.of(pair, turned) for pair in world.fillet_pairs]
+    for robot, obstacles in world.corners:
         for contact in _contacts(robot, obstacles, turned, size):
             on = [k for k, other in enumerate(stored) if other.is_on(contact, SAME * size)]
             met[on] = True
@@ -249,6 +299,8 @@ def _contact_of(piece: Piece, turn: Turn) -> Contact:
     center = complex(*map(float, s.b)) - turned * complex(*map(float, s.a))
     axis = complex(*map(float, AXES[piece.quadrant]))
     first, last = (cmath.phase((p - center) / axis) + math.pi / 2 * piece.quadrant for p in (a, b))
+    if s.radius < 0:  # from the end of a quadrant to its beginning
+        first, last = (cmath.phase((center - p) / axis) + math.pi / 2 * piece.quadrant for p in (b, a))
     return Contact(center, 0, float(s.radius), first, last)
 
 
@@ -303,7 +355,8 @@ def _contacts(robot: Sequence[Corner], obstacles: Sequence[Corner], turned: comp
                 if all(_dot(p - b.place, n) < eps for p in (b.before, b.after)):
                     start = b.place - begin + (a.width + b.radius) * n
                     yield Contact(start, edge / abs(edge), 0, 0, abs(edge), (begin, b.place))
-            if a.is_convex and b.is_convex and rho > 0:
+            is_inside = (a.is_convex and b.is_hollow) or (a.is_hollow and b.is_convex)
+            if (a.is_convex and b.is_convex and rho > 0) or (is_inside and rho < 0):
                 yield from _arcs(place, (before, after), b, rho, eps)
 
 
@@ -329,11 +382,11 @@ def _parts(contact: Contact, pillars: Sequence[AnyPillar], size: float) -> Itera
     """Middles of the parts of a contact, each FREE, COVERED or OPEN; short parts are left out."""
     ends = np.array([contact.first, contact.last])
     box = contact.points(np.linspace(contact.first, contact.last, 9))
-    middle, reach = complex(box.mean()), float(np.abs(box - box.mean()).max()) + contact.radius
+    middle, reach = complex(box.mean()), float(np.abs(box - box.mean()).max()) + abs(contact.radius)
     near = [p for p in pillars if p.room(np.array([middle]))[0] < reach + SURE * size]
     cuts = np.concatenate([ends, *(_cuts(contact, pillar) for pillar in near)])
     cuts = np.unique(cuts[(cuts >= contact.first) & (cuts <= contact.last)])
-    length = np.diff(cuts) * (1 if contact.along else contact.radius)
+    length = np.diff(cuts) * (1 if contact.along else abs(contact.radius))
     (long,) = np.nonzero(length > LEAST * size)
     if not len(long):
         return

@@ -4,8 +4,9 @@ With rho = r + s, C = b - R a, and V an edge F of an obstacle or -R G of the rob
 
     V x (x - C) + rho |V| = 0    (a vertex on an edge),        |x - C| = rho    (two vertices).
 
-On a line x = C + t V - rho J V / |V|, on a circle x = C + rho u. Curves are quotients of forms a + b cos + c sin,
-and of square roots of such.
+On a line x = C + t V - rho J V / |V|, on a circle x = C + rho u. There rho is negative if one vertex is the center of a
+concave arc: the position is opposite to the direction u, and free inside of the circle. Curves are quotients of forms
+a + b cos + c sin, and of square roots of such.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ class Surface:
         Vertices, or the beginning of an edge.
     edge : moving vector, optional
     radius : Number
-        The sum of both radii.
+        The sum of both radii; that of a concave arc is negative, and so may be the sum.
     ends : pairs of a moving unit vector and a sign
         Of a contact of arcs: directions from the obstacle to the robot are on the left (1) or right (-1) of each.
     """
@@ -202,10 +203,10 @@ class Forms:
     def touching(self, x: Surface, y: Surface, side: int) -> Trig:
         """Zero where a line touches a circle or a line's C grown, on one side, or two circles touch."""
         if x.edge is not None:
-            return self.offset(x, y).plus(self.ring.number(side * y.radius) * self.length(x))
+            return self.offset(x, y).plus(self.ring.number(side * abs(y.radius)) * self.length(x))
         if y.edge is not None:
             return self.touching(y, x, side)
-        return self.apart(x, y).plus(-self.ring.number((x.radius + side * y.radius) ** 2))
+        return self.apart(x, y).plus(-self.ring.number((abs(x.radius) + side * abs(y.radius)) ** 2))
 
     def joint(self, line: Surface, circle: Surface, on: Surface) -> Trig:
         """Zero where the joint of a line and a circle is on a third surface; inside it is positive on a line."""

@@ -17,8 +17,12 @@ from cfree.exact.vectors import cross, minus
 from cfree.polygons.polygon import Polygon
 from cfree.scene.rounded import CoreArc, Cores, Rounded
 from cfree.scene.scene import Scene
+from cfree.verify.arcs import Part as LinePart
+from cfree.verify.arcs import Region, Spot, crossings, exact
 from cfree.verify.polygons import frame, rectangle, rings_of, tile
 from cfree.verify.round_algebra import Ball, Turn
+from cfree.verify.round_inside import rim_parts
+from cfree.verify.surds import surd_sign
 
 Place = tuple[Ball, Ball]
 Complexes = NDArray[np.complex128]
@@ -80,6 +84,28 @@ class Part:
 
 
 @dataclass(frozen=True)
+class Fillet:
+    """The triangle of a concave arc's ends and a point beyond it, less the arc's disc; of a shape grown by a radius."""
+
+    arc: CoreArc
+    grown: Fraction
+
+    @cached_property
+    def points(self) -> tuple[ExactPoint, ...]:
+        """Center, end, point beyond and start of the arc, counter-clockwise."""
+        assert self.arc.beyond is not None
+        return self.arc.center, self.arc.end, self.arc.beyond[1], self.arc.start
+
+    @cached_property
+    def rough(self) -> Complexes:
+        return np.array([complex(*p) for p in self.points])
+
+    def room(self, radius: Fraction) -> Fraction:
+        """Distance from the center within which a disc is in that of the arc."""
+        return self.arc.radius - self.grown - radius
+
+
+@dataclass(frozen=True)
 class Corner:
     """A vertex of a rim between places on its two tangents, the interior on the left; a point has itself as neighbours.
 
@@ -87,6 +113,8 @@ class Corner:
     ----------
     radius : float
     is_convex : bool
+    is_hollow : bool
+        True for the center of a concave arc, whose radius is negative.
     start, along, width : complex, complex, float
         The edge that begins here, and by how much it is grown; `along` is 0 if there is none.
     """
@@ -99,6 +127,7 @@ class Corner:
     start: complex
     along: complex
     width: float
+    is_hollow: bool = False
 
 
 class RoundWorld:
@@ -109,19 +138,24 @@ class RoundWorld:
     layers : list of pairs of lists of Part
         The robot's pieces and those of obstacles.
     corners : list of pairs of lists of Corner
+    fillets : pair of lists of Fillet
+        Those of the robot and of obstacles; they are beside the pieces.
     untiled : list of str
-        Shapes whose pieces are not convex, or do not tile them.
+        Shapes whose pieces are not convex, or do not tile them, or whose fillets are not beside these in the shape.
     """
 
     def __init__(self, scene: Scene, cores: Cores) -> None:
         self.untiled: list[str] = []
+        self.fillets: tuple[list[Fillet], list[Fillet]] = ([], [])
         robot, obstacles = list[Part](), list[Part]()
         robot_corners, obstacle_corners = list[Corner](), list[Corner]()
         for k, shape in enumerate(cores.robot):
             robot += self._pieces(shape, f"robot[{k}]")
+            self.fillets[0].extend(_fillets_of(shape))
             robot_corners += _corners_of(shape)
         for k, shape in enumerate(cores.obstacles):
             obstacles += self._pieces(shape, f"obstacle {k}")
+            self.fillets[1].extend(_fillets_of(shape))
             obstacle_corners += _corners_of(shape)
         reach = max(abs(c) for part in robot for p in part.points for c in p)
         far = reach + max((abs(c) for part in obstacles for p in part.points for c in p), default=Fraction(0))
@@ -153,12 +187,23 @@ class RoundWorld:
         scale = core.denominator
         vertices = [(x, y) for x, y in core.numerators]
         pieces = [[vertices[k] for k in piece] for piece in core.pieces]
-        if not tile(pieces, rings_of(core, scale)):
+        if not tile(pieces, rings_of(core, scale)) or not _has_fillets_inside(shape):
             self.untiled.append(name)
         for piece in pieces:
             yield Part(tuple((Fraction(x, scale), Fraction(y, scale)) for x, y in piece), radius)
         for arc in shape.arcs:
-            yield Part((arc.end, arc.start), radius, arc)
+            if arc.is_convex:
+                yield Part((arc.end, arc.start), radius, arc)
+
+    @cached_property
+    def fillet_pairs(self) -> list[FilletPair]:
+        """Fillets of one side with the vertices of the pieces of the other one that are small enough for them."""
+        pairs = []
+        for own, parts in ((0, self.layers[0][1]), (1, self.layers[0][0])):
+            vertices = {(p, part.radius) for part in parts for p in part.points}
+            for fillet in self.fillets[own]:
+                pairs += [FilletPair(fillet, own == 0, *v) for v in sorted(vertices) if fillet.room(v[1]) > 0]
+        return pairs
 
     @property
     def size(self) -> float:
@@ -167,12 +212,93 @@ class RoundWorld:
         return max(1e-300, *(float((np.abs(part.rough) + part.radii).max()) for part in parts))
 
 
+@dataclass(frozen=True)
+class FilletPair:
+    """A fillet of the robot, or of an obstacle, and a disc about a vertex of the other one's pieces.
+
+    They overlap if the vertex is in the fillet's quadrangle, farther from its center than the room there. Conversely,
+    one of these pairs overlaps if shapes do, none of whose pieces do. docs/theory/rounded-shapes.md has the proof.
+    """
+
+    fillet: Fillet
+    is_of_robot: bool
+    vertex: ExactPoint
+    radius: Fraction
+
+    def overlaps(self, turn: Turn, place: Place, near: arb) -> bool:
+        """True if the two overlap by more than `near` where the robot is at a place."""
+        x, y = map(_ball, self.vertex)
+        if self.is_of_robot:
+            x, y = x - place[0], y - place[1]
+            x, y = turn.cos * x + turn.sin * y, turn.cos * y - turn.sin * x
+        else:
+            x, y = turn.cos * x - turn.sin * y + place[0], turn.sin * x + turn.cos * y + place[1]
+        points = [(_ball(p), _ball(q)) for p, q in self.fillet.points]
+        (p, q), room = points[0], _ball(self.fillet.room(self.radius))
+        if not ((x - p) ** 2 + (y - q) ** 2).sqrt() > room + near:
+            return False
+        sides = zip(points, points[1:] + points[:1], strict=True)
+        return all(
+            (c - a) * (y - b) - (d - b) * (x - a) > near * ((c - a) ** 2 + (d - b) ** 2).sqrt()
+            for (a, b), (c, d) in sides
+        )
+
+
+def _fillets_of(shape: Rounded) -> Iterator[Fillet]:
+    return (Fillet(arc, shape.radius) for arc in shape.arcs if not arc.is_convex and arc.radius > shape.radius)
+
+
+def _has_fillets_inside(shape: Rounded) -> bool:
+    """True if the fillets of a core are in its shape, and each is all that the polygon leaves out there.
+
+    The two lines from an arc's ends to the point beyond it meet the rim at these ends only, and that point is in the
+    shape. So the fillet, which they bound with the arc, has no rim inside if no ring begins there.
+    """
+    rings = [*rim_parts(shape)]
+    region = Region(tuple(map(tuple, rings)))
+    for arc in shape.arcs:
+        if arc.beyond is None:
+            continue
+        first, last = exact(arc.start), exact(arc.end)
+        inner, outer = map(exact, arc.beyond)
+        if not _is_within((first, outer, last), inner) or not region.holds(Spot.of(outer)):
+            return False
+        for leg in (LinePart(first, outer), LinePart(outer, last)):
+            for part in region.parts:
+                if leg.runs_along(part):
+                    ends = (Spot.of(p) for p in (part.p, part.q) if p not in (first, last))
+                    if any(leg.holds(end) for end in ends):
+                        return False
+                elif any(not _is_at(spot, (first, last)) for spot in crossings(leg, part)):
+                    return False
+        corners = {part.p for part in region.parts} - {first, last}
+        if any(_is_within((first, outer, last), p) for p in corners):
+            return False
+    return True
+
+
+def _is_at(spot: Spot, points: Sequence[Any]) -> bool:
+    return any(surd_sign(spot.square_from(p)) == 0 for p in points)
+
+
+def _is_within(ring: Sequence[Any], point: Any) -> bool:
+    """True if a point is strictly inside a triangle, in any direction."""
+    signs = set()
+    for k, p in enumerate(ring):
+        q = ring[k - 1]
+        turn = (p[0] - q[0]) * (point[1] - q[1]) - (p[1] - q[1]) * (point[0] - q[0])
+        signs.add(1 if turn > 0 else -1 if turn < 0 else 0)
+    return signs in ({1}, {-1})
+
+
 def _corners_of(shape: Rounded) -> Iterator[Corner]:
     return _corners_with_arcs(shape) if shape.arcs else _corners(shape.core, float(shape.radius))
 
 
-def _left(u: ExactPoint) -> ExactPoint:
-    return -u[1], u[0]
+def _tangent(arc: CoreArc, p: ExactPoint) -> ExactPoint:
+    """Return the direction of an arc at one of its points."""
+    x, y = minus(p, arc.center)
+    return (-y, x) if arc.is_convex else (y, -x)
 
 
 def _ball(x: Fraction) -> arb:
@@ -198,20 +324,26 @@ def _corners_with_arcs(shape: Rounded) -> Iterator[Corner]:
     """Yield corners, and centers of arcs; where an arc is smooth with its neighbour the corner only has the edge."""
     assert isinstance(shape.core, Polygon)
     arcs, width = {(arc.start, arc.end): arc for arc in shape.arcs}, float(shape.radius)
-    for ring in shape.core.exact_rings:
+    beyond = {arc.beyond[0] for arc in shape.arcs if arc.beyond}
+    for points in shape.core.exact_rings:
+        ring = [p for p in points if p not in beyond]
         for before, p, after in zip([ring[-1], *ring[:-1]], ring, [*ring[1:], ring[0]], strict=True):
             one, other = arcs.get((before, p)), arcs.get((p, after))
-            into = _left(minus(p, one.center)) if one else minus(p, before)
-            out = _left(minus(p, other.center)) if other else minus(after, p)
+            into = _tangent(one, p) if one else minus(p, before)
+            out = _tangent(other, p) if other else minus(after, p)
             place = complex(*p)
             along = 0 if other else complex(*out)
             is_convex = cross(into, out) > 0
             yield Corner(place - complex(*into), place, place + complex(*out), width, is_convex, place, along, width)
             if other:
-                center = complex(*other.center)
+                center, is_convex = complex(*other.center), other.is_convex
                 first, last = place - center, complex(*after) - center
-                radius = float(other.radius) + width
-                yield Corner(center - 1j * first, center, center + 1j * last, radius, True, center, 0, width)
+                if not is_convex:  # normals to the center, that of the end first
+                    first, last = -last, -first
+                radius = width + float(other.signed_radius)
+                yield Corner(
+                    center - 1j * first, center, center + 1j * last, radius, is_convex, center, 0, width, not is_convex
+                )
 
 
 def is_apart(robot: Part, obstacle: Part, turn: Turn, place: Place, near: arb) -> bool:

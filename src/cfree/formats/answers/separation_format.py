@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 from fractions import Fraction
+from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -107,22 +108,24 @@ class AuxiliaryModel(Strict):
 
 
 class ArcModel(Strict):
-    """A convex arc in place of a side of a core."""
+    """An arc in place of a side of a core; a concave one has two points beyond it, the first a vertex of the core."""
 
     start: Point
     end: Point
     center: Point
     radius: Coordinate
+    beyond: tuple[Point, Point] | None = None
 
     @model_validator(mode="after")
     def _fits(self) -> ArcModel:
         if not is_arc(self.result):
-            raise Fault("expected an arc of a radius above 0, counter-clockwise, at most a quarter circle, got {got}")
+            way = 'clockwise, as it has "beyond"' if self.beyond else "counter-clockwise"
+            raise Fault(f"expected an arc of a radius above 0, {way}, at most a quarter circle, got {{got}}")
         return self
 
     @property
     def result(self) -> CoreArc:
-        return CoreArc(self.start, self.end, self.center, self.radius)
+        return CoreArc(self.start, self.end, self.center, self.radius, self.beyond)
 
 
 class RoundedModel(Strict):
@@ -142,8 +145,9 @@ class RoundedModel(Strict):
             raise Fault("expected a radius of 0 or more, got {got}")
         rings = [] if self.outer is None else [self.outer, *self.holes]
         sides = {side for ring in rings for side in zip(ring, [*ring[1:], *ring[:1]], strict=True)}
-        if any((arc.start, arc.end) not in sides for arc in self.arcs):
-            raise Fault("expected arcs from each a vertex to the next one, got {got}")
+        places = [(arc.start, *(arc.beyond or ())[:1], arc.end) for arc in self.arcs]
+        if not all(set(pairwise(points)) <= sides for points in places):
+            raise Fault('expected arcs from each a vertex to the next one, past that of "beyond", got {got}')
         return self
 
     @property
@@ -157,6 +161,12 @@ class CoresModel(Strict):
 
     robot: Annotated[list[RoundedModel], Field(min_length=1)]
     obstacles: list[RoundedModel]
+
+    @model_validator(mode="after")
+    def _fits(self) -> CoresModel:
+        if self.result.is_refused:
+            raise Fault("concave arcs that meet convex ones of no discs, or channels that a disc fills; got {got}")
+        return self
 
     @property
     def result(self) -> Cores:

@@ -137,7 +137,8 @@ def _parts(code: int) -> list[int]:
 
 def _arc_record(arc: CoreArc) -> dict[str, Any]:
     places = {"start": arc.start, "end": arc.end, "center": arc.center}
-    return {name: [*map(str, place)] for name, place in places.items()} | {"radius": str(arc.radius)}
+    record: dict[str, Any] = {name: [*map(str, place)] for name, place in places.items()} | {"radius": str(arc.radius)}
+    return record | ({"beyond": [[*map(str, place)] for place in arc.beyond]} if arc.beyond else {})
 
 
 def _rounded_record(shape: Rounded) -> dict[str, Any]:
