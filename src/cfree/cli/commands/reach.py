@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cfree.vehicles.vehicle import Vehicle
 
 KINDS = ("straight", "turn", "corner", "junction", "bay", "door")
+EXACT = 1e-12  # share of a width: ends that are no farther apart are one number, rounded outwards
 
 
 @click.command(cls=drawing.Command, epilog=examples(
@@ -256,8 +257,10 @@ def read_machine(text: str) -> Any:
 
 
 def _width(width: Interval) -> str:
+    if width.hi - width.lo <= EXACT * width.hi:
+        return f"more than {width.hi:.5g}"
     low, high = ends(width.lo, width.hi, 5)
-    return f"more than {high}" if width.lo == width.hi else f"{low} is too narrow, {high} will do"
+    return f"{low} is too narrow, {high} will do"
 
 
 def _driven(scene: Scene, vehicle: Vehicle | Any | None) -> Scene:
