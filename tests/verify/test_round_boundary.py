@@ -50,19 +50,12 @@ def test_boundaries_of_random_rounded_scenes_are_verified(seed: int) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(2, 12))
-def test_boundaries_of_random_shapes_with_arcs_are_verified(seed: int) -> None:
-    """One robot, or two parts of different radii, among shapes some of whose sides are arcs."""
-    scene = random_arcs(seed)
-    result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
-    assert result.verified, result
-    assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(20))
-def test_boundaries_of_random_shapes_with_concave_arcs_are_verified(seed: int) -> None:
-    scene = random_concave(seed)
+@pytest.mark.parametrize(
+    ("make", "seed"), [*((random_arcs, k) for k in range(2, 12)), *((random_concave, k) for k in range(20))]
+)
+def test_boundaries_of_random_shapes_with_arcs_are_verified(make: Callable[[int], Scene], seed: int) -> None:
+    """Convex arcs, of a robot of one part or two, and concave ones."""
+    scene = make(seed)
     result = cfree.verify.boundary(boundary(scene), scene, slices=4, seed=seed)
     assert result.verified, result
     assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED

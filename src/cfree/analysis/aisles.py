@@ -20,6 +20,7 @@ from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import free_space
+from cfree.polygons.hull import convex_hull
 from cfree.scene.scene import Scene, polygons_for, robot_radius, size_of
 from cfree.vehicles.vehicle import Vehicle
 
@@ -202,26 +203,10 @@ def least_width(scene: Scene) -> float:
 
 def _least_width(points: list[ExactPoint]) -> Fraction:
     """Return the square of the least width of a convex hull: it is across one of the hull's edges."""
-    hull = _hull(points)
+    hull = convex_hull(points)
     widths = []
     for (x, y), (u, v) in pairwise([*hull, hull[0]]):
         dx, dy = u - x, v - y
         most = max(dx * (q - y) - dy * (p - x) for p, q in hull)
         widths.append(most * most / (dx * dx + dy * dy))
     return min(widths)
-
-
-def _hull(points: list[ExactPoint]) -> list[ExactPoint]:
-    """Return the convex hull, counter-clockwise, by Andrew's monotone chain."""
-    halves: list[list[ExactPoint]] = []
-    for order in (sorted(set(points)), sorted(set(points), reverse=True)):
-        chain: list[ExactPoint] = []
-        for x, y in order:
-            while len(chain) > 1:
-                (a, b), (c, d) = chain[-2:]
-                if (c - a) * (y - b) - (d - b) * (x - a) > 0:
-                    break
-                chain.pop()
-            chain.append((x, y))
-        halves.append(chain[:-1])
-    return halves[0] + halves[1]

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Protocol
 
 from cfree.curves.curved import Curved
-from cfree.curves.drawn import turn
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
 from cfree.exact.orientation import Location, locate
+from cfree.polygons.hull import convex_hull
 from cfree.polygons.polygon import Polygon
 from cfree.scene.reading import Effect, Kind, Note
 from cfree.scene.scene import AnyShape
@@ -80,7 +80,9 @@ def padded(source: Noting, polygon: Polygon, by: Fraction, is_disc: bool = False
     moved = [(x + by * _sign(x), y + by * _sign(y)) for x, y in ring]
     size = float(by)
     if is_disc:
-        moved = [*hull((x + u, y + v) for x, y in ring for u in (-by, by) for v in (-by, by)).exact_vertices]
+        moved = [
+            *Polygon(convex_hull((x + u, y + v) for x, y in ring for u in (-by, by) for v in (-by, by))).exact_vertices
+        ]
     try:
         larger = Polygon(moved, holes)
     except InvalidPolygonError:
@@ -94,20 +96,6 @@ def padded(source: Noting, polygon: Polygon, by: Fraction, is_disc: bool = False
     what = "padded outline, beside the drawn one: both are the robot"
     source.note("guess", what, "more", size=size)
     return [polygon, larger]
-
-
-def hull(points: Iterable[ExactPoint]) -> Polygon:
-    """Return the exact convex hull of points."""
-    ordered = sorted(set(points))
-    halves = []
-    for row in (ordered, ordered[::-1]):
-        hull: list[Any] = []
-        for p in row:
-            while len(hull) > 1 and turn(hull[-2], hull[-1], p) <= 0:
-                hull.pop()
-            hull.append(p)
-        halves.append(hull[:-1])
-    return Polygon(halves[0] + halves[1])
 
 
 def contains(outer: Polygon, inner: Polygon) -> bool:

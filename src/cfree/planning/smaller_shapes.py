@@ -7,13 +7,14 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import chain
 
+from cfree.curves.pieces import power_of_two
 from cfree.exact.number import ExactPoint
 from cfree.exact.vectors import cross, dot, minus
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.rounded import CoreArc, Rounded
 
-PLACE_BITS = 10  # of a center of scaling, in the core's size
+PLACE_BITS = 11  # of a center of scaling, in the core's size
 FLAT = 1e-9  # share of a core's size that a kernel has at least
 
 
@@ -57,13 +58,8 @@ def _without_disc(shape: Rounded, by: Fraction, center: ExactPoint | None) -> Ro
     if shape.arcs:
         return None
     x0, y0, x1, y1 = map(Fraction, shape.core.bounds)
-    parts = inset(shape.core, by * _power(max(x1 - x0, y1 - y0)))
+    parts = inset(shape.core, by * power_of_two(max(x1 - x0, y1 - y0)) / 2)
     return Rounded(parts[0], Fraction(0)) if len(parts) == 1 else None
-
-
-def _power(size: Fraction) -> Fraction:
-    """Return a power of two that is not much less than a number."""
-    return Fraction(2) ** (size.numerator.bit_length() - size.denominator.bit_length() - 1)
 
 
 def _scaled(shape: Rounded, center: ExactPoint, factor: Fraction) -> Rounded:
@@ -99,7 +95,7 @@ def center_of_view(shapes: Sequence[Rounded]) -> ExactPoint | None:
         if not kernel:
             return None
     middle = sum(kernel) / len(kernel)
-    unit = _power(Fraction(size)) / 2**PLACE_BITS
+    unit = power_of_two(Fraction(size)) / 2**PLACE_BITS
     if min(abs(p - middle) for p in kernel) < FLAT * size:
         return None
     center = round(Fraction(middle.real) / unit) * unit, round(Fraction(middle.imag) / unit) * unit

@@ -32,13 +32,13 @@ from cfree.curves.drawn import (
     decimal,
     ends,
     points_along,
-    turn,
 )
 from cfree.curves.hulls import box_of
 from cfree.exact.number import ExactPoint, rational_root
 from cfree.formats.drawings.content import Curve
 from cfree.formats.drawings.source import CURVE_SHARE, Source
 from cfree.polygons.disc import around_disc
+from cfree.polygons.hull import convex_hull
 from cfree.polygons.polygon import Polygon
 
 Width = float | Fraction
@@ -239,7 +239,7 @@ class _Stroke:
         points: list[ExactPoint] = []
         for end, (p, h) in enumerate(zip((line.start, line.end), half, strict=True)):
             points += self.around_end(k, end, p, unit, h, margin)
-        return Polygon(_hull(points))
+        return Polygon(convex_hull(points))
 
     def around_end(
         self, k: int, end: int, p: ExactPoint, unit: ExactPoint, h: Fraction, margin: float
@@ -275,7 +275,7 @@ class _Stroke:
             rays.append(((first + last) / 2, out / far, 0.0))
             if into < 0:  # beyond the center
                 rays.append(((first + last) / 2, into / far, 0.0))
-            yield Polygon(_hull([_rounded(_on(arc, *ray), margin / 4) for ray in rays]))
+            yield Polygon(convex_hull([_rounded(_on(arc, *ray), margin / 4) for ray in rays]))
         for end in (0, 1):
             if not arc.closed and self.end(k, end) != "butt":
                 p = _rounded((arc.at(arc.first), arc.at(arc.last))[end], margin / 4)
@@ -283,7 +283,7 @@ class _Stroke:
                 points = self.around_end(k, end, p, (x, y), Fraction(half), 2 * margin)
                 back, wide = (1 - 2 * end) * 2 * Fraction(margin), Fraction(half) + 2 * Fraction(margin)
                 points += [_moved(p, (x, y), back, side * wide, _grid(margin)) for side in (-1, 1)]
-                yield Polygon(_hull(points))
+                yield Polygon(convex_hull(points))
 
     def around_chords(self, segment: Segment, half: tuple[Fraction, Fraction]) -> Iterator[Polygon]:
         """Yield polygons around chords of a curve, with round ends."""
@@ -294,7 +294,7 @@ class _Stroke:
         for j, (a, b) in enumerate(pairwise(points)):
             h = [half[0] + (half[1] - half[0]) * Fraction(i, len(points) - 1) for i in (j, j + 1)]
             ring = [q for p, w in zip((a, b), h, strict=True) for q in self.disc(_rounded(p, step / 8), w + extra)]
-            yield Polygon(_hull(ring))
+            yield Polygon(convex_hull(ring))
 
     def disc(self, p: ExactPoint, h: Fraction) -> list[ExactPoint]:
         """Return the corners of a polygon around a disc."""
@@ -355,19 +355,6 @@ def _grid(step: float) -> Fraction:
 def _rounded(p: Vector, step: float) -> ExactPoint:
     grid = _grid(step)
     return round(Fraction(p[0]) / grid) * grid, round(Fraction(p[1]) / grid) * grid
-
-
-def _hull(points: Sequence[ExactPoint]) -> list[ExactPoint]:
-    """Return the convex hull, counter-clockwise."""
-    ordered, ring = sorted(set(points)), list[ExactPoint]()
-    for row in (ordered, ordered[::-1]):
-        half: list[ExactPoint] = []
-        for p in row:
-            while len(half) > 1 and turn(half[-2], half[-1], p) <= 0:
-                half.pop()
-            half.append(p)
-        ring += half[:-1]
-    return ring
 
 
 def _on(arc: Arc, t: float, share: float, beside: float) -> Vector:

@@ -21,8 +21,10 @@ from cfree.formats.drawings.nav2 import ROBOT_FRAME
 from cfree.formats.drawings.source import CURVE_SHARE, Source, shapes_of
 from cfree.formats.drawings.strokes import sides_around
 from cfree.formats.drawings.xml_tree import Node, read_tree
-from cfree.formats.padding import hull, padded
+from cfree.formats.padding import padded
 from cfree.formats.shapes import IGNORE, Shape, Shapes
+from cfree.polygons.hull import convex_hull
+from cfree.polygons.polygon import Polygon
 
 Matrix = NDArray[np.float64]
 _SAFE = 1 + 1e-9  # scale of polygons around circles, far above rounding errors of doubles
@@ -48,7 +50,7 @@ def read_urdf(source: Source) -> Shapes:
         source.spend(sides)
         points = _corners(solid, sides)
         try:
-            outline = hull(point_of(*map(float, p)) for p in points)
+            outline = Polygon(convex_hull(point_of(*map(float, p)) for p in points))
         except (InvalidPolygonError, ValueError):
             source.note("lost", "shape without an area from above", "less", where=name)
         else:
