@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 import compared_with_cgal
@@ -11,6 +9,6 @@ import compared_with_cgal
 
 @pytest.mark.slow
 @pytest.mark.skipif(compared_with_cgal.compiler() is None, reason="no compiler that finds CGAL and GMP")
-def test_poses_at_rational_orientations_agree_with_cgal(tmp_path: Path) -> None:
-    counts = compared_with_cgal.compared(compared_with_cgal.compiled(tmp_path), count=40)
+def test_poses_at_rational_orientations_agree_with_cgal() -> None:
+    counts = compared_with_cgal.compared(compared_with_cgal.compiled(), count=40)
     assert min(counts["free"], counts["forbidden"]) > 150, counts

@@ -5,7 +5,6 @@ from __future__ import annotations
 import random
 import subprocess
 from itertools import combinations
-from pathlib import Path
 
 import pytest
 
@@ -22,8 +21,8 @@ def pairs(nesting: Nesting) -> list[str]:
 
 @pytest.mark.slow
 @pytest.mark.skipif(compared_with_cgal.compiler() is None, reason="no compiler that finds CGAL and GMP")
-def test_layouts_of_round_parts_do_not_overlap_by_cgal(tmp_path: Path) -> None:
-    program = compared_with_cgal.compiled(tmp_path)
+def test_layouts_of_round_parts_do_not_overlap_by_cgal() -> None:
+    program = compared_with_cgal.compiled()
     texts: list[str] = []
     for seed in range(4):
         r = random.Random(f"layout by cgal {seed}")
@@ -37,9 +36,9 @@ def test_layouts_of_round_parts_do_not_overlap_by_cgal(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(compared_with_cgal.compiler() is None, reason="no compiler that finds CGAL and GMP")
-def test_the_program_tells_overlaps(tmp_path: Path) -> None:
+def test_the_program_tells_overlaps() -> None:
     """The same program finds two copies of a part in one place."""
-    program = compared_with_cgal.compiled(tmp_path)
+    program = compared_with_cgal.compiled()
     part = Part(OWN_KINDS[0](random.Random(0)), "part")
     rings = text_of(rings_of(part.shapes[0]))
     done = subprocess.run([program], input=f"{rings}\n{rings}", capture_output=True, text=True, check=True)

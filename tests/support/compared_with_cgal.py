@@ -8,6 +8,7 @@ Half of the poses are exact contacts of two arcs, vertices or edges, or a little
 from __future__ import annotations
 
 import argparse
+import hashlib
 import math
 import random
 import shutil
@@ -44,12 +45,17 @@ def compiler() -> str | None:
     return program if found.returncode == 0 else None
 
 
-def compiled(folder: Path) -> Path:
-    """Compile the program that compares regions; it takes a minute."""
-    program, target = compiler(), folder / "round_overlaps"
+def compiled() -> Path:
+    """Compile the program that compares regions; it takes a minute, so that it is kept beside the other builds."""
+    program, folder = compiler(), Path(__file__).parents[2] / "build"
     assert program is not None, "no compiler that finds CGAL"
-    options = ["-std=c++17", "-O1", "-DNDEBUG", "-w"]
-    subprocess.run([program, *options, str(SOURCE), "-o", str(target), "-lgmp", "-lmpfr"], check=True)
+    target = folder / f"round_overlaps-{hashlib.sha256(SOURCE.read_bytes()).hexdigest()[:12]}"
+    if not target.exists():
+        folder.mkdir(exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=folder, delete=False) as unfinished:
+            options = ["-std=c++17", "-O1", "-DNDEBUG", "-w"]
+            subprocess.run([program, *options, str(SOURCE), "-o", unfinished.name, "-lgmp", "-lmpfr"], check=True)
+        Path(unfinished.name).replace(target)
     return target
 
 
@@ -179,8 +185,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=200, help="scenes")
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        print(dict(compared(compiled(Path(folder)), options.count, options.seed)))
+    print(dict(compared(compiled(), options.count, options.seed)))
 
 
 if __name__ == "__main__":

@@ -42,7 +42,11 @@ class Tried:
         self.page.set_input_files("#file", {"name": name, "mimeType": "application/json", "buffer": text.encode()})
 
     def say(self, which: str, text: str) -> None:
-        self.page.locator(which).filter(has_text=text).wait_for(timeout=30_000)
+        """Wait until an element has this text; else raise an error with the text that it has."""
+        try:
+            self.page.locator(which).filter(has_text=text).wait_for(timeout=30_000)
+        except Exception as fault:
+            raise AssertionError(f"{which}: {self.page.locator(which).all_inner_texts()}, not {text!r}") from fault
 
     def drag(self, who: str, dx: float, dy: float) -> None:
         """Drag the point of the robot, or of a ghost, by pixels."""

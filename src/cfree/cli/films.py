@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cfree.cli.files import answer_for, bar, computed, read_source
+from cfree.cli.files import answer_for, bar, computed, read_source, without_curves
 
 if TYPE_CHECKING:
     from cfree.film import Storyboard
@@ -71,33 +71,30 @@ def film_answer(
     from cfree.paths.path import Path as Motions
     from cfree.planning.goals import AllSeparated
     from cfree.planning.separation import Separated
-    from cfree.plot.looks import own
-    from cfree.scene.smooth import smooth
+    from cfree.scene.scene import Scene
 
     check_frames(fps, size)
     data = read_source(source, "all")
     scene = data.scene if isinstance(data, Boundary) else data
     answer = answer_for(scene, file)
-    if scene.curved:  # a proof contains the polygons it was computed with
-        if answer.scene is None and not isinstance(answer, Motions):
-            raise ValueError(f"{file}: no polygons for the round shapes of the scene; plan anew")
-        data = answer.scene or smooth(scene)
-        answer = own(answer, scene) if isinstance(answer, Motions) else answer
     if isinstance(answer, Motions):
+        data = without_curves(data, source, keep_rounded=True) if isinstance(data, Scene) else data
         moving = None if seconds is None else round(seconds - sum(REST), 9)
         if moving is not None and moving <= 0:
             raise ValueError(f"--seconds: {seconds:g}; give more than {sum(REST):g}, for which the robot rests")
         boundary = computed(data, None)
         with bar("film") as progress:
-            film_path(
-                answer, boundary.scene, output, boundary=boundary, seconds=moving, fps=fps, size=size, progress=progress
-            )
+            film_path(answer, scene, output, boundary=boundary, seconds=moving, fps=fps, size=size, progress=progress)
         return {"answer": "a path", "size": "x".join(map(str, size))}
     shown = answer.proofs[0] if isinstance(answer, AllSeparated) else answer
     if not isinstance(shown, Separated):
         raise ValueError(f"{file}: a proof about a vehicle has no surface to film; leave the answer out")
     seconds = length_of("separation", output) if seconds is None else seconds
     check_options(1, seconds, fps, size)
+    if scene.curved:  # a proof contains the polygons it was computed with
+        if answer.scene is None:
+            raise ValueError(f"{file}: no polygons for the round shapes of the scene; plan anew")
+        data = answer.scene
     boundary = computed(data, None)
     with bar("film") as progress:
         film_separation(shown, boundary, output, seconds=seconds, fps=fps, size=size, progress=progress)

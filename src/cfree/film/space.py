@@ -26,6 +26,7 @@ from cfree.palette import FORBIDDEN, FRAME, FREE, INK, MARK, RIM
 from cfree.plot.depth_sort import paint
 from cfree.plot.pieces import CURVE, OVER, SURFACE, Detail, Pieces, joined, of_line, patches_of
 from cfree.plot.workspace import Window, path_of, rings_of_geometry
+from cfree.scene.smooth import smooth
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -72,7 +73,7 @@ class Space:
         self.angles = _angles(pieces)
         self.obstacles = [
             ring
-            for obstacle in boundary.scene.obstacles
+            for obstacle in smooth(boundary.scene).obstacles
             for ring in rings_of_geometry(shapely.clip_by_rect(obstacle.to_shapely(), *window))
         ]
         self.pieces = pieces.chosen((pieces.sort == SURFACE) | ((pieces.sort == CURVE) & (pieces.owner >= 0)))
@@ -125,13 +126,14 @@ class Space:
         self.solid.set_path(_lifted(camera, solid, theta))
         self.free.set_path(_lifted(camera, [frame, *(ring[::-1] for ring in solid)], theta))
         self.level.set_path(_lifted(camera, [frame], theta))
-        kinds = self.boundary.patch_kind[cut.patches]
-        inside, segments = _within(cut.segments, self.window)
+        parts = [np.stack((line[:-1], line[1:]), axis=1) for line in cut.lines]
+        kinds = np.repeat(self.boundary.patch_kind[cut.patches], list(map(len, parts)))
+        inside, segments = _within(np.concatenate(parts or [cut.segments]), self.window)
         chosen = inside & (kinds != PatchKind.BOUND)
         ends = np.concatenate((segments, np.full((len(kinds), 2, 1), theta)), axis=2)[chosen]
         self.section.set_segments(list(camera(ends)[0]))
         self.section.set_color([COLOURS[PatchKind(kind)] for kind in kinds[chosen]])
-        self.section.set_linewidth(2.0 * min(1.0, max(0.4, math.sqrt(150 / max(1, len(kinds))))))
+        self.section.set_linewidth(2.0 * min(1.0, max(0.4, math.sqrt(150 / max(1, len(parts))))))
 
     def _draw_pieces(
         self, camera: Camera, theta: float, shown: Floats, ghost: float, lines: Sequence[tuple[str, Floats]],

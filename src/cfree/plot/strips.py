@@ -76,7 +76,7 @@ def strips(boundary: BoundaryRecord, step: float) -> Strips:
     trapezoid = np.concatenate((above, below))
     start = np.concatenate((np.maximum(first[above], 0), first[below]))
     stop = np.concatenate((last[above], np.minimum(last[below], 0)))
-    chords = np.where(boundary.patch_kind[table.patch[trapezoid]] == PatchKind.ARC_ARC, CHORDS, 1)
+    chords = _chords(boundary)[trapezoid]
     chord = np.arange(int(chords.sum())) - np.repeat(np.cumsum(chords) - chords, chords)
     trapezoid, start, stop, chords = (np.repeat(x, chords) for x in (trapezoid, start, stop, chords))
     turn = np.where(start < 0, math.tau, 0.0)
@@ -105,6 +105,11 @@ def strips(boundary: BoundaryRecord, step: float) -> Strips:
 
 
 def step_for(boundary: BoundaryRecord, rows: int, limits: tuple[float, float]) -> float:
-    """Return the step, in radians within limits, that makes about `rows` rows besides one for each trapezoid."""
-    heights = float((boundary.trapezoids.theta_to - boundary.trapezoids.theta_from).sum())
-    return min(max(heights / rows, limits[0]), limits[1])
+    """Return the step, in radians within limits, that makes about `rows` rows besides one for each part."""
+    heights = boundary.trapezoids.theta_to - boundary.trapezoids.theta_from
+    return min(max(float(heights @ _chords(boundary)) / rows, limits[0]), limits[1])
+
+
+def _chords(boundary: BoundaryRecord) -> Ints:
+    """Return the number of straight parts of each trapezoid."""
+    return np.where(boundary.patch_kind[boundary.trapezoids.patch] == PatchKind.ARC_ARC, CHORDS, 1)

@@ -224,7 +224,7 @@ class Walk:
             if other.dxftype() not in PAINT:
                 self.lose(other, f"{other.dxftype()} that cannot be placed: {reason}", layer, inner)
 
-        for copy in entity.multi_insert() if entity.mcount > 1 else (entity,):
+        for copy in _copies(entity):
             self.all(copy.virtual_entities(skipped_entity_callback=skipped), inner)
 
     # content
@@ -422,6 +422,17 @@ COARSEST = 1e-5
 def _value(entity: Any, name: str, default: Any) -> Any:
     """Return an attribute of an entity of any type, also of those that ezdxf does not load."""
     return entity.dxf.get(name, default) if entity.dxf.is_supported(name) else default
+
+
+def _copies(insert: Any) -> Iterable[Any]:
+    """Return the references of an array, or the one reference itself."""
+    if insert.mcount <= 1:
+        return (insert,)
+    if not insert.dxf.row_spacing:  # ezdxf goes through coincident rows one by one, however many a file asks for
+        insert.dxf.row_count = 1
+    if not insert.dxf.column_spacing:
+        insert.dxf.column_count = 1
+    return insert.multi_insert()  # type: ignore[no-any-return]
 
 
 def _is_clipped(entity: Any) -> bool:
