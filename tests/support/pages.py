@@ -62,6 +62,13 @@ class Tried:
             self.page.mouse.move(x + dx * step / 8, y + dy * step / 8)
         self.page.mouse.up()
 
+    def resting(self, *which: str) -> list[Any]:
+        """Boxes of elements, once the page has not moved them for half a second: words above them may still change."""
+        boxes = None
+        while boxes != (boxes := [self.page.locator(one).bounding_box() for one in which]):
+            self.page.wait_for_timeout(500)
+        return boxes
+
     def built(self, act: Callable[[], object]) -> None:
         """Act, and wait until another boundary is there."""
         before = int(self.page.evaluate("document.body.dataset.built"))

@@ -181,9 +181,9 @@ def test_a_proof_is_one_for_a_car(tried: Tried) -> None:
 
 def test_van_before_the_gap_is_a_proof_for_the_car(park: Tried) -> None:
     park.page.locator("#edit-shapes").click()
-    van, gap = (park.page.locator(shape).bounding_box() for shape in (".obstacle >> nth=2", ".body.goal .shape"))
+    van, gap = park.resting(".obstacle >> nth=2", ".body.goal .shape")
     dx = gap["x"] + gap["width"] / 2 - van["x"] - van["width"] / 2
-    park.built(lambda: park.pull(park.page.locator(".obstacle").nth(2), dx, gap["y"] - van["y"] - 1.1 * van["height"]))
+    park.built(lambda: park.pull(park.page.locator(".obstacle").nth(2), dx, gap["y"] - van["y"] - 1.2 * van["height"]))
     park.say("#way", "No motion, not even touching: separated by ")
     park.say("#way", "Nor can a car")
 
