@@ -319,3 +319,12 @@ def test_a_boundary_of_arcs_with_long_numbers_is_verified() -> None:
     scene = Scene(shape(RINGS["half"], "1/3", 0, by), [disc(0, 2, 1), grown(SQUARE, "1/7", 2, 1)])
     result = cfree.verify.boundary(boundary(scene), scene, slices=2)
     assert result.verified, result
+
+
+def test_deep_verification_among_round_shapes_has_degrees() -> None:
+    result = boundary(IN_BOUNDS)
+    whole, sampled = (
+        cfree.verify.boundary(result, IN_BOUNDS, slices=0, sample=k, deep=True).checks[-1] for k in (None, 3)
+    )
+    assert (whole.name, whole.how) == ("Gauss map", "MEASURED") and "half its Euler number" in whole.extent
+    assert sampled.how == "SKIPPED"

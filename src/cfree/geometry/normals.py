@@ -21,10 +21,12 @@ from cfree.arguments import checked
 from cfree.errors import UnsupportedError
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.cell_complex import CellComplex
-from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
+from cfree.forbidden.kinds import PatchKind
+from cfree.geometry.ruled import Floats, check_scale, read_ruled
 from cfree.value import Value
 
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 UPPER = 1  # number of the upper side of a trapezoid; the walls are 0 and 2
 TIE = 1e-3  # if the sum of two unit normals is shorter, the arc between them passes through `_middle`
@@ -59,7 +61,8 @@ class GaussMap(Value):
     error : (C,) float64
         Change of `degree` when the intervals of quadrature are halved: a measured error. For each coedge, the rounding
         of the greatest coordinate, in radians, is added. It is infinite if an edge is too short for doubles: its faces
-        then compute different places for the same vertex.
+        then compute different places for the same vertex. Among arcs it is also infinite if no half of the sphere
+        contains the normals at a vertex, where circles touch: their directions alone do not decide the area there.
     """
 
     faces: Floats
@@ -114,12 +117,11 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
     >>> gauss_map(result).degree.round(9) + 0.0, result.complex.euler      # both surround the circle of theta: tori
     (array([0., 0.]), array([0, 0]))
     """
-    boundary.require_polygons("gauss_map")
     w, cells = check_scale(angle_scale), boundary.complex
     sides = _Sides(boundary, cells, w)
     faces, faces_off = _core.trapezoid_curvatures(boundary._handle, w)
-    edges, edges_off, arriving = _along_edges(sides)
-    vertex, vertices = _at_vertices(sides, arriving)
+    edges, edges_off, arriving, is_sharp = _along_edges(sides)
+    vertex, vertices, is_around = _at_vertices(sides, arriving, is_sharp)
     component = np.zeros(len(vertices), np.int64)
     component[vertex] = surface = cells.component[cells.face]
 
@@ -129,7 +131,7 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
 
     degree = summed((faces, cells.component), (edges, surface), (vertices, component))
     lost = np.full(len(surface), np.spacing(float(np.abs(cells.near).max(initial=0.0))) / w)
-    lost[_is_unsettled(sides, vertex)] = np.inf
+    lost[_is_unsettled(sides, vertex) | (is_around[vertex] & boundary.scene.curved)] = np.inf
     error = summed((faces_off, cells.component), (edges_off, surface), (lost, surface))
     return GaussMap(faces, edges, vertices, degree, error)
 
@@ -145,11 +147,19 @@ class _Sides:
         self.after: Ints = np.empty(count, np.int64)
         self.after[self.before] = np.arange(count)
         self.is_curve = cells.side % 2 == 1
-        self.rows = boundary.ruled[boundary.trapezoids.patch[cells.face]].reshape(-1, 8)
-        if not (self.rows[:, 2:4] + self.rows[:, 6:8]).any(axis=-1).all():
+        self.patch = boundary.trapezoids.patch[cells.face]
+        arcs = boundary.patch_kind[self.patch] == PatchKind.ARC_ARC
+        edges = boundary.ruled[self.patch].reshape(-1, 8)[~arcs]
+        if not (edges[:, 2:4] + edges[:, 6:8]).any(axis=-1).all():
             raise UnsupportedError("gauss_map: an edge has no length in doubles beside the largest coordinates")
         self.theta, self.t, self.place = self._starts()
-        self.normal = self._normals(read_ruled(self.rows), self.t, self.theta)
+        self.normal = self._surfaces(np.arange(count)).normal(self.t, self.theta, w)
+
+    def _surfaces(self, h: Ints, *, near: bool = False) -> _Surfaces:
+        """Return the surfaces of coedges, near the origin of the features if wanted."""
+        boundary, patch = self.boundary, self.patch[h]
+        rows = (boundary.ruled_near if near else boundary.ruled)[patch].reshape(-1, 8)
+        return _Surfaces(rows, boundary.patch_radius[patch], boundary.contact_kind[patch] >> 4)
 
     def _starts(self) -> tuple[Floats, Floats, Floats]:
         """Theta and t of the starts of coedges on the surface of their face; and their place, NaN inside a wall."""
@@ -158,16 +168,9 @@ class _Sides:
         place = start[:, :2].copy()
         within = ~np.isfinite(start[:, 0])  # inside a wall: only the vertex has a place
         start[within, :2] = cells.near[cells.vertex[within]]
-        near = self.boundary.ruled_near[self.boundary.trapezoids.patch[cells.face]].reshape(-1, 8)
-        theta, surface = start[:, 2] / self.w, read_ruled(near)
-        along = start[:, :2] - _places(surface, np.zeros(len(theta)), theta)
-        return theta, (along * surface.ruling(theta)).sum(axis=-1) / surface.L, place
-
-    def _normals(self, surface: Ruled, t: Floats, theta: Floats) -> Floats:
-        """Normals S_t x S_theta = (w U_y, -w U_x, s), as unit vectors."""
-        u, (s, _) = surface.ruling(theta), surface.across_and_along(t, theta)
-        normal = np.stack([self.w * u[..., 1], -self.w * u[..., 0], s], axis=-1)
-        return np.asarray(normal / np.hypot(self.w, s)[..., None])
+        theta = start[:, 2] / self.w
+        surfaces = self._surfaces(np.arange(len(theta)), near=True)
+        return theta, surfaces.parameter(start[:, :2], theta), place
 
     def along(self, h: Ints, share: Floats) -> tuple[Floats, Floats]:
         """Normals and points at shares (m, n) of coedges (m,): (m, n, 3) each."""
@@ -177,28 +180,75 @@ class _Sides:
         own, n = h[curves], share.shape[1]
         lower, upper = self.boundary.limits(np.repeat(self.cells.face[own], n), theta[curves].ravel())
         t[curves] = np.where(np.repeat(self.cells.side[own] == UPPER, n), upper, lower).reshape(-1, n)
-        surface = read_ruled(np.broadcast_to(self.rows[h, None], (len(h), n, 8)))
-        points = np.concatenate([_places(surface, t, theta), self.w * theta[..., None]], axis=-1)
-        return self._normals(surface, t, theta), points
+        surfaces = self._surfaces(np.repeat(h, n))
+        flat = t.ravel(), theta.ravel()
+        points = np.column_stack([surfaces.place(*flat), self.w * flat[1]])
+        return surfaces.normal(*flat, self.w).reshape(*t.shape, 3), points.reshape(*t.shape, 3)
 
 
-def _places(surface: Ruled, t: Floats, theta: Floats) -> Floats:
-    """Position of S(t, theta) in the plane."""
-    a = surface.a + t[..., None] * surface.g
-    c, n = np.cos(theta), np.sin(theta)
-    turned = np.stack([c * a[..., 0] - n * a[..., 1], n * a[..., 0] + c * a[..., 1]], axis=-1)
-    return np.asarray(surface.p + t[..., None] * surface.q - turned)
+class _Surfaces:
+    """Surfaces S(t, theta), one in each row: ruled, or of an arc on an arc of radius `rho` other than 0."""
+
+    def __init__(self, rows: Floats, rho: Floats, quadrant: Ints) -> None:
+        self.rows, self.rho = rows, rho
+        self.first = math.pi / 2 * (quadrant + (rho < 0))  # psi at t = 0
+        self.arcs = rho != 0
+
+    def place(self, t: Floats, theta: Floats) -> Floats:
+        """Positions in the plane."""
+        p, q, a, g = (self.rows[:, k : k + 2] for k in (0, 2, 4, 6))
+        around = self.rho[:, None] * np.column_stack(_direction(self._psi(t)))
+        return np.asarray(p + t[:, None] * q - np.column_stack(_turned(a + t[:, None] * g, theta)) + around)
+
+    def parameter(self, place: Floats, theta: Floats) -> Floats:
+        """Parameters t of positions."""
+        along = place - self.place(np.zeros(len(theta)), theta)
+        t = np.empty(len(theta))
+        lines, arcs = ~self.arcs, self.arcs
+        surface = read_ruled(self.rows[lines])
+        t[lines] = (along[lines] * surface.ruling(theta[lines])).sum(axis=-1) / surface.L
+        x, y = (along[arcs] / self.rho[arcs, None] + np.column_stack(_direction(self.first[arcs]))).T
+        turn = np.remainder(np.arctan2(y, x) - self.first[arcs] + math.pi, math.tau) - math.pi
+        t[arcs] = np.tan(np.copysign(turn / 2, turn * self.rho[arcs]))
+        return t
+
+    def normal(self, t: Floats, theta: Floats, w: float) -> Floats:
+        """Unit normals towards the free side: S_t x S_theta."""
+        normal = np.empty((len(t), 3))
+        lines, arcs = ~self.arcs, self.arcs
+        surface = read_ruled(self.rows[lines])
+        u, (s, _) = surface.ruling(theta[lines]), surface.across_and_along(t[lines], theta[lines])
+        normal[lines] = np.column_stack([w * u[:, 1], -w * u[:, 0], s]) / np.hypot(w, s)[:, None]
+        x, y = _direction(self._psi(t)[arcs])
+        ax, ay = _turned(self.rows[arcs, 4:6], theta[arcs])
+        s = ax * y - ay * x  # S_theta = -J R(theta) a has the part -s along u(psi)
+        normal[arcs] = np.column_stack([w * x, w * y, s]) / np.hypot(w, s)[:, None]
+        return normal
+
+    def _psi(self, t: Floats) -> Floats:
+        """Angles of normals of arcs."""
+        return np.asarray(self.first + 2 * np.copysign(np.arctan(t), t * self.rho))
+
+
+def _direction(psi: Floats) -> tuple[Floats, Floats]:
+    return np.cos(psi), np.sin(psi)
+
+
+def _turned(vectors: Floats, theta: Floats) -> tuple[Floats, Floats]:
+    """R(theta) applied to vectors (n, 2)."""
+    c, s = _direction(theta)
+    return c * vectors[:, 0] - s * vectors[:, 1], s * vectors[:, 0] + c * vectors[:, 1]
 
 
 # --- edges ---
 
 
-def _along_edges(sides: _Sides) -> tuple[Floats, Floats, Floats]:
-    """Areas along coedges, their errors, and the directions in which coedges arrive at their end."""
+def _along_edges(sides: _Sides) -> tuple[Floats, Floats, Floats, Bools]:
+    """Areas along coedges, their errors, the directions in which they arrive at their end, and `_is_sharp` near it."""
     twin = sides.cells.twin
     count = len(twin)
     areas, errors = np.zeros(count), np.zeros(count)
-    arriving = np.zeros((count, 3))
+    arriving, is_sharp = np.zeros((count, 3)), np.zeros(count, bool)
     whole = np.flatnonzero(np.arange(count) < twin)
     for first in range(0, len(whole), BLOCK):
         h = whole[first : first + BLOCK]
@@ -213,8 +263,9 @@ def _along_edges(sides: _Sides) -> tuple[Floats, Floats, Floats]:
             np.add.at(areas, h[done], (low[0] + high[0])[done])
             np.add.at(errors, h[done], off[done])
             first_half, last_half = done & (start == 0), done & (start + 2 * size == 1)
-            arriving[h[last_half]] = high[1][last_half]
-            arriving[twin[h[first_half]]] = low[2][first_half]
+            ends = (h, last_half, high[1]), (twin[h], first_half, low[2])
+            for coedge, mask, (direction, sharp) in ends:
+                arriving[coedge[mask]], is_sharp[coedge[mask]] = direction[mask], sharp[mask]
             h, start = np.tile(h[again], 2), np.concatenate([start[again], start[again] + size])
             area, least = np.concatenate([half[0][again] for half in (low, high)]), np.tile(off[again], 2)
             if k < SURE:
@@ -224,11 +275,13 @@ def _along_edges(sides: _Sides) -> tuple[Floats, Floats, Floats]:
     for values in (areas, errors):  # each twin has half of it
         values[whole] /= 2
         values[twin[whole]] = values[whole]
-    return areas, errors, arriving
+    return areas, errors, arriving, is_sharp
 
 
-def _covered(sides: _Sides, h: Ints, start: Floats, stop: Floats) -> tuple[Floats, Floats, Floats]:
-    """Area covered by arcs from a coedge's normals to its twin's, and the direction in which each arrives at its end.
+def _covered(
+    sides: _Sides, h: Ints, start: Floats, stop: Floats
+) -> tuple[Floats, tuple[Floats, Bools], tuple[Floats, Bools]]:
+    """Area covered by arcs from a coedge's normals to its twin's; the direction and `_is_sharp` at the end of each.
 
     Notes
     -----
@@ -244,22 +297,34 @@ def _covered(sides: _Sides, h: Ints, start: Floats, stop: Floats) -> tuple[Float
     length = np.linalg.norm(points[:, -1] - points[:, 0], axis=-1)
     narrow = (sums.max(axis=-1) < 1) & (sums.min(axis=-1) < length / np.abs(points).max(axis=(-2, -1)))
     if narrow.any():  # rounding moves a tangent there less than it moves the sum of the normals
-        middle = _middle(A[narrow], B[narrow], _unit(_change(points[narrow])))
-        rate[narrow] = _sideways(A[narrow], middle) + _sideways(middle, B[narrow])
-    return rate @ WEIGHTS, _unit(AT_END @ points), -_unit(AT_START @ others)
+        a, b, tangent = A[narrow], B[narrow], _unit(_change(points[narrow]))
+        middle = _middle(a, tangent, _is_sharp(a, b, tangent))
+        rate[narrow] = _sideways(a, middle) + _sideways(middle, b)
+    end, start = _unit(AT_END @ points), -_unit(AT_START @ others)
+    last, first = (_is_sharp(A[:, k], B[:, k], tangent) for k, tangent in ((-1, end), (0, -start)))
+    return rate @ WEIGHTS, (end, last), (start, first)
 
 
-def _middle(A: Floats, B: Floats, tangent: Floats) -> Floats:
-    """Direction through which the arc to a nearly opposite normal leads: normal to the edge and to the first normal.
+def _is_sharp(A: Floats, B: Floats, tangent: Floats) -> Bools:
+    """True for a sharp forbidden edge, and False for the end of a narrow free space, between two normals.
 
     Notes
     -----
-    It leads into the face around the end of a narrow free space, and away from it around a sharp forbidden edge. Free
-    space may have width 0: slits do. A forbidden edge has an angle above 0, as obstacles and robots have some area.
+    Free space may have width 0 along an edge: slits do. A forbidden edge has an angle above 0, but at ends of edges
+    among arcs, where circles touch.
     """
-    into, sums = np.cross(A, tangent), A + B
-    sharp = (_dot(sums, into) < 0) & (np.linalg.norm(sums, axis=-1) > ROUNDING)
-    return np.asarray(np.where(sharp[..., None], -into, into))
+    sums = A + B
+    sharp = (_dot(sums, np.cross(A, tangent)) < 0) & (np.linalg.norm(sums, axis=-1) > ROUNDING)
+    return np.asarray(sharp)
+
+
+def _middle(A: Floats, tangent: Floats, is_sharp: Bools) -> Floats:
+    """Direction through which the arc to a nearly opposite normal leads: normal to the edge and to the first normal.
+
+    It leads into the face around the end of a narrow free space, and away from it around a sharp forbidden edge.
+    """
+    into = np.cross(A, tangent)
+    return np.asarray(np.where(is_sharp[..., None], -into, into))
 
 
 def _sideways(A: Floats, B: Floats) -> Floats:
@@ -280,8 +345,8 @@ def _unit(vectors: Floats) -> Floats:
 # --- vertices ---
 
 
-def _at_vertices(sides: _Sides, arriving: Floats) -> tuple[Ints, Floats]:
-    """Vertex at which each coedge starts, and the area of the normals around each vertex.
+def _at_vertices(sides: _Sides, arriving: Floats, is_sharp: Bools) -> tuple[Ints, Floats, Bools]:
+    """Vertex at which each coedge starts, the area of the normals around each vertex, and if no half contains them.
 
     Notes
     -----
@@ -297,17 +362,17 @@ def _at_vertices(sides: _Sides, arriving: Floats) -> tuple[Ints, Floats]:
     stop = start[following]
     middle = start + stop
     length = np.linalg.norm(middle, axis=-1, keepdims=True)
-    aside = _middle(start, stop, arriving[sides.before])  # across the edge between the two
+    aside = _middle(start, arriving[sides.before], is_sharp[sides.before])  # across the edge between the two
     middle = np.where(length > TIE, middle / np.maximum(length, TIE), aside)
     leaving = -arriving[sides.cells.twin]
     centre, height = _centres(np.concatenate([start, middle]), np.tile(vertex, 2), count)
     _regular(centre, height, vertex, leaving, leaving[following])
     own = centre[vertex]
     areas = np.bincount(vertex, _triangle(own, start, middle) + _triangle(own, middle, stop), count)
-    return vertex, areas.astype(np.float64)
+    return vertex, areas.astype(np.float64), height <= 0
 
 
-def _is_unsettled(sides: _Sides, vertex: Ints) -> NDArray[np.bool_]:
+def _is_unsettled(sides: _Sides, vertex: Ints) -> Bools:
     """True for coedges that start at an end of a very short edge for which faces compute different places."""
     short = sides.is_curve & (np.abs(sides.theta[sides.after] - sides.theta) < SHORT)
     count = int(vertex.max(initial=-1)) + 1

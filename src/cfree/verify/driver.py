@@ -12,25 +12,22 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from cfree.arguments import checked
 from cfree.collector import collection_paused
-from cfree.errors import UnsupportedError
 from cfree.exact.algebraic import Exact
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import CURVE
 from cfree.formats.boundaries.boundary_file import read_boundary
-from cfree.geometry.normals import gauss_map
 from cfree.scene.reading import together
 from cfree.scene.scene import Scene
 from cfree.verify.angles import orientation
+from cfree.verify.degrees import DEGREE, by_degrees
 from cfree.verify.euler import euler_from_slices
 from cfree.verify.heights import covered
 from cfree.verify.isolated import IsolatedPart
 from cfree.verify.matching import Matching, matched
 from cfree.verify.missing import compared
-from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
+from cfree.verify.result import PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.round_boundary import round_boundary
 from cfree.verify.surfaces import Fault, Surface, Turn
 from cfree.verify.trapezoids import Reader, Side
@@ -41,11 +38,7 @@ BLOCK = 500  # trapezoids between two reports
 # names of the checks
 PIECES, ANGLES, DOMAINS, FREE = "convex pieces", "names and angles", "domains", "not forbidden"
 CLOSED, ISOLATED, MISSING = "closed surfaces", "isolated parts", "nothing missing"
-EULER, DEGREE = "Euler by slices", "Gauss map"
-SURE, NEAR = (
-    1e-3,
-    0.25,
-)  # limit of errors of degrees; largest distance of twice a degree from an Euler number, a whole one
+EULER = "Euler by slices"
 
 
 @checked
@@ -172,22 +165,8 @@ def _counted_again(
     of_slices = Check(EULER, SAMPLED, by_slices)
     if total is None:
         of_slices = Check(EULER, SKIPPED, "free sheets of no width, between bounds and a wall, are not in slices")
-    radius = float(np.hypot(*stored.features.robot.xy.T).max(initial=0.0))
-    try:
-        gauss = gauss_map(stored, angle_scale=radius or 1.0)
-    except UnsupportedError as error:
-        return (of_slices, Check(DEGREE, SKIPPED, str(error))), findings
-    if gauss.error.max(initial=0.0) > SURE:
-        unsure = f"doubles leave degrees open by {gauss.error.max():.1e}"
-        return (of_slices, Check(DEGREE, SKIPPED, unsure)), findings
-    euler, double = stored.complex.euler, 2 * gauss.degree
-    off = float(np.abs(double - euler).max(initial=0.0))
-    if off > NEAR or sorted(euler.tolist()) != sorted(matching.euler):
-        degrees = ", ".join(f"{x:.3f}" for x in gauss.degree)
-        text = f"degrees {degrees}; Euler numbers {euler.tolist()}, and {matching.euler} as matched here"
-        findings.append(Finding(DEGREE, "all surfaces", text))
-    by_degree = f"the degree of every surface is half its Euler number, or off by {off / 2:.1e} at most"
-    return (of_slices, Check(DEGREE, MEASURED, by_degree)), findings
+    of_degrees, wrong = by_degrees(stored, matching.euler)
+    return (of_slices, of_degrees), findings + wrong
 
 
 def _unfit(boundary: Boundary, scene: Scene | None) -> Finding | None:

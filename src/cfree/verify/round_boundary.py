@@ -18,6 +18,7 @@ from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.scene.rounded import Cores, rounded_shapes
 from cfree.scene.scene import Scene
+from cfree.verify.degrees import DEGREE, by_degrees
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.round_algebra import Turn, precision
 from cfree.verify.round_inside import is_same
@@ -30,7 +31,7 @@ from cfree.verify.round_world import Part, Place, RoundWorld, is_apart
 from cfree.words import counted
 
 PIECES, TRAPEZOIDS, FREE = "convex pieces", "names, angles, domains", "not forbidden"
-CLOSED, ISOLATED, MISSING, DEEP = "closed surfaces", "isolated parts", "nothing missing", "Euler numbers again"
+CLOSED, ISOLATED, MISSING = "closed surfaces", "isolated parts", "nothing missing"
 NEAREST = Fraction(1, 1 << 64)
 BLOCK = 100  # trapezoids between two reports
 ANYWHERE = Pose(0, 0)
@@ -71,7 +72,12 @@ def round_boundary(
         world, proof, len(chosen), slices if whole else 0, number, (fits.checked, len(stored.isolated)), whole=whole
     )
     if deep:
-        checks += (Check(DEEP, SKIPPED, "not among round shapes"),)
+        if whole and not findings:
+            of_degrees, differing = by_degrees(stored)
+            findings += differing
+        else:
+            of_degrees = Check(DEGREE, SKIPPED, "needs a boundary in which nothing else is wrong")
+        checks += (of_degrees,)
     kinds = {finding.kind for finding in findings}
     checks = tuple(Check(x.name, REFUTED, x.extent) if x.name in kinds else x for x in checks)
     return Verification(checks, tuple(findings), (), time.perf_counter() - begin, reading=stored.scene.reading)
