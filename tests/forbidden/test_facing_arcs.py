@@ -12,6 +12,7 @@ import pytest
 from arc_rings import BAY, BRACKET, DROP, HALF, HOOK, LENS, SECTOR, plate, shape
 from cfree import Curved, Scene, UnsupportedError, boundary, free_space, verify
 from cfree.geometry import gauss_bonnet
+from cfree.verify.result import PROVED
 from facing_arcs import FAMILIES, faults, scene
 
 NEAR_ONE = 1 - Fraction(1, 2**60)
@@ -85,8 +86,9 @@ def test_curvature_of_closed_surfaces_of_facing_arcs_adds_up() -> None:
     ],
 )
 def test_verify_boundary_confirms_facing_arcs(made: Scene) -> None:
-    found = boundary(made)
-    assert verify.boundary(found).ok
+    result = verify.boundary(boundary(made), made, slices=4)
+    assert result.verified, result
+    assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
 
 
 def test_an_arc_that_fits_between_two_arcs_about_one_center_is_refused() -> None:

@@ -22,6 +22,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--families", nargs="*", default=[*FAMILIES])
+    parser.add_argument("--poses", action="store_true")
     parser.add_argument("--one", nargs=2, metavar=("FAMILY", "SEED"))
     args = parser.parse_args()
     chosen = (
@@ -33,7 +34,7 @@ def main() -> int:
     for family, seed in chosen:
         start = time.perf_counter()
         try:
-            found = list(faults(scene(family, seed), random.Random(seed)))
+            found = list(faults(scene(family, seed), random.Random(seed), is_compared=not args.poses))
         except CfreeError as error:
             counts[f"{family}: refused"] += 1
             print(f"{family} {seed}: refused: {error}", flush=True)
