@@ -170,6 +170,14 @@ int main(int argc, char** argv) {
         {"bracket, grown square", {bracket}, {grown(large(square), 8, 1)}},
         {"bay, bracket", {bay}, {bracket}},
         {"bay, grown bracket", {bay}, {grown(bracket, 16, 1)}},
+        {"half, bay", {large(half)}, {bay}},
+        {"narrow half, bay", {moved(half, 0, 0, 4)}, {bay}},
+        {"lens, bay", {moved(lens, 0, 0, 8)}, {bay}},
+        {"dome, bracket", {moved(dome, 0, 0, 4)}, {bracket}},
+        {"grown sector, bay", {grown(moved(sector, 0, 0, 4), 8, 1)}, {bay}},
+        {"bay, half", {bay}, {moved(half, 0, 0, 6)}},
+        {"bracket, grown hat", {bracket}, {grown(moved(hat, 0, 0, 3), 4, 1)}},
+        {"bay with a bump", {moved(corners, 0, 0, 4)}, {grown(bay, 4, 1)}},
         {"two parts", {grown(square, 1, 2), moved(sector, 1, 0)}, {half, moved(triangle, 4, -4)}, 4, 3},
     };
     int good = 0, count = 0;

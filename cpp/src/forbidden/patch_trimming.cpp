@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "forbidden/round_shadows.hpp"
 #include "forbidden/round_trim.hpp"
@@ -120,37 +121,63 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
     count.live_patches += out.size() > before;
 }
 
-// The vertices that matter are the convex ones, and ends of concave arcs: those of the shape without its fillets. The circle of the
-// contact itself covers nothing of it.
+// The vertices that matter are convex ones, ends of concave arcs and points of convex arcs: those of the shape without its fillets.
+// A fillet and a vertex cover nothing of their own circle, and none of that of an end of one of the two arcs, where the vertex is an
+// arc; nor of the circle of an arc of which the vertex is a point.
 std::vector<PatchTrimming::NearFillet> PatchTrimming::fillets_near(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     std::vector<NearFillet> result;
     if (A.fillets.empty() && O.fillets.empty()) return result;
     const Box around = grown(edge_box(O, contact.obstacle), reach());
+    struct Vertex {
+        Index vertex, arc;  // the arc of which it is a point, or -1
+    };
     const auto vertices = [&](const Shape& s) {
-        std::vector<Index> list;
+        std::vector<Vertex> list;
         for (Index v = 0; v < s.ring_vertices; ++v)
-            if (s.convex[v] && s.layer[v] == body_layer) list.push_back(v);
-        list.insert(list.end(), s.fillet_ends.begin(), s.fillet_ends.end());
-        std::sort(list.begin(), list.end(), [&](Index v, Index w) { return std::pair(s.point[v], v) < std::pair(s.point[w], w); });
-        list.erase(std::unique(list.begin(), list.end(), [&](Index v, Index w) { return s.point[v] == s.point[w]; }), list.end());
+            if (s.convex[v] && s.layer[v] == body_layer && !(s.has_arcs() && s.is_arc[v])) list.push_back({v, -1});
+        for (const Index v : s.fillet_ends) list.push_back({v, -1});
+        for (const auto& [v, arc] : s.probes) list.push_back({v, arc});
+        std::sort(list.begin(), list.end(), [&](const Vertex& v, const Vertex& w) {
+            return std::tuple(s.point[v.vertex], v.vertex, v.arc) < std::tuple(s.point[w.vertex], w.vertex, w.arc);
+        });
+        list.erase(std::unique(list.begin(), list.end(), [&](const Vertex& v, const Vertex& w) {
+            return s.point[v.vertex] == s.point[w.vertex];
+        }), list.end());
         return list;
     };
     for (const bool of_robot : {false, true}) {
         const Shape &own = of_robot ? A : O, &other = of_robot ? O : A;
         if (own.fillets.empty()) continue;
-        const std::vector<Index> list = vertices(other);
-        for (const Shape::Fillet& fillet : own.fillets)
-            for (const Index v : list) {
-                if (!(own.radius_of(fillet.vertex[0]).exact + other.radius_of(v).exact).is_zero()) continue;
-                const Feature circle{Kind::vertex_vertex, of_robot ? fillet.arc : v, of_robot ? v : fillet.arc, contact.branch};
-                if (is_circle(contact) && code(scene, circle) == code(scene, contact)) continue;
-                Box box;
-                if (of_robot) box.add(O.x[v], O.y[v]);
-                else
-                    for (const Index w : fillet.vertex) box.add(O.x[w], O.y[w]);
-                if (around.meets(box)) result.push_back({&fillet, of_robot, v});
+        const std::vector<Vertex> list = vertices(other);
+        const Index own_vertex = of_robot ? contact.robot : contact.obstacle, other_vertex = of_robot ? contact.obstacle : contact.robot;
+        const auto is_at = [](const Shape& s, Index v, Index w) { return s.point[v] == s.point[w]; };
+        const auto add = [&](const Shape::Fillet& fillet, Index v, const Shape::Wedge* directions) {
+            Box box;
+            if (of_robot) box.add(O.x[v], O.y[v]);
+            else
+                for (const Index w : fillet.vertex) box.add(O.x[w], O.y[w]);
+            if (around.meets(box)) result.push_back({&fillet, of_robot, v, directions});
+        };
+        const auto is_zero = [&](Index v, Index w) { return (own.radius_of(v).exact + other.radius_of(w).exact).is_zero(); };
+        const auto touches = [](const Shape& s, Index arc, Index end) { return s.stub_between(arc, end) >= 0; };
+        for (const Shape::Fillet& fillet : own.fillets) {
+            const bool is_own = is_circle(contact) && is_at(own, own_vertex, fillet.arc);
+            if (!fillet.is_for_arcs) {
+                for (const auto& [v, arc] : list)
+                    if (is_zero(fillet.vertex[0], v) && !(is_own && (is_at(other, other_vertex, v) || touches(other, other_vertex, v) ||
+                                                                     (arc >= 0 && is_at(other, other_vertex, arc)))))
+                        add(fillet, v, nullptr);
+                continue;
             }
+            for (const Shape::Wedge& directions : other.wedges) {
+                const Index v = directions.arc;
+                if (!is_zero(fillet.vertex[0], v) || !is_zero(fillet.arc, directions.vertex[0])) continue;
+                if (is_own && (is_at(other, other_vertex, v) || touches(other, v, other_vertex))) continue;
+                if (is_circle(contact) && is_at(other, other_vertex, v) && touches(own, fillet.arc, own_vertex)) continue;
+                add(fillet, v, &directions);
+            }
+        }
     }
     return result;
 }
@@ -164,7 +191,7 @@ void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vect
     const std::vector<Index> edges = owners.edges_at(contact.obstacle);
     const std::vector<NearFillet> fillets = fillets_near(contact);
     std::vector<RoundShadows::Sum> sums;
-    for (const auto& [fillet, of_robot, vertex] : fillets) {
+    for (const auto& [fillet, of_robot, vertex, directions] : fillets) {
         const std::vector<Index> around(fillet->vertex.begin(), fillet->vertex.end());
         sums.push_back(of_robot ? RoundShadows::Sum{std::vector{vertex}, around} : RoundShadows::Sum{around, std::vector{vertex}});
     }
@@ -195,7 +222,8 @@ void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vect
             if (part.empty()) continue;
             ++count.pairs;
             heed_stop();
-            trimmer.cover_fillet(*fillets[n].fillet, fillets[n].of_robot, fillets[n].vertex, shadows.slices, part);
+            const auto& [fillet, of_robot, vertex, directions] = fillets[n];
+            trimmer.cover_fillet(*fillet, of_robot, vertex, directions, shadows.slices, part);
         }
         trimmer.split_at_touches(near.pieces());
         trimmer.finish(patch, out, thin);

@@ -133,41 +133,61 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
     });
 }
 
-// All of the quadrangle that is outside the circle.
-void RoundTrimmer::cover_fillet(const Shape::Fillet& fillet, bool of_robot, Index vertex, const Slices& slices, const Slices::Part& part) {
-    Pillar around, circle;
-    for (std::size_t n = 0; n < 4; ++n) {
-        around.arcs.push_back(of_robot ? Arc{fillet.vertex[n], vertex} : Arc{vertex, fillet.vertex[n]});
-        around.edges.push_back({of_robot ? Feature{Kind::edge_vertex, fillet.edge[n], vertex} : Feature{Kind::vertex_edge, vertex, fillet.edge[n]},
-                                {-1, -1}});
-    }
+// All of the quadrangle that is outside the circle, and in the triangle of directions.
+void RoundTrimmer::cover_fillet(const Shape::Fillet& fillet, bool of_robot, Index vertex, const Shape::Wedge* directions,
+                                const Slices& slices, const Slices::Part& part) {
+    const auto pillar_of = [](const auto& vertices, const auto& edges, bool are_of_robot, Index v) {
+        Pillar result;
+        for (std::size_t n = 0; n < vertices.size(); ++n) {
+            result.arcs.push_back(are_of_robot ? Arc{vertices[n], v} : Arc{v, vertices[n]});
+            result.edges.push_back({are_of_robot ? Feature{Kind::edge_vertex, edges[n], v} : Feature{Kind::vertex_edge, v, edges[n]}, {-1, -1}});
+        }
+        result.has_arcs = true;
+        return result;
+    };
+    const Pillar around = pillar_of(fillet.vertex, fillet.edge, of_robot, vertex);
+    const Pillar wedge = directions ? pillar_of(directions->vertex, directions->edge, !of_robot, fillet.arc) : Pillar{};
+    Pillar circle;
     circle.arcs.push_back(of_robot ? Arc{fillet.arc, vertex} : Arc{vertex, fillet.arc});
-    around.has_arcs = circle.has_arcs = true;
+    circle.has_arcs = true;
     cover_by(-1, -1, slices, part, [&](const Sample& at, Cover& out) {
         const auto cover_of = [&](const Pillar& pillar) {
             return is_line(surface.contact) ? on_line(pillar, at) : on_any_circle(pillar, joint_signs(pillar, at), at);
         };
+        const auto add = [&](const Pillar& pillar) {
+            Cover other = cover_of(pillar);
+            out.watched.insert(out.watched.end(), other.watched.begin(), other.watched.end());
+            return std::move(other.bands);
+        };
         out = cover_of(around);
-        if (out.bands.empty()) return true;
-        Cover inside = cover_of(circle);
-        out.left_out = std::move(inside.bands);
-        out.watched.insert(out.watched.end(), inside.watched.begin(), inside.watched.end());
+        if (directions && !out.bands.empty()) {
+            out.within = add(wedge);
+            if (out.within->empty()) out.bands.clear();
+        }
+        if (!out.bands.empty()) out.left_out = add(circle);
         return true;
     });
 }
 
 // Take what is left of a band between orders that change.
-void RoundTrimmer::take_without(const std::array<Feature, 2>& band, const Cover& cover, const Span& span) {
+void RoundTrimmer::take_part(const std::array<Feature, 2>& band, const Cover& cover, const Span& span) {
     static const State crossing{Meets::crosses, {}, {}, {}, 0, 0, {}, {}};
     const auto curve = [&](const Feature& f) { return curves[static_cast<std::size_t>(curve_of(f, false))]; };
     std::vector<Event> cuts;
-    for (const Feature& end : band)
-        for (const auto& part : cover.left_out)
-            for (const Feature& other : part) {
-                const auto order = decide.compare(curve(end), curve(other), events[span.from], events[span.to]);
-                for (const Event& at : order.at)
-                    if (!at.is_touch) cuts.push_back(at);
-            }
+    const auto cut = [&](const std::array<Feature, 2>& some, const std::vector<std::array<Feature, 2>>& parts) {
+        for (const Feature& end : some)
+            for (const auto& part : parts)
+                for (const Feature& other : part) {
+                    const auto order = decide.compare(curve(end), curve(other), events[span.from], events[span.to]);
+                    for (const Event& at : order.at)
+                        if (!at.is_touch) cuts.push_back(at);
+                }
+    };
+    cut(band, cover.left_out);
+    if (cover.within) {
+        cut(band, *cover.within);
+        for (const auto& part : *cover.within) cut(part, cover.left_out);
+    }
     for (const Span& some : spans_between(std::move(cuts), span.from, span.to)) {
         const Sample at = decide.between(events[some.from], events[some.to]);
         const auto order = [&](const Feature& p, const Feature& q) {
@@ -179,12 +199,21 @@ void RoundTrimmer::take_without(const std::array<Feature, 2>& band, const Cover&
             bounds(area);
             take({area, -1, -1, &crossing});
         };
-        Feature from = band[0];
-        for (const auto& [lower, upper] : cover.left_out) {
-            add(from, order(lower, band[1]) < 0 ? lower : band[1]);
-            if (order(upper, from) > 0) from = upper;
+        const auto add_outside = [&](Feature from, const Feature& to) {
+            for (const auto& [lower, upper] : cover.left_out) {
+                add(from, order(lower, to) < 0 ? lower : to);
+                if (order(upper, from) > 0) from = upper;
+            }
+            add(from, to);
+        };
+        if (!cover.within) {
+            add_outside(band[0], band[1]);
+            continue;
         }
-        add(from, band[1]);
+        for (const auto& [lower, upper] : *cover.within) {
+            const Feature &from = order(lower, band[0]) > 0 ? lower : band[0], &to = order(upper, band[1]) < 0 ? upper : band[1];
+            if (order(from, to) < 0) add_outside(from, to);
+        }
     }
 }
 
@@ -216,8 +245,8 @@ void RoundTrimmer::cover_by(Index p, Index k, const Slices& slices, const Slices
             if (!find(at, found)) continue;
             if (!is_critical && narrow(found, at, span)) break;
         }
-        if (!found.left_out.empty()) {
-            for (const auto& band : found.bands) take_without(band, found, span);
+        if (!found.left_out.empty() || found.within) {
+            for (const auto& band : found.bands) take_part(band, found, span);
             found.bands.clear();
         }
         for (const auto& [lower, upper] : found.bands) {

@@ -16,8 +16,10 @@ public:
     RoundTrimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to, const std::vector<Index>& edges_at_centre);
     // Subtract the pillar of robot piece p and obstacle piece k, which covers nothing outside these slices.
     void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
-    // Subtract what is forbidden by a fillet, of the robot or else of the obstacles, and a vertex of the other shape.
-    void cover_fillet(const Shape::Fillet& fillet, bool of_robot, Index vertex, const Slices& slices, const Slices::Part& part);
+    // Subtract what is forbidden by a fillet, of the robot or else of the obstacles, and a vertex of the other shape; if that is a
+    // convex arc, where the fillet is in its directions.
+    void cover_fillet(const Shape::Fillet& fillet, bool of_robot, Index vertex, const Shape::Wedge* directions, const Slices& slices,
+                      const Slices::Part& part);
     // Subtract what another pair of vertices with the same circle owns of the quadrant.
     void cede_circle(const Feature& owner);
     // Cut what is live along curves that others touch from the free side at every angle; these are of the pieces near the patch.
@@ -62,10 +64,11 @@ private:
         std::vector<std::array<Feature, 2>> bands;
         std::vector<Watch> watched;
         std::vector<std::array<Feature, 2>> left_out = {};  // parts that the bands do not cover, in order
+        std::optional<std::vector<std::array<Feature, 2>>> within = {};  // parts outside of which they cover nothing
     };
     template <class Find>
     void cover_by(Index p, Index k, const Slices& slices, const Slices::Part& part, const Find& find);
-    void take_without(const std::array<Feature, 2>& band, const Cover& cover, const Span& span);
+    void take_part(const std::array<Feature, 2>& band, const Cover& cover, const Span& span);
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
     bool has_extent(const Feature& circle) const;  // its radius is not 0
     bool is_stub(const Feature& line) const;

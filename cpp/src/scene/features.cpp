@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "scene/facing_arcs.hpp"
+
 namespace cfree {
 
 namespace {
@@ -81,6 +83,9 @@ struct Builder {
     std::vector<Index> concave, concave_ends;
     std::vector<Shape::Fillet> fillets;
     std::vector<ArcEdge> more_stubs;
+    // Of convex arcs that face concave ones.
+    std::vector<Shape::Wedge> wedges;
+    std::vector<Shape::Probe> probes;
 
     explicit Builder(const Int& common) : scale(common) {}
 
@@ -92,32 +97,27 @@ struct Builder {
 
     Index count() const { return static_cast<Index>(x.size()); }
 
-    // Number the radii that occur, and those of the other shape times -1 where there are fillets; before polygons are added.
-    void number_radii(const std::vector<Rounding>& all, const std::vector<Rounding>& opposite) {
-        bool has_fillets = false;
+    // Number the radii that occur, and those of the other shape times -1 where they meet fillets; before polygons are added.
+    void number_radii(const std::vector<Rounding>& all, const Facing& other) {
+        bool has_fillets = false, has_arcs = false;
         for (const Rounding& rounding : all) {
             radii.push_back(scaled(rounding.radius, scale));
             for (const Arc& arc : rounding.arcs) {
                 const Int radius = scaled(arc.radius, scale);
                 radii.push_back(scaled(rounding.radius, scale) + (arc.beyond ? Int(-radius) : radius));
-                has_fillets |= arc.beyond.has_value();
+                (arc.beyond ? has_fillets : has_arcs) = true;
             }
         }
-        if (has_fillets) {
-            for (const Rounding& rounding : opposite) {
-                if (std::any_of(rounding.arcs.begin(), rounding.arcs.end(), [](const Arc& arc) { return !arc.beyond; }))
-                    throw BrokenInvariant("concave arcs that meet convex ones");
-                other_radii.push_back(scaled(rounding.radius, scale));
-            }
-            other_radii.push_back(0);
-            std::sort(other_radii.begin(), other_radii.end());
-            other_radii.erase(std::unique(other_radii.begin(), other_radii.end()), other_radii.end());
-            for (const Int& radius : other_radii) radii.push_back(-radius);
-        }
+        if (has_fillets)
+            for (const auto* list : {&other.discs, &other.arcs})
+                for (const Ratio& radius : *list) radii.push_back(-scaled(radius, scale));
+        if (has_arcs)
+            for (const Ratio& radius : other.hollows) radii.push_back(scaled(radius, scale));
+        facing = &other;
         std::sort(radii.begin(), radii.end(), is_before);
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
     }
-    std::vector<Int> other_radii;  // of the other shape's corners, if this one has fillets: it has no convex arcs
+    const Facing* facing = nullptr;  // radii of the other shape
     bool is_round() const { return radii.size() > 1; }
     const Int& radius(Index v) const { return radii[vertex_radius[v]]; }
     Index class_of(const Int& radius) const {
@@ -200,6 +200,9 @@ void Builder::number_others() {
     for (ArcEdge& edge : more_stubs) numbered(edge.v), numbered(edge.w), numbered(edge.first), numbered(edge.last);
     for (Shape::Fillet& fillet : fillets)
         for (Index& v : fillet.vertex) numbered(v);
+    for (Shape::Wedge& triangle : wedges)
+        for (Index& v : triangle.vertex) numbered(v);
+    for (Shape::Probe& probe : probes) numbered(probe.vertex);
     for (Index& v : concave_ends) numbered(v);
 }
 
@@ -310,11 +313,9 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
             more_stubs.push_back(stub(side.from, side.towards[0], vertex[side.from], side.vertex));
             more_stubs.push_back(stub(side.to, side.towards[1], side.vertex, vertex[side.to]));
             concave_ends.insert(concave_ends.end(), {vertex[side.from], vertex[side.to]});
-            const std::array corners{side.centre, points[side.to], place((*side.arc->beyond)[1]), points[side.from]};
-            for (const Int& radius : other_radii) {
-                if (radius + grown >= scaled(side.arc->radius, scale)) break;
-                Shape::Fillet fillet{side.vertex, {}, {}};
-                for (std::size_t n = 0; n < 4; ++n) fillet.vertex[n] = add_other(corners[n], class_of(-radius), owner);
+            for (const auto& [radius, is_for_arcs, corners] : quadrangles(*side.arc, rounding.radius, *facing)) {
+                Shape::Fillet fillet{side.vertex, {}, {}, is_for_arcs};
+                for (std::size_t n = 0; n < 4; ++n) fillet.vertex[n] = add_other(place(corners[n]), class_of(-scaled(radius, scale)), owner);
                 fillets.push_back(fillet);
             }
             continue;
@@ -326,6 +327,15 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
         piece_edges[piece_vertex.size()] = stub(side.from, side.towards[0], vertex[side.from], side.vertex);
         piece_vertex.push_back(vertex[side.from]);
         close_piece(body_layer);
+        if (!facing->has_concave()) continue;
+        for (const Index end : {side.from, side.to}) probes.push_back({vertex[end], side.vertex});
+        for (const auto& [hollow, corners] : cfree::wedges(*side.arc, rounding.radius, *facing)) {
+            Shape::Wedge triangle{side.vertex, {}, {}};
+            for (std::size_t n = 0; n < 3; ++n) triangle.vertex[n] = add_other(place(corners[n]), class_of(scaled(hollow, scale)), owner);
+            wedges.push_back(triangle);
+        }
+        for (const RatioPoint& p : cfree::probes(*side.arc, rounding.radius, *facing))
+            probes.push_back({add_other(place(p), at_corner, owner), side.vertex});
     }
 }
 
@@ -447,17 +457,21 @@ Shape finished(Builder&& from, int shift, bool is_round) {
         set_edge(static_cast<Index>(s.v.size()) - 1, edge);
     };
     for (const ArcEdge& edge : from.more_stubs) add_edge(edge);
-    for (Shape::Fillet& fillet : from.fillets)
-        for (std::size_t n = 0; n < 4; ++n) {
-            const Index v = fillet.vertex[n], w = fillet.vertex[(n + 1) % 4];
-            fillet.edge[n] = static_cast<Index>(s.v.size());
+    const auto add_sides = [&](auto& figure) {
+        for (std::size_t n = 0; n < figure.vertex.size(); ++n) {
+            const Index v = figure.vertex[n], w = figure.vertex[(n + 1) % figure.vertex.size()];
+            figure.edge[n] = static_cast<Index>(s.v.size());
             add_edge({v, w, v, w});
         }
+    };
+    for (Shape::Fillet& fillet : from.fillets) add_sides(fillet);
+    for (Shape::Wedge& triangle : from.wedges) add_sides(triangle);
     if (!from.concave.empty()) {
         s.concave.assign(static_cast<std::size_t>(s.ring_vertices), 0);
         for (const Index v : from.concave) s.concave[v] = 1;
     }
     s.fillets = std::move(from.fillets), s.fillet_ends = std::move(from.concave_ends);
+    s.wedges = std::move(from.wedges), s.probes = std::move(from.probes);
     std::sort(s.fillet_ends.begin(), s.fillet_ends.end());
     s.fillet_ends.erase(std::unique(s.fillet_ends.begin(), s.fillet_ends.end()), s.fillet_ends.end());
     const std::vector<Index> place = place_orders(points);
@@ -659,6 +673,9 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     if (shapes.workspace) include(shapes.workspace->denominator);
     for (const auto* all : {&shapes.robot_rounding, &shapes.obstacle_rounding})
         for (const Rounding& rounding : *all) for_each_number(rounding, [&](const Ratio& x) { include(x.d); });
+    const Facing of_obstacles(shapes.obstacle_rounding), of_robot(shapes.robot_rounding);
+    for (const auto& [all, other] : {std::pair{&shapes.robot_rounding, &of_obstacles}, {&shapes.obstacle_rounding, &of_robot}})
+        for (const Rounding& rounding : *all) for_each_point(rounding, *other, [&](const RatioPoint& p) { include(p.x.d), include(p.y.d); });
     std::vector<Int> bounds;
     if (shapes.bounds) {
         for (const Ratio& bound : *shapes.bounds) include(bound.d);
@@ -666,7 +683,7 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     }
     Builder robot(scale), obstacles(scale);
     robot.reserve(shapes.robot), obstacles.reserve(shapes.obstacles);
-    robot.number_radii(shapes.robot_rounding, shapes.obstacle_rounding), obstacles.number_radii(shapes.obstacle_rounding, shapes.robot_rounding);
+    robot.number_radii(shapes.robot_rounding, of_obstacles), obstacles.number_radii(shapes.obstacle_rounding, of_robot);
     const bool is_round = whole.is_round || robot.is_round() || obstacles.is_round();
     const auto own = [](std::size_t, Index k) { return k; };
     for (std::size_t k = 0; k < shapes.robot.size(); ++k)

@@ -68,7 +68,7 @@ class Slice(Value, Shown):
         lines: list[NDArray[np.float64]] = list(self.segments)
         arcs = np.flatnonzero(boundary.patch_kind[patch] == PatchKind.ARC_ARC)
         for k, first, last in zip(arcs.tolist(), *self._angles(arcs), strict=True):
-            psi = np.linspace(first, last, 2 + int((last - first) / CHORD))
+            psi = np.linspace(first, last, 2 + max(0, int((last - first) / CHORD)))  # of tiny circles rounded
             lines[k] = boundary.evaluate(np.full(len(psi), patch[k]), np.tan(psi / 2), np.full(len(psi), self.theta))
             lines[k][[0, -1]] = self.segments[k]
         return lines

@@ -95,11 +95,6 @@ class Rounded:
         return any(not arc.is_convex for arc in self.arcs)
 
     @property
-    def has_convex_arcs(self) -> bool:
-        """True if a side of the core is a convex arc."""
-        return any(arc.is_convex for arc in self.arcs)
-
-    @property
     def handle(self) -> _core.Polygon:
         """The core's form of `core`."""
         if isinstance(self.core, Polygon):
@@ -132,14 +127,6 @@ class Cores:
         return any(shape.has_concave for shape in (*self.robot, *self.obstacles))
 
     @property
-    def faces_arcs(self) -> bool:
-        """True if the robot has concave arcs and the obstacles have convex ones, or the other way round."""
-        return any(
-            any(shape.has_concave for shape in some) and any(shape.has_convex_arcs for shape in others)
-            for some, others in ((self.robot, self.obstacles), (self.obstacles, self.robot))
-        )
-
-    @property
     def fills_channel(self) -> bool:
         """True if a disc of one shape fits exactly between a convex and a concave arc of the other about one center."""
         convex, concave = zip(*(_radii_by_place(shapes) for shapes in (self.robot, self.obstacles)), strict=True)
@@ -155,7 +142,7 @@ class Cores:
     @property
     def is_refused(self) -> bool:
         """True if concave arcs keep these out of boundaries."""
-        return self.has_concave and (self.faces_arcs or self.fills_channel)
+        return self.has_concave and self.fills_channel
 
     @property
     def is_round(self) -> bool:
@@ -415,15 +402,9 @@ def why_not_rounded(scene: Scene) -> str:
     shapes = list(zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True))
     cores = [(name, rounded(shape)) for name, shape in shapes]
     name = next((name for name, core in cores if core is None), None)
-    if name is None and known_cores(scene).fills_channel:
+    if name is None:
         what = "a disc that fits exactly between two arcs about one center at all orientations is not computed"
         return f"robot and obstacles: {what}; make it larger or smaller, or {remedy}"
-    if name is None:
-        one = next(name for name, core in cores if core and core.has_concave)
-        is_robot = one in names
-        other = next(name for name, core in cores if core and core.has_convex_arcs and (name in names) != is_robot)
-        what = f"concave arcs, which meet convex arcs of {other}; one of the two has to be of lines and whole discs"
-        return f"{one}: {what}; {remedy}"
     shape = next(shape for other, shape in shapes if other == name)
     if isinstance(shape, Curved) and all(_sides(ring, is_hole=r > 0) for r, ring in enumerate(shape.curves)):
         return f"{name}: too thin beside an arc for a polygon that leaves out the arcs; {remedy}"

@@ -140,7 +140,7 @@ class _Covering:
 
     def __init__(self, world: RoundWorld) -> None:
         self._size = world.size
-        self._fillet_pairs = world.fillet_pairs
+        self._fillet_pairs = [*world.fillet_pairs, *world.arc_fillet_pairs]
         self._pairs: list[tuple[Part, Part]] = [(a, b) for some, others in world.layers for a in some for b in others]
         ends = [[_around(part) for part in side] for side in zip(*self._pairs, strict=True)]
         self._centers = np.array([[center for center, _ in side] for side in ends])

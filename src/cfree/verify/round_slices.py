@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from cfree.verify.round_algebra import Turn
 from cfree.verify.round_pieces import Piece, Scale
 from cfree.verify.round_surfaces import AXES
-from cfree.verify.round_world import Complexes, Corner, FilletPair, Part, RoundWorld
+from cfree.verify.round_world import ArcFilletPair, Complexes, Corner, FilletPair, Part, RoundWorld
 
 SAME, SURE = 1e-7, 1e-8  # lengths, in the scene's size: of curves that are one, and of distances that are certain
 LEAST = 1e-5  # parts of less length are not compared
@@ -238,7 +238,65 @@ class FilletPillar:
         return _has(np.array([self.robot]), np.array([self.obstacle]), contact, near)
 
 
-AnyPillar = Pillar | ArcPillar | FilletPillar
+@dataclass(frozen=True)
+class ArcFilletPillar:
+    """The positions at which an arc's place farthest from a fillet's center is in the fillet; see `Pillar`.
+
+    The rest of the rim is inside of other pillars, and cuts nothing.
+    """
+
+    corners: Complexes  # of the quadrangle, the first is the circle's center; all as if the arc's center were the place
+    reach: float
+    radius: float
+    directions: tuple[complex, complex]  # of the arc, from the fillet's center to the place
+    robot: complex
+    obstacle: complex
+    least: float  # a distance that decides
+
+    @classmethod
+    def of(cls, pair: ArcFilletPair, turned: complex, size: float) -> ArcFilletPillar:
+        corners, center = pair.fillet.rough, complex(*pair.arc.center)
+        reach, radius = float(pair.fillet.room(pair.radius)), float(pair.radius + pair.fillet.grown)
+        first, last = pair.directions
+        if pair.is_of_robot:
+            moved = center - turned * corners
+            own = turned * complex(corners[0]), center
+            return cls(moved, reach, radius, (-first, -last), *own, 2 * SURE * size)
+        own = turned * center, complex(corners[0])
+        return cls(corners - own[0], reach, radius, (turned * first, turned * last), *own, 2 * SURE * size)
+
+    @property
+    def centers(self) -> Complexes:
+        return self.corners[:1]
+
+    @property
+    def radii(self) -> Floats:
+        return np.array([self.reach])
+
+    @property
+    def units(self) -> Complexes:
+        return self.corners[:0]
+
+    starts = units
+
+    def room(self, points: Complexes) -> Floats:
+        """Numbers that are positive outside, negative inside, and at most a distance from the rim."""
+        away = points - self.corners[0]
+        distance = np.abs(away)
+        first, last = ((d.conjugate() * away).imag for d in self.directions)
+        farthest = points + self.radius * away / np.where(distance > 0, distance, 1)
+        sides = np.roll(self.corners, -1) - self.corners
+        sides = sides / np.abs(sides)
+        heights = ((farthest[None] - self.corners[:, None]) * sides[:, None].conj()).imag
+        beyond = np.maximum(-heights.min(axis=0), np.maximum(-first, last))
+        return np.asarray(np.maximum(np.minimum(beyond, self.least), self.reach - distance))
+
+    def has(self, contact: Contact, near: float) -> bool:
+        """True if the contact is that of the two arcs."""
+        return _has(np.array([self.robot]), np.array([self.obstacle]), contact, near)
+
+
+AnyPillar = Pillar | ArcPillar | FilletPillar | ArcFilletPillar
 
 
 def _has(robot: Complexes, obstacle: Complexes, contact: Contact, near: float) -> bool:
@@ -267,6 +325,7 @@ def compared(world: RoundWorld, pieces: Sequence[Piece], scale: Scale, chart: in
         pillar_of(a, b, turned) for parts, others in world.layers for a in parts for b in others
     ]
     pillars += [FilletPillar.of(pair, turned) for pair in world.fillet_pairs]
+    pillars += [ArcFilletPillar.of(pair, turned, size) for pair in world.arc_fillet_pairs]
     for robot, obstacles in world.corners:
         for contact in _contacts(robot, obstacles, turned, size):
             on = [k for k, other in enumerate(stored) if other.is_on(contact, SAME * size)]

@@ -205,6 +205,17 @@ class RoundWorld:
                 pairs += [FilletPair(fillet, own == 0, *v) for v in sorted(vertices) if fillet.room(v[1]) > 0]
         return pairs
 
+    @cached_property
+    def arc_fillet_pairs(self) -> list[ArcFilletPair]:
+        """Fillets of one side with the convex arcs of the other one."""
+        return [
+            ArcFilletPair(fillet, own == 0, part.arc, part.radius + part.arc.radius)
+            for own, parts in ((0, self.layers[0][1]), (1, self.layers[0][0]))
+            for fillet in self.fillets[own]
+            for part in parts
+            if part.arc is not None
+        ]
+
     @property
     def size(self) -> float:
         """Number that no coordinate and no radius exceeds by far."""
@@ -237,6 +248,57 @@ class FilletPair:
         (p, q), room = points[0], _ball(self.fillet.room(self.radius))
         if not ((x - p) ** 2 + (y - q) ** 2).sqrt() > room + near:
             return False
+        sides = zip(points, points[1:] + points[:1], strict=True)
+        return all(
+            (c - a) * (y - b) - (d - b) * (x - a) > near * ((c - a) ** 2 + (d - b) ** 2).sqrt()
+            for (a, b), (c, d) in sides
+        )
+
+
+@dataclass(frozen=True)
+class ArcFilletPair:
+    """A fillet of the robot, or of an obstacle, and a convex arc of the other one's pieces.
+
+    They overlap if the place of the arc that is farthest from the fillet's center is in the fillet's quadrangle, beyond
+    the fillet's arc. docs/theory/rounded-shapes.md has the proof.
+    """
+
+    fillet: Fillet
+    is_of_robot: bool
+    arc: CoreArc
+    radius: Fraction
+
+    @cached_property
+    def directions(self) -> tuple[complex, complex]:
+        """Directions of the arc's ends from its center."""
+        first, last = (complex(*minus(p, self.arc.center)) for p in (self.arc.start, self.arc.end))
+        return first / abs(first), last / abs(last)
+
+    def overlaps(self, turn: Turn, place: Place, near: arb) -> bool:
+        """True if the two overlap by more than `near` where the robot is at a place."""
+        x, y = map(_ball, self.arc.center)
+        ends = [tuple(map(_ball, minus(p, self.arc.center))) for p in (self.arc.start, self.arc.end)]
+        cos, sin = turn.cos, turn.sin
+        if self.is_of_robot:  # in the robot's frame
+            x, y = x - place[0], y - place[1]
+            x, y = cos * x + sin * y, cos * y - sin * x
+            ends = [(cos * p + sin * q, cos * q - sin * p) for p, q in ends]
+        else:
+            x, y = cos * x - sin * y + place[0], sin * x + cos * y + place[1]
+            ends = [(cos * p - sin * q, sin * p + cos * q) for p, q in ends]
+        points = [(_ball(p), _ball(q)) for p, q in self.fillet.points]
+        away = x - points[0][0], y - points[0][1]
+        distance, room, radius = (
+            (away[0] ** 2 + away[1] ** 2).sqrt(),
+            _ball(self.fillet.room(self.radius)),
+            _ball(self.radius + self.fillet.grown),
+        )
+        (p, q), (v, w) = ends
+        if not (distance > room + near and distance > near):
+            return False
+        if not (p * away[1] - q * away[0] > 0 and away[0] * w - away[1] * v > 0 and p * away[0] + q * away[1] > 0):
+            return False
+        x, y = x + radius * away[0] / distance, y + radius * away[1] / distance  # the place farthest from the center
         sides = zip(points, points[1:] + points[:1], strict=True)
         return all(
             (c - a) * (y - b) - (d - b) * (x - a) > near * ((c - a) ** 2 + (d - b) ** 2).sqrt()

@@ -78,12 +78,25 @@ struct Shape {
     };
     std::vector<Touch> touches;
     // The convex quadrangle of a concave arc's centre, its ends and a point beyond it, counter-clockwise. Its radius is that of the
-    // other shape's vertices for which it is meant, times -1: the two have the sum 0.
+    // other shape's vertices for which it is meant, times -1: the two have the sum 0. It is meant for corners, or for convex arcs;
+    // for these it is smaller.
     struct Fillet {
         Index arc;  // vertex of a ring
         std::array<Index, 4> vertex, edge;
+        bool is_for_arcs = false;
     };
     std::vector<Fillet> fillets;
+    // Where the other shape has concave arcs. A triangle at a convex arc's centre, opposite of the arc's directions; its radius and
+    // that of the concave arcs for which it is meant have the sum 0. And points of convex arcs.
+    struct Wedge {
+        Index arc;  // vertex of a ring
+        std::array<Index, 3> vertex, edge;
+    };
+    struct Probe {
+        Index vertex, arc;
+    };
+    std::vector<Wedge> wedges;
+    std::vector<Probe> probes;
     std::vector<Index> fillet_ends;  // vertices at the ends of concave arcs
     std::vector<char> concave;       // of each vertex of a ring: true if it is a concave arc's; empty if there is none
     bool is_concave(Index vertex) const { return !concave.empty() && concave[static_cast<std::size_t>(vertex)] != 0; }

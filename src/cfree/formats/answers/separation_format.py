@@ -165,7 +165,7 @@ class CoresModel(Strict):
     @model_validator(mode="after")
     def _fits(self) -> CoresModel:
         if self.result.is_refused:
-            raise Fault("concave arcs that meet convex ones of no discs, or channels that a disc fills; got {got}")
+            raise Fault("channels that a disc fills; got {got}")
         return self
 
     @property

@@ -1,0 +1,97 @@
+"""Boundaries where concave arcs face convex ones, against closed formulas, exact tests of poses and exchanged sides."""
+
+from __future__ import annotations
+
+import math
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from arc_rings import BAY, BRACKET, DROP, HALF, HOOK, LENS, SECTOR, plate, shape
+from cfree import Curved, Scene, UnsupportedError, boundary, free_space, verify
+from cfree.geometry import gauss_bonnet
+from cfree.verify.result import PROVED
+from facing_arcs import FAMILIES, faults, scene
+
+NEAR_ONE = 1 - Fraction(1, 2**60)
+
+
+def lens_area(radius: float, apart: float) -> float:
+    """Area of the intersection of two discs of one radius."""
+    half = apart / 2
+    return 2 * radius**2 * math.acos(half / radius) - apart * math.sqrt(radius**2 - half**2)
+
+
+def inner_volumes(made: Scene) -> list[float]:
+    return [v for v in free_space(boundary(made)).volumes if v != math.inf]
+
+
+@pytest.mark.parametrize("share", [Fraction(1, 5), Fraction(1, 2), Fraction(9, 10), Fraction(63, 64)])
+@pytest.mark.parametrize("is_exchanged", [False, True])
+def test_a_half_disc_in_a_round_hole_has_the_volume_of_the_closed_formula(share: Fraction, is_exchanged: bool) -> None:
+    """Its corners stay in the hole; where it bulges away from the center, its center stays in a smaller disc."""
+    made = Scene(shape(HALF, by=3 * share / 5), [plate()])
+    if is_exchanged:
+        made = Scene(made.obstacles, made.robot)
+    r = 3 * float(share)
+    area = math.pi * (3 - r) ** 2 / 2 + lens_area(3, 2 * r) / 2
+    (volume,) = inner_volumes(made)
+    assert math.isclose(volume, math.tau * area, rel_tol=1e-9)
+
+
+@pytest.mark.parametrize("by", [Fraction(31, 50), Fraction(7, 10)])
+def test_a_lens_of_larger_arcs_than_a_hole_is_in_it_where_its_tips_are(by: Fraction) -> None:
+    assert 5 * by > 3
+    (volume,) = inner_volumes(Scene(shape(LENS, by=by), [plate()]))
+    assert math.isclose(volume, math.tau * lens_area(3, 8 * float(by)), rel_tol=1e-9)
+
+
+@pytest.mark.parametrize("by", [Fraction(3, 5), Fraction(3, 5) / NEAR_ONE, 1])
+def test_a_half_disc_as_large_as_a_hole_is_nowhere_inside(by: Fraction) -> None:
+    """Equal radii are an exact fit without width."""
+    assert inner_volumes(Scene(shape(HALF, by=by), [plate()])) == []
+
+
+@pytest.mark.slow
+def test_a_half_disc_smaller_than_a_hole_by_a_hair_is_inside() -> None:
+    found = free_space(boundary(Scene(shape(HALF, by=3 * NEAR_ONE / 5), [plate()])))
+    assert len(found) == 2 and found.locate((0, 0, 0)) != found.locate((20, 0, 0)) >= 0
+    assert abs(found.volumes[1]) < 1e-12
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("seed", range(2))
+def test_random_scenes_agree_with_exact_tests_of_poses_and_with_exchanged_sides(family: str, seed: int) -> None:
+    assert list(faults(scene(family, seed), random.Random(seed))) == []
+
+
+@pytest.mark.slow
+def test_curvature_of_closed_surfaces_of_facing_arcs_adds_up() -> None:
+    for made in (Scene(shape(HALF, by=Fraction(1, 2)), [shape(BAY)]), Scene([shape(HOOK)], [shape(DROP)])):
+        found = boundary(made)
+        sums = gauss_bonnet(found)
+        assert np.all(abs(sums.euler - found.complex.euler) < 1e-6) and sums.gap < 1e-6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "made",
+    [
+        Scene(shape(LENS, by=Fraction(1, 2)), [shape(BAY)]),
+        Scene([shape(BRACKET)], [shape(HALF, by=Fraction(1, 2))]),
+        Scene(shape(SECTOR, by=Fraction(1, 3)), [plate()]),
+    ],
+)
+def test_verify_boundary_confirms_facing_arcs(made: Scene) -> None:
+    result = verify.boundary(boundary(made), made, slices=4)
+    assert result.verified, result
+    assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
+
+
+def test_an_arc_that_fits_between_two_arcs_about_one_center_is_refused() -> None:
+    made = Scene(shape(HALF, by=Fraction(1, 5)), [plate(), Curved.circle((0, 0), 1)])
+    with pytest.raises(UnsupportedError, match="fits exactly between two arcs about one center"):
+        boundary(made)
