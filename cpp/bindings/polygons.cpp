@@ -238,18 +238,19 @@ void bind_polygons(nb::module_& m) {
         .def("__init__", [](cfree::SceneFeatures* f, std::vector<std::shared_ptr<Polygon>> robot,
                             std::vector<std::shared_ptr<Polygon>> obstacles, std::shared_ptr<Polygon> workspace,
                             std::optional<std::array<nb::object, 4>> bounds, const cfree::WholeScene* whole,
-                            const std::optional<std::vector<GivenRounding>>& rounding) {
+                            const std::optional<std::vector<GivenRounding>>& rounding, Index frames) {
             cfree::SceneShapes shapes = shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds));
+            shapes.frames = frames;
             for (std::size_t k = 0; rounding && k < rounding->size(); ++k)
                 (k < shapes.robot.size() ? shapes.robot_rounding : shapes.obstacle_rounding).push_back(rounding_of((*rounding)[k]));
             new (f) cfree::SceneFeatures(cfree::scene_features(shapes, whole ? *whole : cfree::WholeScene{}));
         }, "robot"_a, "obstacles"_a, "workspace"_a.none(), "bounds"_a.none(), "whole"_a.none() = nb::none(),
-             "rounding"_a.none() = nb::none(),
+             "rounding"_a.none() = nb::none(), "frames"_a = 0,
              "How the robot's polygons and the obstacles are rounded: the radius by which each is grown, and its sides that are "
-             "arcs, by x and y of their ends and centre, and radius.",
+             "arcs, by x and y of their ends and centre, and radius. The last `frames` obstacles are the complement of the workspace.",
              nb::sig("def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
                      "bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, "
-                     "rounding: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None) -> None"))
+                     "rounding: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None, frames: int = 0) -> None"))
         .def_ro("scene", &cfree::SceneFeatures::scene)
         .def_ro("robot", &cfree::SceneFeatures::robot)
         .def_ro("obstacles", &cfree::SceneFeatures::obstacles)

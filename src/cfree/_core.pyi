@@ -163,9 +163,9 @@ class WholeScene:
     def box(self) -> tuple[int, int, int, int] | None: ...
 
 class SceneFeatures:
-    def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, rounding: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None) -> None:
+    def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, bounds: Sequence[fractions.Fraction] | None, whole: WholeScene | None = None, rounding: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None, frames: int = 0) -> None:
         """
-        How the robot's polygons and the obstacles are rounded: the radius by which each is grown, and its sides that are arcs, by x and y of their ends and centre, and radius.
+        How the robot's polygons and the obstacles are rounded: the radius by which each is grown, and its sides that are arcs, by x and y of their ends and centre, and radius. The last `frames` obstacles are the complement of the workspace.
         """
 
     @property

@@ -148,7 +148,7 @@ struct Builder {
 
     template <class Owner>
     void add_polygon(const Polygon& polygon, const Rounding& rounding, Index owner, bool emit_outer, Owner owner_of) {
-        if (!rounding.arcs.empty()) return add_with_arcs(polygon, rounding, owner);
+        if (!rounding.arcs.empty()) return add_with_arcs(polygon, rounding, owner, emit_outer, owner_of);
         const Int factor = scale / polygon.denominator;
         const Index first = count();
         for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
@@ -166,7 +166,8 @@ struct Builder {
     }
 
     void number_others();
-    void add_with_arcs(const Polygon& polygon, const Rounding& rounding, Index owner);
+    template <class Owner>
+    void add_with_arcs(const Polygon& polygon, const Rounding& rounding, Index owner, bool emit_outer, Owner owner_of);
 
     void close_piece(Index of_layer) {
         piece.push_back(static_cast<Index>(piece_vertex.size()));
@@ -208,7 +209,8 @@ void Builder::number_others() {
 
 // The ring has a vertex for each corner and for each arc, its centre. Where an arc is smooth with its neighbour there is no corner.
 // A convex piece for each convex arc, between it and its chord, joins those of the polygon; a concave arc has a fillet.
-void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, Index owner) {
+template <class Owner>
+void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, Index owner, bool emit_outer, Owner owner_of) {
     const Int factor = scale / polygon.denominator, grown = scaled(rounding.radius, scale);
     const Index at_corner = class_of(grown), count_of_points = polygon.vertices.size();
     std::vector<Vec<Int>> points;
@@ -270,12 +272,12 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
             const Int turn = cross(in.towards[1], out.towards[0]);
             is_corner[k] = (!in.arc && !out.arc) || !turn.is_zero() || dot(in.towards[1], out.towards[0]).sign() < 0;
             if (is_corner[k]) {
-                vertex[k] = add_vertex(points[k].x, points[k].y, turn.sign() >= 0, true, owner, count() - first);
+                vertex[k] = add_vertex(points[k].x, points[k].y, turn.sign() >= 0, emit_outer || r > 0, owner, owner_of(r, count() - first));
                 vertex_radius.push_back(at_corner);
             }
             if (!out.arc) continue;
             const bool is_convex = !out.arc->beyond;
-            out.vertex = add_vertex(out.centre.x, out.centre.y, is_convex, true, owner, count() - first);
+            out.vertex = add_vertex(out.centre.x, out.centre.y, is_convex, emit_outer || r > 0, owner, owner_of(r, count() - first));
             const Int radius = scaled(out.arc->radius, scale);
             vertex_radius.push_back(class_of(is_convex ? Int(grown + radius) : Int(grown - radius)));
             arcs.push_back(out.vertex);
@@ -688,8 +690,15 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     const auto own = [](std::size_t, Index k) { return k; };
     for (std::size_t k = 0; k < shapes.robot.size(); ++k)
         robot.add_polygon(*shapes.robot[k], rounding_of(shapes.robot_rounding, k), static_cast<Index>(k), true, own);
-    for (std::size_t k = 0; k < shapes.obstacles.size(); ++k)
-        obstacles.add_polygon(*shapes.obstacles[k], rounding_of(shapes.obstacle_rounding, k), static_cast<Index>(k), true, own);
+    const std::size_t first_frame = shapes.obstacles.size() - static_cast<std::size_t>(shapes.frames);
+    for (std::size_t k = 0; k < first_frame; ++k)
+        obstacles.add_polygon(*shapes.obstacles[k], rounding_of(shapes.obstacle_rounding, k),
+                              static_cast<Index>(k), true, own);
+    // the rim of the frame stands for infinity; vertices are numbered from the first one of its hole
+    const Index frame_start = obstacles.count() + 4;
+    const auto of_workspace = [&](std::size_t, Index) -> Index { return obstacles.count() - frame_start; };
+    for (std::size_t k = first_frame; k < shapes.obstacles.size(); ++k)
+        obstacles.add_polygon(*shapes.obstacles[k], rounding_of(shapes.obstacle_rounding, k), workspace_owner, k > first_frame, of_workspace);
     const Int robot_radius = scaled(shapes.robot_radius(), scale);
     std::optional<Box> given;  // box around all obstacles of the whole, with their radii, and bounds
     const auto give = [&](const Int& x, const Int& y) { given ? given->add(x, y) : void(given = Box{x, y, x, y}); };
@@ -710,7 +719,7 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     give_all();
     for (std::size_t k = 0; k < bounds.size(); k += 2) give(bounds[k], bounds[k + 1]);
     if (shapes.workspace) add_workspace(*shapes.workspace, box_of(robot.x, robot.y).grown(robot_radius), obstacles, given);
-    if (shapes.workspace || shapes.bounds) {
+    if (shapes.workspace || shapes.bounds || shapes.frames) {
         give_all();
         Int reach_x = 0, reach_y = 0;
         for (Index k = 0; k < robot.count(); ++k) {

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, overload
 
 from cfree.contact.kind import Kind
 from cfree.contact.surface import evaluate
+from cfree.curves.curved import Curved
 from cfree.errors import InvariantError
 from cfree.exact.half_angle import theta_in
 from cfree.forbidden.kinds import KINDS, PatchKind
@@ -211,7 +212,9 @@ def obstacle_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Pla
     if polygon == WORKSPACE:
         if scene.workspace is None:
             raise InvariantError("a feature of a workspace in a scene that has none", state=feature)
-        return Place(polygon, "workspace", _ring(scene.workspace.ring_offsets, index), index, end)
+        # the first ring of a round one is the rim of its frame
+        ring = ring - 1 if isinstance(scene.workspace, Curved) else _ring(scene.workspace.ring_offsets, index)
+        return Place(polygon, "workspace", ring, index, end)
     return Place(polygon, scene.obstacle_names[polygon], ring, index, end)
 
 

@@ -142,7 +142,7 @@ class _Made:
 def _shapes_for(scene: Scene, clearance: Fraction) -> tuple[Cores, Bounds | None] | None:
     """Return smaller shapes and larger bounds; None if there are none, or if all shapes are polygons."""
     shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
-    if shapes is None or not shapes.is_round:
+    if shapes is None or not shapes.is_round or shapes.frames:
         return None
     by = Fraction(1, 2 ** max(SMALLER, 2 * _digits(scene, shapes)))
     cores, bounds = _smaller(shapes, by, is_in_workspace=scene.workspace is not None), None

@@ -217,9 +217,10 @@ def _grown(scene: Scene) -> SceneFeatures:
 def features_of_cores(cores: Cores, scene: Scene, bounds: Bounds | None) -> SceneFeatures:
     """Number the features of grown cores in the workspace of a scene, and in bounds."""
     robot, obstacles = ([shape.handle for shape in shapes] for shapes in (cores.robot, cores.obstacles))
-    _, _, workspace, limits = core_shapes((), (), scene.workspace, bounds)
+    straight = None if cores.frames else scene.workspace
+    _, _, workspace, limits = core_shapes((), (), straight, bounds)
     rounding = [shape.rounding for shape in (*cores.robot, *cores.obstacles)]
-    features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, limits, None, rounding))
+    features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, limits, None, rounding, cores.frames))
     refuse_too_many(features)
     return features
 

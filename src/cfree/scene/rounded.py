@@ -23,6 +23,7 @@ from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, rational_root
 from cfree.exact.vectors import cross, dot, minus
 from cfree.polygons.polygon import Polygon
+from cfree.scene.complement import complement
 from cfree.scene.hull_triangles import HullTriangle, hull_triangle, meeting
 
 if TYPE_CHECKING:
@@ -116,10 +117,13 @@ class Cores:
     Attributes
     ----------
     robot, obstacles : tuple of Rounded
+    frames : int
+        How many of the last obstacles are the complement of a round workspace; see `cfree.scene.complement`.
     """
 
     robot: tuple[Rounded, ...]
     obstacles: tuple[Rounded, ...]
+    frames: int = 0
 
     @property
     def has_concave(self) -> bool:
@@ -396,10 +400,11 @@ def why_not_rounded(scene: Scene) -> str:
     obstacle 0: not bounded by lines and arcs of rational radii, without cusps; ...
     """
     remedy = "give scene.outer(error) or scene.inner(error), on the command line what cfree convert --outer writes"
-    if isinstance(scene.workspace, Curved):
-        return f"workspace: round; give it as a polygon, or {remedy}"
     names = [f"robot[{k}]" if len(scene.robot) > 1 else "robot" for k in range(len(scene.robot))]
-    shapes = list(zip((*names, *scene.obstacle_names), (*scene.robot, *scene.obstacles), strict=True))
+    around = complement(scene)
+    names += [*scene.obstacle_names, *["workspace"] * len(around)]
+    all_shapes: list[AnyShape] = [*scene.robot, *scene.obstacles, *around]
+    shapes = list(zip(names, all_shapes, strict=True))
     cores = [(name, rounded(shape)) for name, shape in shapes]
     name = next((name for name, core in cores if core is None), None)
     if name is None:
@@ -412,15 +417,14 @@ def why_not_rounded(scene: Scene) -> str:
 
 
 def known_cores(scene: Scene) -> Cores:
-    """Return the cores of those shapes of a scene's robot and obstacles that are rounded."""
-    robot, obstacles = ([rounded(shape) for shape in shapes] for shapes in (scene.robot, scene.obstacles))
-    return Cores(tuple(filter(None, robot)), tuple(filter(None, obstacles)))
+    """Return the cores of those shapes of a scene that are rounded."""
+    around = complement(scene)
+    robot, obstacles = ([rounded(shape) for shape in shapes] for shapes in (scene.robot, (*scene.obstacles, *around)))
+    return Cores(tuple(filter(None, robot)), tuple(filter(None, obstacles)), len(around))
 
 
 def rounded_shapes(scene: Scene) -> Cores | None:
-    """Return the cores of a scene's robot and obstacles; None if a shape is not rounded, or arcs keep it out."""
-    if isinstance(scene.workspace, Curved):
-        return None
+    """Return the cores of a scene; None if a shape is not rounded, or arcs keep it out."""
     cores = known_cores(scene)
-    is_whole = len(cores.robot) == len(scene.robot) and len(cores.obstacles) == len(scene.obstacles)
+    is_whole = len(cores.robot) == len(scene.robot) and len(cores.obstacles) == len(scene.obstacles) + cores.frames
     return cores if is_whole and not cores.is_refused else None

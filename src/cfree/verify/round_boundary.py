@@ -16,8 +16,9 @@ from flint import arb
 
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
+from cfree.scene.complement import complement
 from cfree.scene.rounded import Cores, rounded_shapes
-from cfree.scene.scene import Scene
+from cfree.scene.scene import AnyShape, Scene
 from cfree.verify.degrees import DEGREE, by_degrees
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.round_algebra import Turn, precision
@@ -27,7 +28,7 @@ from cfree.verify.round_pieces import Piece, Reader, Scale
 from cfree.verify.round_proof import Features, RoundSeparation
 from cfree.verify.round_separation import scale_of, side_findings, size_of
 from cfree.verify.round_slices import SURE, compared, pillar_of
-from cfree.verify.round_world import Part, Place, RoundWorld, is_apart
+from cfree.verify.round_world import ArcFilletPair, FilletPair, Part, Place, RoundWorld, is_apart
 from cfree.words import counted
 
 PIECES, TRAPEZOIDS, FREE = "convex pieces", "names, angles, domains", "not forbidden"
@@ -98,15 +99,17 @@ def _as_pieces(stored: Boundary, cores: Cores) -> RoundSeparation:
         ANYWHERE,
         ANYWHERE,
         scene.bounds,
-        scene.workspace,
+        None if cores.frames else scene.workspace,
+        cores.frames,
     )
 
 
 def _findings_of_cores(cores: Cores, scene: Scene, world: RoundWorld) -> Iterator[Finding]:
     names = [f"robot[{k}]" for k in range(len(scene.robot))] + [f"obstacle {k}" for k in range(len(scene.obstacles))]
-    for name, core, shape in zip(
-        names, [*cores.robot, *cores.obstacles], [*scene.robot, *scene.obstacles], strict=True
-    ):
+    around = complement(scene)
+    names += ["workspace"] * len(around)
+    shapes: list[AnyShape] = [*scene.robot, *scene.obstacles, *around]
+    for name, core, shape in zip(names, [*cores.robot, *cores.obstacles], shapes, strict=True):
         if not is_same(core, shape):
             yield Finding(PIECES, name, "it is not its core, grown by its radius")
     for name in world.untiled:
@@ -140,7 +143,7 @@ class _Covering:
 
     def __init__(self, world: RoundWorld) -> None:
         self._size = world.size
-        self._fillet_pairs = [*world.fillet_pairs, *world.arc_fillet_pairs]
+        self._fillet_pairs: list[FilletPair | ArcFilletPair] = [*world.fillet_pairs, *world.arc_fillet_pairs]
         self._pairs: list[tuple[Part, Part]] = [(a, b) for some, others in world.layers for a in some for b in others]
         ends = [[_around(part) for part in side] for side in zip(*self._pairs, strict=True)]
         self._centers = np.array([[center for center, _ in side] for side in ends])

@@ -133,7 +133,8 @@ class Reader:
             both = features.edges[number] if is_edge else (number,)
             owner = features.owners[both[0]]
             owners.append(owner)
-            own = self._rim(side, owner).directions(tuple(features.points[p] for p in both), features.radii[both[0]])
+            points, radius = tuple(features.points[p] for p in both), features.radii[both[0]]
+            own = [cone for rim in self._rims_of(side, owner) for cone in rim.directions(points, radius)]
             if not own:
                 raise Fault(f"its {'edge' if is_edge else 'vertex'} is none of its core")
             cones.append([tuple(((e, NIL) if side else (NIL, e), sign) for e, sign in cone) for cone in own])
@@ -141,6 +142,12 @@ class Reader:
             raise Fault("a contact of the bounds with another point than the reference point")
         surface = self.surface(kind, i, j)
         return [replace(surface, ends=(*one, *other)) for one, other in product(*cones)]
+
+    def _rims_of(self, side: int, owner: int) -> list[Rim]:
+        """Return the rim of an owner of features; a round workspace has one for each shape of its complement."""
+        if side == 1 and owner == WORKSPACE and self.proof.frames:
+            return self._rims[1][-self.proof.frames :]
+        return [self._rim(side, owner)]
 
     def _rim(self, side: int, owner: int) -> Rim:
         if owner >= 0:

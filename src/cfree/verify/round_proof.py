@@ -71,6 +71,8 @@ class RoundSeparation:
     bounds : four numbers, optional
         Larger bounds than the scene's.
     workspace : Polygon, optional
+    frames : int
+        How many of the last obstacles are the complement of a round workspace.
     """
 
     robot: Sequence[Rounded]
@@ -85,6 +87,7 @@ class RoundSeparation:
     goal: Pose
     bounds: tuple[Fraction, Fraction, Fraction, Fraction] | None = None
     workspace: Polygon | None = None
+    frames: int = 0
 
     def __len__(self) -> int:
         return len(self.kind)

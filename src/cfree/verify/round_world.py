@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -153,10 +153,12 @@ class RoundWorld:
             robot += self._pieces(shape, f"robot[{k}]")
             self.fillets[0].extend(_fillets_of(shape))
             robot_corners += _corners_of(shape)
+        first_frame = len(cores.obstacles) - cores.frames
         for k, shape in enumerate(cores.obstacles):
-            obstacles += self._pieces(shape, f"obstacle {k}")
+            obstacles += self._pieces(shape, f"obstacle {k}" if k < first_frame else "workspace")
             self.fillets[1].extend(_fillets_of(shape))
-            obstacle_corners += _corners_of(shape)
+            # the rim of a frame stands for infinity
+            obstacle_corners += _corners_of(shape, first_ring=int(cores.frames > 0 and k == first_frame))
         reach = max(abs(c) for part in robot for p in part.points for c in p)
         far = reach + max((abs(c) for part in obstacles for p in part.points for c in p), default=Fraction(0))
         far += max(part.radius + (part.arc.radius if part.arc else 0) for part in robot + obstacles)
@@ -353,8 +355,10 @@ def _is_within(ring: Sequence[Any], point: Any) -> bool:
     return signs in ({1}, {-1})
 
 
-def _corners_of(shape: Rounded) -> Iterator[Corner]:
-    return _corners_with_arcs(shape) if shape.arcs else _corners(shape.core, float(shape.radius))
+def _corners_of(shape: Rounded, first_ring: int = 0) -> Iterator[Corner]:
+    if shape.arcs:
+        return _corners_with_arcs(shape, first_ring)
+    return _corners(shape.core, float(shape.radius), first_ring=first_ring)
 
 
 def _tangent(arc: CoreArc, p: ExactPoint) -> ExactPoint:
@@ -367,9 +371,11 @@ def _ball(x: Fraction) -> arb:
     return arb(fmpq(x.numerator, x.denominator))
 
 
-def _corners(core: Polygon | tuple[ExactPoint, ...], radius: float, *, is_reversed: bool = False) -> Iterator[Corner]:
-    rings: Iterable[Sequence[ExactPoint]] = core.exact_rings if isinstance(core, Polygon) else [core]
-    for ring in rings:
+def _corners(
+    core: Polygon | tuple[ExactPoint, ...], radius: float, *, is_reversed: bool = False, first_ring: int = 0
+) -> Iterator[Corner]:
+    rings: Sequence[Sequence[ExactPoint]] = core.exact_rings if isinstance(core, Polygon) else [core]
+    for ring in rings[first_ring:]:
         points = [complex(*p) for p in ring]
         yield from _around(points[::-1] if is_reversed else points, radius)
 
@@ -382,12 +388,12 @@ def _around(points: Sequence[complex], radius: float) -> Iterator[Corner]:
         yield Corner(before, p, after, radius, count < 3 or turn > 0, p, after - p, radius)
 
 
-def _corners_with_arcs(shape: Rounded) -> Iterator[Corner]:
+def _corners_with_arcs(shape: Rounded, first_ring: int) -> Iterator[Corner]:
     """Yield corners, and centers of arcs; where an arc is smooth with its neighbour the corner only has the edge."""
     assert isinstance(shape.core, Polygon)
     arcs, width = {(arc.start, arc.end): arc for arc in shape.arcs}, float(shape.radius)
     beyond = {arc.beyond[0] for arc in shape.arcs if arc.beyond}
-    for points in shape.core.exact_rings:
+    for points in shape.core.exact_rings[first_ring:]:
         ring = [p for p in points if p not in beyond]
         for before, p, after in zip([ring[-1], *ring[:-1]], ring, [*ring[1:], ring[0]], strict=True):
             one, other = arcs.get((before, p)), arcs.get((p, after))

@@ -45,6 +45,7 @@ struct SceneShapes {
     std::shared_ptr<const Polygon> workspace;         // optional; the whole robot stays in it
     std::optional<std::array<Ratio, 4>> bounds;       // xmin, ymin, xmax, ymax: the reference point stays in them
     std::vector<Rounding> robot_rounding = {}, obstacle_rounding = {};  // one for each polygon; or empty, and none is rounded
+    Index frames = 0;  // how many of the last obstacles are the complement of a round workspace: a frame, then its holes
     // The largest of the robot's radii: the robot is within the corners grown by it.
     Ratio robot_radius() const;
 };
