@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from cfree.curves import Arc, Circle
 from cfree.scene.complement import complement
 
 SQUARE = [("-1/2", "-1/2"), ("1/2", "-1/2"), ("1/2", "1/2"), ("-1/2", "1/2")]
+HALF, HAIR = Fraction(1, 2), Fraction(1, 2**60)
 BAR = [(-1, "-1/4"), (1, "-1/4"), (1, "1/4"), (-1, "1/4")]
 
 
@@ -91,3 +93,27 @@ def test_a_boundary_in_a_round_workspace_is_written_and_read(tmp_path: Path) -> 
 def test_a_workspace_with_an_ellipse_is_refused_by_name() -> None:
     with pytest.raises(cfree.UnsupportedError, match=r"^workspace: not bounded by lines and arcs"):
         boundary(Scene(SQUARE, workspace=Curved.ellipse((0, 0), (3, 5))))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("clearance", [None, HALF / 2])
+def test_a_gap_of_a_round_hall_too_narrow_by_a_hair_has_a_proof(clearance: Fraction | None, tmp_path: Path) -> None:
+    walls = [Curved.circle((0, y), 3) for y in (HALF * 7, -HALF * 7)]
+    for excess in (HAIR, -HAIR):
+        scene = Scene(
+            Curved.circle((0, 0), HALF + excess - (clearance or 0)), walls, workspace=Curved.circle((0, 0), 5)
+        )
+        answer = cfree.plan(scene, Pose(-2, 0), Pose(2, 0), clearance=clearance)
+        assert isinstance(answer, cfree.Path) == (excess < 0)
+        cfree.save(answer, tmp_path / "answer.json")
+        assert cfree.verify.answer(scene, cfree.load(tmp_path / "answer.json")).verified
+
+
+@pytest.mark.slow
+def test_a_proof_for_another_round_workspace_is_refuted() -> None:
+    walls = [Curved.circle((0, y), 3) for y in (HALF * 7, -HALF * 7)]
+    robot = Curved.circle((0, 0), HALF + HAIR)
+    scenes = [Scene(robot, walls, workspace=Curved.circle((0, 0), radius)) for radius in (5, 6)]
+    proof = cfree.plan(scenes[0], Pose(-2, 0), Pose(2, 0))
+    assert isinstance(proof, cfree.Separated)
+    assert cfree.verify.answer(scenes[0], proof).verified and not cfree.verify.answer(scenes[1], proof).verified

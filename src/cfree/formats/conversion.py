@@ -13,6 +13,7 @@ from cfree.exact.number import Number
 from cfree.formats.drawings.source import CURVE_SHARE, SCENE_ALONE
 from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, save_scene
 from cfree.formats.shapes import Shapes
+from cfree.scene.complement import complement
 from cfree.scene.reading import Note, together
 from cfree.scene.rounded import known_cores, rounded, rounded_shapes
 from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_polygons, with_reading
@@ -135,11 +136,12 @@ def as_exact(scene: Scene, error: float | None, *, remedy: str = "") -> tuple[Sc
         return scene, ()
     error = error or largest_of(scene) / CURVE_SHARE
     are_refused = known_cores(scene).is_refused
-    parts, others = (
+    parts, others, around = (
         [None if (core := rounded(shape)) and not (are_refused and core.has_concave) else error for shape in shapes]
-        for shapes in (scene.robot, scene.obstacles)
+        for shapes in (scene.robot, scene.obstacles, complement(scene))
     )
-    result = with_polygons(scene, [*parts, *others, error], outward=True)
+    errors = [*parts, *others, error if any(around) else None]
+    result = with_polygons(scene, errors, outward=True)
     replaced = round_count(shapes_of(scene)) - round_count(shapes_of(result))
     return result, (Note("near", "polygon around a round shape", "near", replaced, size=error, remedy=remedy),)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import count
 from threading import Lock
@@ -142,7 +142,7 @@ class _Made:
 def _shapes_for(scene: Scene, clearance: Fraction) -> tuple[Cores, Bounds | None] | None:
     """Return smaller shapes and larger bounds; None if there are none, or if all shapes are polygons."""
     shapes = rounded_shapes(grown_scene(scene, clearance) if clearance else scene)
-    if shapes is None or not shapes.is_round or shapes.frames:
+    if shapes is None or not shapes.is_round:
         return None
     by = Fraction(1, 2 ** max(SMALLER, 2 * _digits(scene, shapes)))
     cores, bounds = _smaller(shapes, by, is_in_workspace=scene.workspace is not None), None
@@ -180,7 +180,7 @@ def _smaller(shapes: Cores, by: Fraction, *, is_in_workspace: bool) -> Cores | N
     sides = [shapes.robot] if is_in_workspace or not shapes.obstacles else [shapes.robot, shapes.obstacles]
     for side in sorted(sides, key=lambda parts: not all(shape.radius for shape in parts)):
         if (parts := smaller(side, by)) is not None:
-            return Cores(parts, shapes.obstacles) if side is shapes.robot else Cores(shapes.robot, parts)
+            return replace(shapes, robot=parts) if side is shapes.robot else replace(shapes, obstacles=parts)
     return None
 
 

@@ -32,7 +32,8 @@ def complement(scene: Scene) -> tuple[AnyShape, ...]:
     if not isinstance(workspace, Curved):
         return ()
     boxes = [box_of(workspace), *map(box_of, scene.obstacles), *([scene.bounds] if scene.bounds else [])]
-    low, high = [Fraction(min(box[k] for box in boxes)) for k in (0, 1)], [Fraction(max(box[k] for box in boxes)) for k in (2, 3)]
+    low = [Fraction(min(box[k] for box in boxes)) for k in (0, 1)]
+    high = [Fraction(max(box[k] for box in boxes)) for k in (2, 3)]
     thickness = 4 * Fraction(robot_radius(scene))
     step = power_of_two(max(b - a for a, b in zip(low, high, strict=True)) + thickness) / FINENESS
     x0, y0 = (math.floor((c - thickness) / step) * step for c in low)

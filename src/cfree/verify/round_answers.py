@@ -56,7 +56,8 @@ def surface_of(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation 
         proof.start,
         proof.goal,
         proof.bounds,
-        scene.workspace,
+        None if cores.frames else scene.workspace,
+        cores.frames,
     )
 
 

@@ -16,6 +16,7 @@ from cfree.curves.drawn import Line
 from cfree.curves.rings import Circle
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
+from cfree.scene.complement import complement
 from cfree.scene.rounded import Rounded, is_arc
 from cfree.scene.scene import AnyShape
 from cfree.verify.arcs import Part, Region, Spot, exact, is_near, is_nearer, is_of_arcs, rational, region_of
@@ -201,14 +202,16 @@ def _distance(parts: Sequence[Part], others: Sequence[Part], least: Fraction) ->
 def margin(proof: RoundSeparation, scene: Any) -> tuple[Fraction | None, list[tuple[str, str]]]:
     """Distance by which the scene's shapes are larger at least, and all that is not inside them."""
     wrong: list[tuple[str, str]] = []
-    if len(proof.obstacles) != len(scene.obstacles) or not proof.robot:
+    around = complement(scene) if proof.frames else ()
+    shapes = *scene.obstacles, *around
+    if len(proof.obstacles) != len(shapes) or proof.frames != len(around) or not proof.robot:
         return None, [("the scene", "the proof has other numbers of shapes")]
     own, others = list[Fraction](), list[Fraction]()
     for k, part in enumerate(proof.robot):
         rooms = [r for shape in scene.robot if (r := room(part, shape)) is not None]
         own += [max(rooms)] if rooms else []
         wrong += [] if rooms else [(f"robot's core {k}", "it is not inside a shape of the robot")]
-    for k, (smaller, shape) in enumerate(zip(proof.obstacles, scene.obstacles, strict=True)):
+    for k, (smaller, shape) in enumerate(zip(proof.obstacles, shapes, strict=True)):
         its_room = room(smaller, shape)
         others += [] if its_room is None else [its_room]
         wrong += [(f"obstacle {k}", "its core is not inside its shape")] if its_room is None else []

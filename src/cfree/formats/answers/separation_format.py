@@ -161,16 +161,20 @@ class CoresModel(Strict):
 
     robot: Annotated[list[RoundedModel], Field(min_length=1)]
     obstacles: list[RoundedModel]
+    frames: Annotated[int, Field(strict=True, ge=0)] = 0
 
     @model_validator(mode="after")
     def _fits(self) -> CoresModel:
+        if self.frames > len(self.obstacles):
+            raise Fault(f'expected "frames" up to {len(self.obstacles)}, the number of obstacles, got {{got}}')
         if self.result.is_refused:
             raise Fault("channels that a disc fills; got {got}")
         return self
 
     @property
     def result(self) -> Cores:
-        return Cores(tuple(part.result for part in self.robot), tuple(part.result for part in self.obstacles))
+        robot, obstacles = (tuple(part.result for part in parts) for parts in (self.robot, self.obstacles))
+        return Cores(robot, obstacles, self.frames)
 
 
 class SeparationModel(AnswerModel):

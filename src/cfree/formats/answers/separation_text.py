@@ -49,6 +49,8 @@ def separation_text(proof: Separated, stamp: Stamp) -> str:
             name: [_rounded_record(part) for part in parts]
             for name, parts in (("robot", proof.rounded.robot), ("obstacles", proof.rounded.obstacles))
         }
+        if proof.rounded.frames:
+            head["rounded"]["frames"] = proof.rounded.frames
     if proof.pieces.auxiliary:
         head["auxiliary"] = [
             {"of": a.of, "kind": a.kind, "number": a.number, "points": [[str(x), str(y)] for x, y in a.points]}
