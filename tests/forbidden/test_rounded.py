@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import shapely
 
+import cfree
 from cfree import Curved, Pose, Scene, UnsupportedError, boundary, free_space
 from cfree.curves import Arc
 from cfree.forbidden.kinds import PatchKind
