@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import cfree
-from arc_rings import CONCAVE, shape
+from arc_rings import CONCAVE, random_hall, shape
 from cfree import Curved, Pose, Scene, boundary, free_space, is_free
 from cfree.curves import Arc, Circle
 from cfree.scene.complement import complement
@@ -117,3 +117,16 @@ def test_a_proof_for_another_round_workspace_is_refuted() -> None:
     proof = cfree.plan(scenes[0], Pose(-2, 0), Pose(2, 0))
     assert isinstance(proof, cfree.Separated)
     assert cfree.verify.answer(scenes[0], proof).verified and not cfree.verify.answer(scenes[1], proof).verified
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(12))
+def test_cells_of_random_halls_are_those_of_exact_poses(seed: int) -> None:
+    scene, rng = random_hall(seed), random.Random(seed)
+    result = boundary(scene)
+    space = free_space(result)
+    x0, y0, x1, y1 = map(float, scene.workspace.box)  # type: ignore[union-attr]
+    for _ in range(60):
+        pose = Pose(rng.uniform(x0 - 1, x1 + 1), rng.uniform(y0 - 1, y1 + 1), rng.uniform(0, math.tau))
+        assert (space.locate(pose) >= 0) == is_free(scene, pose), pose
+    assert cfree.verify.boundary(result, scene, slices=1).verified

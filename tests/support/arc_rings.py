@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from cfree import Curved, Scene
-from cfree.curves import Arc
+from cfree.curves import Arc, Circle
 
 Ring = list[tuple[int, int] | tuple[int, int, tuple[int, int]] | tuple[int, int, tuple[int, int], str]]
 
@@ -102,3 +102,18 @@ def random_concave(seed: int) -> Scene:
         some = "bay", "bracket", "plate"
         return Scene([concave(2, some)], [concave(10, some), *others])
     return Scene(parts, [*others, concave(8)])
+
+
+def random_hall(seed: int) -> Scene:
+    """A part in a round workspace, which may have concave arcs, a hole, obstacles and bounds."""
+    rng = random.Random(f"hall {seed}")
+    robot = random_shape(rng, 0) if rng.random() < 0.6 else random_plain(rng, 0)
+    obstacles = [random_shape(rng, 3) for _ in range(rng.randint(0, 2))]
+    bounds = (-3, -3, Fraction(7, 2), 3) if rng.random() < 0.3 else None
+    ring = rng.choice([None, *RINGS.values(), *CONCAVE.values()])
+    if ring is None:
+        circle = Circle((rng.randint(-2, 2), Fraction(rng.randint(-3, 3), 2)), Fraction(rng.randint(4, 12), 2))
+        hall = Curved(circle, [Circle((0, 0), Fraction(1, 2))] if rng.random() < 0.4 else [])
+    else:
+        hall = shape(ring, Fraction(rng.randint(-3, 3), 2), 0, rng.choice([2, 3, Fraction(5, 2)]))
+    return Scene(robot, obstacles, workspace=hall, bounds=bounds)

@@ -328,3 +328,8 @@ def test_deep_verification_among_round_shapes_has_degrees() -> None:
     )
     assert (whole.name, whole.how) == ("Gauss map", "MEASURED") and "half its Euler number" in whole.extent
     assert sampled.how == "SKIPPED"
+
+
+def test_obstacles_far_beyond_bounds_are_no_missing_contacts() -> None:
+    scene = Scene(disc(0, 0, 1), [disc(40, 3, 5), disc(0, 0, 1)], bounds=(-1, -1, 3, 1))
+    assert cfree.verify.boundary(boundary(scene), scene, slices=2).verified
