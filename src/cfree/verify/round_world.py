@@ -174,13 +174,8 @@ class RoundWorld:
         self.corners = [(robot_corners, obstacle_corners)]
         if scene.bounds:
             bounds = [Fraction(b) for b in scene.bounds]
-            span = 1 + bounds[2] - bounds[0] + bounds[3] - bounds[1] + far  # no contact is beyond it
-            wide = [
-                min(bounds[0], 0) - span,
-                min(bounds[1], 0) - span,
-                max(bounds[2], 0) + span,
-                max(bounds[3], 0) + span,
-            ]
+            span = 1 + far + sum(map(abs, bounds))  # no contact is beyond it
+            wide = [bounds[0] - span, bounds[1] - span, bounds[2] + span, bounds[3] + span]
             beyond = [Part(tuple(ring), Fraction(0)) for ring in frame(wide, bounds)]  # type: ignore[arg-type]
             inner = [complex(*p) for p in rectangle(*bounds)[::-1]]  # type: ignore[arg-type]
             self.layers.append(([Part(((Fraction(0), Fraction(0)),), Fraction(0))], beyond))
