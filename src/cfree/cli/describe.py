@@ -88,7 +88,8 @@ def _describe_curved(scene: Scene) -> dict[str, Any]:
     taken, _ = as_exact(scene, None)
     facts["round"], facts["exact"] = round_count(shapes_of(scene)), round_count(shapes_of(taken))
     if (cores := rounded_shapes(taken)) is not None:
-        facts["robot"], facts["obstacles"] = _core_counts(cores.robot), _core_counts(cores.obstacles)
+        own = cores.obstacles[: len(cores.obstacles) - cores.frames]
+        facts["robot"], facts["obstacles"] = _core_counts(cores.robot), _core_counts(own)
         facts["patches"] = expected_patches(taken, grown_features(taken))
     for key, pose in (("start", scene.start), ("goal", scene.goal)):
         if pose is not None:

@@ -107,7 +107,7 @@ def _draw_slice(cut: Slice, ax: Axes) -> None:
     from matplotlib.patches import PathPatch
 
     boundary = cut.boundary
-    workspace = boundary.scene.workspace
+    workspace = smooth(boundary.scene).workspace
     inside = cut.forbidden if workspace is None else cut.forbidden.intersection(workspace.to_shapely())
     region = path_of(rings_of_geometry(inside))
     draw_surroundings(ax, smooth(boundary.scene), frame=False)
