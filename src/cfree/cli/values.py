@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from cfree.words import counted
 
+LARGEST = 10**150
+"""Coordinates of scenes are not larger."""
+
 if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
     from cfree.exact.pose import Pose
@@ -78,6 +81,12 @@ def read_seconds(text: str) -> float:
     if not 0 <= seconds < math.inf:
         raise ValueError(f'--improve: {text!r}; give a time such as "2s" or "500ms"')
     return seconds
+
+
+def require_near(text: str, *numbers: Fraction) -> None:
+    """Raise a `ValueError` if a number is beyond the range of coordinates."""
+    if any(abs(number) > LARGEST for number in numbers):
+        raise ValueError(f"{text} is beyond 1e150, the largest coordinate; give a smaller number")
 
 
 def read_length(text: str, name: str, what: str = "a length") -> Fraction:
