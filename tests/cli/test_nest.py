@@ -74,6 +74,7 @@ def test_copies_are_placed_and_the_rest_is_left() -> None:
         (["--sheet", "1x2x3"], "--sheet: '1x2x3' is no size and no file"),
         (["--strip", "1e160"], "--strip: 1e160 is beyond 1e150, the largest coordinate; give a smaller number"),
         (["--gap", "1e300"], "--gap: 1e300 is beyond 1e150, the largest coordinate; give a smaller number"),
+        (["--rotations", ""], "or give any, or a number of steps of a full turn"),
         (["--rotations", "-1"], "rotations: -1; give 1 to 360 steps of a full turn"),
         (["--sheet", "10x10", "--strip", "5"], "--sheet and --strip: give one of them"),
         (["--gap", "-1"], "--gap: -1; give a length, 0 or more"),
@@ -105,6 +106,26 @@ def test_nothing_placed_is_exit_code_1_and_in_no_time_3(tmp_path: Path) -> None:
     assert result.exit_code == 3 and "no part was placed in time; give more --max-seconds" in result.stderr
     assert run(PARTS, "--sheet", "60x60").exit_code == 0  # some have a place
     assert "no part has a place" in " ".join(run("--help").stdout.split())
+
+
+def test_parts_that_are_too_many_or_too_large_are_named(tmp_path: Path) -> None:
+    triangle = {"type": "simple_polygon", "data": [[0, 0], [1, 0], [0, 1], [0, 0]]}
+    file = tmp_path / "many.json"
+    item = {"id": 0, "demand": 10**7, "allowed_orientations": [0.0], "shape": triangle}
+    file.write_text(json.dumps({"name": "many", "items": [item], "strip_height": 5}))
+    result = run(file)
+    assert result.exit_code == 2 and "parts: 10,000,000 with all copies; give 1,000,000 at most" in result.stderr
+    result = run(PARTS, "--copies", 10**9)
+    assert result.exit_code == 2 and "1000000000 is not in the range 1<=x<=100000" in result.stderr
+    large = {"type": "Polygon", "coordinates": [[[0, 0], [1e200, 0], [1, 1], [0, 0]]]}
+    shape = {"type": "Feature", "properties": {"name": "a"}, "geometry": large}
+    file = tmp_path / "large.geojson"
+    file.write_text(json.dumps({"type": "FeatureCollection", "features": [shape]}))
+    result = run(file, "--sheet", "9x9")
+    assert result.exit_code == 2 and "error: part a: a coordinate is larger than 1e150; scale it" in result.stderr
+    drawing = tmp_path / "empty.svg"
+    drawing.write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+    assert "no part: the file has no closed shape; draw one" in run(drawing, "--sheet", "9x9").stderr
 
 
 def test_options_of_drawings_are_refused_for_instances() -> None:

@@ -100,6 +100,10 @@ def test_round_parts_are_taken_apart_as_they_are() -> None:
     ("ask", "text"),
     [
         (lambda: Assembly({}), "parts: there are none"),
+        (
+            lambda: Assembly({"a": [(0, 0), ("1e200", 0), (0, 1)]}),
+            "part a: a coordinate is larger than 1e150; scale it",
+        ),
         (lambda: Assembly({"a": PEG}, fixed=["b"]), "fixed: 'b' is the name of no part"),
         (lambda: can_leave("pag", PARTS), "did you mean 'peg'"),
         (lambda: can_leave("peg", PARTS, gone=["lud"]), "gone: 'lud' is the name of no part; did you mean 'lid'"),

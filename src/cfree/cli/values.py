@@ -99,6 +99,7 @@ def read_length(text: str, name: str, what: str = "a length") -> Fraction:
         length = Fraction(0)
     if length <= 0:
         raise ValueError(f'{name}: {text!r}; give {what} above 0 such as "0.3" or "1/3"')
+    require_near(f"{name}: {text!r}", length)
     return length
 
 

@@ -13,7 +13,7 @@ from cfree.analysis.leaving import outside
 from cfree.arguments import checked
 from cfree.curves.similar import moved_shape
 from cfree.exact.pose import Pose
-from cfree.nesting.layout import shape_box, union
+from cfree.nesting.layout import require_range, shape_box, union
 from cfree.scene.scene import AnyShape, Scene, shapes_in
 from cfree.words import counted, listed
 
@@ -42,7 +42,7 @@ class Assembly:
     Raises
     ------
     ValueError
-        If there is no part, or a fixed one is none of them.
+        If there is no part, or a fixed one is none of them, or a coordinate is larger than 1e150.
 
     Examples
     --------
@@ -61,6 +61,8 @@ class Assembly:
             raise ValueError("parts: there are none; give at least one")
         object.__setattr__(self, "names", tuple(parts))
         object.__setattr__(self, "shapes", tuple(tuple(shapes_in(shape, name)) for name, shape in parts.items()))
+        for name, shapes in zip(self.names, self.shapes, strict=True):
+            require_range(shapes, f"part {name}")
         object.__setattr__(self, "fixed", tuple(self.names[self.index(name, "fixed")] for name in fixed))
         object.__setattr__(self, "units", units)
 

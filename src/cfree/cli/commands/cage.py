@@ -169,7 +169,7 @@ def _finger(text: str) -> Any:
     except ValueError as error:
         raise ValueError(f"--finger: {text!r}: {error}; give X,Y for a point, or X,Y,R for a disc") from None
     radius = read_length(parts[2], "--finger", "a radius") if len(parts) > 2 else None
-    require_near(f"--finger: {text!r}", x, y, radius or x)
+    require_near(f"--finger: {text!r}", x, y)
     return (x, y) if radius is None else Curved.circle((x, y), radius)
 
 

@@ -173,7 +173,8 @@ def _of_one(assembly: Assembly, part: str, max_seconds: float | None, *, gap: bo
     if step and as_json:
         return 0, {"leaves": True}, step, [step]
     if step:
-        return 0, {"answer": f"{part} can leave", "path": _path_text(step)}, step, [step]
+        none = {"gap": "none is missing"} if gap else {}
+        return 0, {"answer": f"{part} can leave", "path": _path_text(step), **none}, step, [step]
     with bar("blocking parts"):
         blocking = what_blocks(part, assembly)
     miss = None

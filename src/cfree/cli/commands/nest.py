@@ -45,7 +45,7 @@ NO_TIME = "no part was placed in time; give more --max-seconds"
 @click.option("--strip", metavar="HEIGHT", help="Take a strip of this height and of open length.")
 @click.option("--sheets", type=click.IntRange(1, 1000), default=1, metavar="N", show_default=True,
               help="Take up to N copies of --sheet.")  # fmt: skip
-@click.option("--copies", type=click.IntRange(min=1), default=1, metavar="N", show_default=True,
+@click.option("--copies", type=click.IntRange(1, 100_000), default=1, metavar="N", show_default=True,
               help="Cut each part of a drawing N times as often as drawn.")  # fmt: skip
 @click.option("--rotations", default="4", metavar="WHICH", show_default=True,
               help='Turn parts by so many steps of a full turn, by angles as in "0deg,90deg", or by any.')  # fmt: skip
@@ -166,6 +166,8 @@ def _placed(
     from cfree.nesting.placement import place
 
     parts = [with_quantity(part, part.quantity * copies) for part in all_parts(job.nesting)]
+    if not parts and not job.nesting.sheets:
+        raise ValueError("no part: the file has no closed shape; draw one")
     if not parts:
         raise ValueError("no part: the file has only sheets; draw parts on other layers, or give them other names")
     stock, is_strip = _stock(job, parts, sheet, strip, sheets)
@@ -253,8 +255,8 @@ def _length(text: str, name: str, *, least: bool = True) -> Fraction:
 
 def _rotations(text: str) -> Any:
     """Return "any", a number of steps, or angles."""
-    if text == "any" or not text.strip():
-        return text or 1
+    if text == "any":
+        return text
     if re.fullmatch(r"[-+]?\d+", text.strip()):
         return int(text)
     from cfree.cli.values import read_angle
@@ -308,8 +310,9 @@ def _report(
             "files": written,
         })  # fmt: skip
         return
-    rows: dict[str, Any] = {"parts": f"{len(nesting.placed)} placed{f' on {sheets}' if nesting.used else ''}"}
-    if nesting.used:
+    is_on_sheets = bool(nesting.sheets and nesting.placed)
+    rows: dict[str, Any] = {"parts": f"{len(nesting.placed)} placed{f' on {sheets}' if is_on_sheets else ''}"}
+    if is_on_sheets:
         rows["used"] = f"{100 * nesting.density:.2f} % of the area"
     if nesting.placed:
         rows["extent"] = f"{x1 - x0:.6g} x {y1 - y0:.6g}{' ' + nesting.units if nesting.units else ''}"
