@@ -212,7 +212,7 @@ def _answered(
         if not chosen:
             return REFUTED, {"answer": "not caged, even by all fingers", **_cage_rows(chosen.cage, names)}, chosen.cage
         count = len(chosen.fingers)
-        rows: Rows = {"answer": f"caged by {count} of {len(fingers)} fingers, proved; by no fewer"}
+        rows: Rows = {"answer": f"caged by {count} of {counted(len(fingers), 'finger')}, proved; by no fewer"}
         rows |= {"fingers": _listed(chosen.fingers, names), "paths that exclude fewer": len(chosen.escapes)}
         return 0, rows, chosen.cage
     with bar("cage") as progress:
