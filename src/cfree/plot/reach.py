@@ -111,8 +111,6 @@ def _draw_machine(ax: Axes, audited: Audit, machine: str) -> None:
     from matplotlib.patches import PathPatch
     from matplotlib.patheffects import withStroke
 
-    from cfree.words import counted
-
     scene = smooth(audited.machines[machine])
     boxes = draw_surroundings(ax, scene, frame=False)
     halo = [withStroke(linewidth=2.5, foreground="white")]
