@@ -19,7 +19,7 @@ unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: help build demo test check rest ctest sanitize fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded fuzz-nesting fuzz-cages lint bench docs viewer viewer-test dev stub clean
+.PHONY: help build demo test check rest ctest sanitize notebooks wheels fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded fuzz-nesting fuzz-cages lint bench docs viewer viewer-test dev stub clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
@@ -106,6 +106,12 @@ docs: .venv/documented  ## the documentation as pages, into docs/_build/html
 .venv/documented: $(INSTALLED)
 	$(INSTALL) $(HERE) '.[test,docs]'
 	touch $@
+
+wheels:  ## the packages of this machine, tried in new environments, into dist; PYTHONS="python3.11 python3.12"
+	$(PYTHON) tools/build_wheels.py $(or $(PYTHONS),python3.11 python3.12)
+
+notebooks:  ## the tutorials as notebooks, into examples/notebooks
+	$(PYTHON) tools/notebooks.py
 
 viewer: $(INSTALLED) $(NODE_MODULES)  ## the page, src/cfree/viewer/page.html: needs node, npm and Debian's emscripten and node-acorn
 	npm --prefix viewer run --silent format:check

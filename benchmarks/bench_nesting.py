@@ -109,9 +109,7 @@ def _angles(report: Report, name: str, fixed: Polygon, moving: Polygon, rounds: 
     solids, robot = pieces_of([fixed]), pieces_of([moving])
 
     def own() -> None:
-        turning = RotationalNFP(fixed, moving)
-        for theta in ANGLES:
-            turning.slice(theta).forbidden  # noqa: B018
+        RotationalNFP(fixed, moving).polygons(ANGLES)
 
     def rings() -> None:
         turning = RotationalNFP(fixed, moving)

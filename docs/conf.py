@@ -1,11 +1,22 @@
 """How the documentation is built: `make docs`."""
 
+import sys
 from importlib.metadata import version as version_of
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from docutils import nodes
+from docutils.parsers.rst import Directive
 from sphinx_gallery.scrapers import figure_rst
+
+import cfree
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from live_links import fragment  # noqa: E402
+from notebooks import notebooks  # noqa: E402
 
 project = "cfree"
 author = "The cfree developers"
@@ -61,8 +72,31 @@ def write_pages(app: Any, fault: Exception | None) -> None:
         (static / page.name).write_bytes(page.read_bytes())
 
 
+class Live(Directive):
+    """The page with a scene of the repository open, and a link to it alone."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the frame and the link."""
+        scene = cfree.load_scene(ROOT / self.arguments[0])
+        up = "../" * self.state.document.settings.env.docname.count("/")
+        address = f"{up}_static/page.html{fragment(scene)}"
+        frame = f'<iframe src="{address}" title="Robot, obstacles and configuration space" loading="lazy"></iframe>'
+        link = f'<p><a href="{address}">Open {scene.name} as a page of its own</a></p>'
+        return [nodes.raw("", f'<div class="cfree-page">{frame}</div>{link}', format="html")]
+
+
+def write_notebooks(app: Any) -> None:
+    """Offer the notebooks of the repository for download: in those of sphinx-gallery no picture is shown."""
+    for name, text in notebooks().items():
+        (Path(app.srcdir) / "gallery" / f"plot_{name}").write_text(text, encoding="utf-8")
+
+
 def setup(app: Any) -> None:
     """As Sphinx calls it."""
+    app.add_directive("live", Live)
+    app.connect("builder-inited", write_notebooks, priority=900)  # after the gallery's own
     app.connect("build-finished", write_pages)
 
 

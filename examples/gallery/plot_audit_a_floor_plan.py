@@ -16,7 +16,7 @@ from cfree.plot import plot_audit, plot_reach
 #
 # The plan is drawn in SVG; the machines are outlines. Walls are filled shapes, and doors the gaps between them.
 
-plans = Path("examples/plans") if Path("examples").exists() else Path("../plans")
+plans = (Path("examples") if Path("examples").exists() else Path("..")) / "plans"
 machines = {}
 for name in ("bed", "wheelchair"):
     machines[name] = [shape.polygon for shape in cfree.load_shapes(plans / f"{name}.geojson").of("robot")]
@@ -42,6 +42,8 @@ figure = plot_audit(result)
 
 door = result.blocked[0]
 print(cfree.verify.answer(result.machines["bed"], door.proofs[0]).verdict)
+
+page = cfree.viewer.page(result.machines["bed"], door.proofs[0])
 
 # %%
 # Wide enough, and yet blocked

@@ -28,6 +28,11 @@ print("verified by other code:", cage.verified())
 figure = cage.plot()
 
 # %%
+# Move the part: it cannot leave. Then move a finger away, by *Edit*.
+
+page = cfree.viewer.page(cage.scene, cage.answer)
+
+# %%
 # One finger is not enough: the answer is a path.
 
 free = is_caged(part, fingers[:1])

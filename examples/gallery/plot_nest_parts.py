@@ -6,6 +6,7 @@ Parts of a drawing on a sheet: no-fit polygons with their exact fits, a layout w
 """
 
 import math
+from pathlib import Path
 
 import cfree
 from cfree.nesting import Nesting, Part, RotationalNFP, can_be_cut_free, compact, load_nesting, nfp, overlaps, place
@@ -31,16 +32,25 @@ for change in turning.topology_changes:
     print(f"{math.degrees(change.angle.theta):8.4f} degrees: holes {change.before[1]} -> {change.after[1]}")
 
 # %%
+# Turn the triangle in the page: its forbidden region at an angle is the no-fit polygon.
+
+page = cfree.viewer.page(cfree.Scene([(0, 0), (2, 0), (0, 2)], [plate], start=("2.5", "2.5", 0)))
+
+# %%
 # Place
 # -----
 #
 # The drawing has a sheet and five parts. Each goes to its lowest position, then the leftmost, decided exactly; the plug
-# goes into the hole of the frame. Parts keep the gap, and the cut has a width.
+# goes into the hole of the frame.
 
-job = load_nesting("examples/drawings/parts.svg")
+examples = Path("examples") if Path("examples").exists() else Path("..")
+job = load_nesting(examples / "drawings/parts.svg")
 layout = place(job)
 print(layout, overlaps(layout))
 figure = layout.plot()
+
+# %%
+# Cuts 0.2 wide, with a gap of 2 between them:
 
 cut = place(job, [[(0, 0), (150, 0), (150, 100), (0, 100)]], gap=2, kerf="0.2")
 figure = cut.plot()

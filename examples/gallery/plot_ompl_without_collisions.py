@@ -18,8 +18,8 @@ import cfree
 import cfree.ompl
 
 util.setLogLevel(util.LogLevel.LOG_ERROR)
-scenes = Path("examples/scenes") if Path("examples").exists() else Path("../scenes")
-scene = cfree.load_scene(scenes / "benchmr_parking1.json")
+examples = Path("examples") if Path("examples").exists() else Path("..")
+scene = cfree.load_scene(examples / "scenes/benchmr_parking1.json")
 setup = cfree.ompl.simple_setup(scene)
 print(setup.solve(60.0))
 setup.simplifySolution(1.0)
@@ -42,3 +42,8 @@ for corners in path.sample(step).apply(scene.robot[0].vertices):
 places = path.sample(step / 10).xy
 axes.plot(*places.T, color="#2a7ab8", linewidth=1.2)
 figure = axes.figure
+
+# %%
+# The same car park in the page, with the path:
+
+page = cfree.viewer.page(scene, path)

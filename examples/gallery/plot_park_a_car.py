@@ -7,6 +7,7 @@ path leads there.
 """
 
 from fractions import Fraction
+from pathlib import Path
 
 import cfree
 
@@ -17,7 +18,8 @@ import cfree
 # The middle of the rear axle is 1.25 m behind the middle of this car, and its turning radius is 3 m: both are in the
 # file of the scene, with the distance of its axles. ``cfree.Car.with_wheelbase`` takes the greatest steering angle.
 
-scene = cfree.load_scene("examples/scenes/parking_bay.json")
+examples = Path("examples") if Path("examples").exists() else Path("..")
+scene = cfree.load_scene(examples / "scenes/parking_bay.json")
 print(scene.vehicle)
 print(f"{float(cfree.Car.with_wheelbase('2.5', '40deg').turning_radius):.3f} m")
 
@@ -38,6 +40,11 @@ print("free:", path.is_free(cfree.MotionChecker(scene)), "- drivable:", bool(cfr
 # Blue is ahead, orange back; dots are changes of direction. Front wheels have the angle of the motion that follows.
 
 figure = path.plot(scene)
+
+# %%
+# Drag the goal, or the middle of the narrowest arc, which changes the turning radius:
+
+page = cfree.viewer.page(scene, path)
 
 # %%
 # In space the path changes its gear at sharp corners: there the car stands.

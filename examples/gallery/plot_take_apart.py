@@ -5,6 +5,8 @@ Take it apart
 Three parts in a frame, and a key in its housing: which part leaves first, which one is held, and by what?
 """
 
+from pathlib import Path
+
 import cfree
 from cfree.disassembly import Assembly, can_leave, missing_gap, removal_order, what_blocks
 
@@ -14,7 +16,8 @@ from cfree.disassembly import Assembly, can_leave, missing_gap, removal_order, w
 #
 # Each shape of the file is a part at its place. The frame stays.
 
-shapes = cfree.load_shapes("examples/cages/frame.geojson").shapes
+examples = Path("examples") if Path("examples").exists() else Path("..")
+shapes = cfree.load_shapes(examples / "cages/frame.geojson").shapes
 parts = Assembly({shape.name: shape.polygon for shape in shapes}, fixed=["frame"])
 found = removal_order(parts)
 print("out:", ", ".join(found.order), "- put together:", ", ".join(found.assembly_order))
@@ -48,7 +51,7 @@ print(missing_gap("left block", parts))
 #
 # At the orientation in which it lies, the place of the key is enclosed: it leaves with a turn, or not at all.
 
-shapes = cfree.load_shapes("examples/cages/puzzle.geojson").shapes
+shapes = cfree.load_shapes(examples / "cages/puzzle.geojson").shapes
 puzzle = Assembly({shape.name: shape.polygon for shape in shapes}, fixed=["housing"])
 out = can_leave("key", puzzle)
 print(out.path, "- verified:", out.verified())
@@ -56,3 +59,8 @@ cut = cfree.boundary(out.scene).slice(0)
 print("enclosed at its orientation:", any(part.interiors for part in getattr(cut.forbidden, "geoms", [cut.forbidden])))
 
 figure = out.plot()
+
+# %%
+# Drag the key: it stops where it touches the housing.
+
+page = cfree.viewer.page(out.scene, out.answer)

@@ -68,12 +68,20 @@ def test_copies_are_placed_and_the_rest_is_left() -> None:
     ("words", "fault"),
     [
         (["--sheet", "10xten"], "--sheet: '10xten' is no size and no file; give a size as in \"1000x500\""),
+        (["--sheet", "0x10"], "--sheet: 0x10: its width is 0; give a width and a height above 0"),
+        (["--sheet", "5x-10"], "--sheet: 5x-10: its height is -10; give a width and a height above 0"),
+        (["--sheet", "1e300x5"], "--sheet: 1e300x5 is beyond 1e150, the largest coordinate; give a smaller number"),
+        (["--sheet", "1x2x3"], "--sheet: '1x2x3' is no size and no file"),
+        (["--strip", "1e160"], "--strip: 1e160 is beyond 1e150, the largest coordinate; give a smaller number"),
+        (["--gap", "1e300"], "--gap: 1e300 is beyond 1e150, the largest coordinate; give a smaller number"),
+        (["--rotations", ""], "or give any, or a number of steps of a full turn"),
+        (["--rotations", "-1"], "rotations: -1; give 1 to 360 steps of a full turn"),
         (["--sheet", "10x10", "--strip", "5"], "--sheet and --strip: give one of them"),
         (["--gap", "-1"], "--gap: -1; give a length, 0 or more"),
         (["--kerf", "wide"], "--kerf: 'wide' is no length; give a number as in \"2.5\""),
         (["--strip", "0"], "--strip: 0; give a length above 0"),
         (["--rotations", "0"], "rotations: 0; give 1 to 360 steps of a full turn"),
-        (["--rotations", "north"], "--rotations: "),
+        (["--rotations", "north"], 'or give any, or a number of steps of a full turn, as in "4"'),
         (["--check", "--gap", "1"], "--gap: only to place parts; leave it out"),
         (["--check", "--compact", "left"], "--check and --compact: give one of them"),
         (["--compact", "north"], '--compact: \'north\'; give "left", "right", "down" or "up"'),
@@ -86,6 +94,38 @@ def test_faults_are_one_line_and_exit_code_2(words: list[str], fault: str) -> No
     result = run(PARTS, *words)
     assert result.exit_code == 2 and fault in result.stderr and "Traceback" not in result.output
     assert len([line for line in result.stderr.splitlines() if line.startswith("error")]) == 1
+
+
+def test_nothing_placed_is_exit_code_1_and_in_no_time_3(tmp_path: Path) -> None:
+    result = run(PARTS, "--sheet", "1x1", "-o", tmp_path / "a.svg")
+    assert result.exit_code == 1 and " 0 placed\n" in result.stdout
+    assert "error: no part has a place on a sheet; give a larger sheet" in result.stderr
+    result = run(PARTS, "--sheet", "1x1", "--json")
+    assert result.exit_code == 1 and json.loads(result.stdout)["left"]["frame"] == 1
+    result = run(PARTS, "--max-seconds", "0")
+    assert result.exit_code == 3 and "no part was placed in time; give more --max-seconds" in result.stderr
+    assert run(PARTS, "--sheet", "60x60").exit_code == 0  # some have a place
+    assert "no part has a place" in " ".join(run("--help").stdout.split())
+
+
+def test_parts_that_are_too_many_or_too_large_are_named(tmp_path: Path) -> None:
+    triangle = {"type": "simple_polygon", "data": [[0, 0], [1, 0], [0, 1], [0, 0]]}
+    file = tmp_path / "many.json"
+    item = {"id": 0, "demand": 10**7, "allowed_orientations": [0.0], "shape": triangle}
+    file.write_text(json.dumps({"name": "many", "items": [item], "strip_height": 5}))
+    result = run(file)
+    assert result.exit_code == 2 and "parts: 10,000,000 with all copies; give 1,000,000 at most" in result.stderr
+    result = run(PARTS, "--copies", 10**9)
+    assert result.exit_code == 2 and "1000000000 is not in the range 1<=x<=100000" in result.stderr
+    large = {"type": "Polygon", "coordinates": [[[0, 0], [1e200, 0], [1, 1], [0, 0]]]}
+    shape = {"type": "Feature", "properties": {"name": "a"}, "geometry": large}
+    file = tmp_path / "large.geojson"
+    file.write_text(json.dumps({"type": "FeatureCollection", "features": [shape]}))
+    result = run(file, "--sheet", "9x9")
+    assert result.exit_code == 2 and "error: part a: a coordinate is larger than 1e150; scale it" in result.stderr
+    drawing = tmp_path / "empty.svg"
+    drawing.write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+    assert "no part: the file has no closed shape; draw one" in run(drawing, "--sheet", "9x9").stderr
 
 
 def test_options_of_drawings_are_refused_for_instances() -> None:

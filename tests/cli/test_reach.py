@@ -44,6 +44,7 @@ def test_a_heading_turns_the_machine_with_a_vehicle_and_without() -> None:
     [
         (["aisle", BED, "--kind", "bay"], 'opening: missing; kind "bay" needs the width of the opening'),
         (["aisle", BED, "--kind", "bay", "--opening", "x"], "--opening: 'x'; give a length above 0"),
+        (["aisle", BED, "--kind", "bay", "--opening", "1e200"], "--opening: '1e200' is beyond 1e150"),
         (["aisle", "missing.json"], "missing.json: No such file"),
         (["aisle", BED, "--turning-radius", "3"], "--turning-radius: of a vehicle; give --vehicle"),
         (["reach", FLAT, "--start", "1,1"], "--start: '1,1': 2 numbers; give X,Y,THETA"),

@@ -8,6 +8,7 @@ from itertools import permutations
 import pytest
 
 import cfree
+from cfree.curves.similar import moved_shape
 from cfree.disassembly import Assembly, can_leave, missing_gap, removal_order, what_blocks
 
 FRAME = [(0, 0), (4, 0), (4, 3), (3, 3), (3, 1), (1, 1), (1, 3), (0, 3)]
@@ -43,7 +44,9 @@ def test_the_key_of_the_puzzle_leaves_only_with_a_turn() -> None:
     (region,) = (part for part in getattr(cut.forbidden, "geoms", [cut.forbidden]) if part.interiors)
     import shapely
 
-    assert any(shapely.Polygon(hole).contains(shapely.Point(0, 0)) for hole in region.interiors)
+    assert out.scene.start is not None
+    place = shapely.Point(float(out.scene.start.x), float(out.scene.start.y))
+    assert any(shapely.Polygon(hole).contains(place) for hole in region.interiors)
 
 
 def test_a_part_that_no_order_takes_out_has_a_proof_that_names_those_that_hold_it() -> None:
@@ -97,6 +100,10 @@ def test_round_parts_are_taken_apart_as_they_are() -> None:
     ("ask", "text"),
     [
         (lambda: Assembly({}), "parts: there are none"),
+        (
+            lambda: Assembly({"a": [(0, 0), ("1e200", 0), (0, 1)]}),
+            "part a: a coordinate is larger than 1e150; scale it",
+        ),
         (lambda: Assembly({"a": PEG}, fixed=["b"]), "fixed: 'b' is the name of no part"),
         (lambda: can_leave("pag", PARTS), "did you mean 'peg'"),
         (lambda: can_leave("peg", PARTS, gone=["lud"]), "gone: 'lud' is the name of no part; did you mean 'lid'"),
@@ -114,6 +121,20 @@ def test_faults_name_the_part_and_the_remedy(ask: object, text: str) -> None:
 def test_an_assembly_of_fixed_parts_has_nothing_to_take_out() -> None:
     found = removal_order(Assembly({"frame": FRAME}, fixed=["frame"]))
     assert found and found.order == ()
+
+
+@pytest.mark.slow
+def test_paths_are_as_short_far_from_the_origin_as_near_it() -> None:
+    shapes = {str(s.name): s.polygon for s in cfree.load_shapes("examples/cages/frame.geojson").shapes}
+    far = cfree.Pose(10**6, -(10**6))
+    moved = {name: moved_shape(shape, far) for name, shape in shapes.items()}
+    paths = [can_leave("wedge", Assembly(parts, fixed=["frame"])).path for parts in (shapes, moved)]
+    assert all(path is not None and path.length < 3 * 6.5 for path in paths)  # three times its own height
+    key = {str(s.name): s.polygon for s in cfree.load_shapes("examples/cages/puzzle.geojson").shapes}
+    turned = can_leave("key", Assembly({k: moved_shape(v, far) for k, v in key.items()}, fixed=["housing"]))
+    near = can_leave("key", Assembly(key, fixed=["housing"]))
+    assert turned.path is not None and near.path is not None and turned.verified()
+    assert turned.path.length < 2 * near.path.length
 
 
 def boxes(seed: int) -> Assembly:

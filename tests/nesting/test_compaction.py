@@ -78,3 +78,7 @@ def test_no_direction_and_no_pass_are_refused() -> None:
 def test_without_a_sheet_a_part_with_nothing_before_it_stays() -> None:
     result = compact(Nesting([], [Placed(SQUARE, (0, 0, 0)), Placed(SQUARE, (5, 0, 0))]), "left")
     assert [one.pose.x for one in result.nesting.placed] == [0, 2]
+
+
+def test_one_slide_is_written_in_the_singular() -> None:
+    assert repr(compact(Nesting([SHEET], [Placed(SQUARE, (1, 0, 0))]))).startswith("<Compacted by 1 slide and 0 turns")

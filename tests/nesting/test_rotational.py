@@ -26,6 +26,21 @@ def test_a_slice_is_the_no_fit_polygon(degrees: int) -> None:
     assert shapely.symmetric_difference(cut, exact.to_shapely()).area < 1e-9
 
 
+def test_polygons_at_many_angles_are_those_of_the_slices() -> None:
+    angles = [0, "45deg", *(math.radians(k + 0.5) for k in range(0, 360, 7)), {"tau": "1/3"}]
+    far = [Polygon([(x, 0), (x + 1, 0), (x, 1)]) for x in (0, 9)]  # two regions
+    disc = Curved.circle((0, 0), 1)
+    for fixed, moving in ((PLATE, TRIANGLE), (SLOT, SQUARE), (far, SQUARE), (PLATE, disc)):
+        turning = RotationalNFP(fixed, moving)
+        regions = turning.polygons(angles)
+        assert len(regions) == len(angles) and all(map(shapely.is_valid, regions))
+        for theta, region in zip(angles, regions, strict=True):
+            assert shapely.equals_exact(region.normalize(), turning.slice(theta).forbidden.normalize())
+    assert {part.geom_type for part in RotationalNFP(far, SQUARE).polygons(angles)} == {"MultiPolygon"}
+    assert {len(part.interiors) for part in RotationalNFP(PLATE, TRIANGLE).polygons(angles)} == {0, 1}
+    assert RotationalNFP(PLATE, TRIANGLE).polygons([]) == []
+
+
 def test_events_are_all_angles_of_parallel_edges_and_more() -> None:
     events = {round(math.degrees(event.theta), 6) for event in RotationalNFP(SLOT, SQUARE).events}
     assert events == {0, 90, 180, 270}

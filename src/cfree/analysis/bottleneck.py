@@ -43,6 +43,11 @@ class Bottleneck:
         The two obstacles that it is between; -1 is the bounds, -2 the workspace.
     names : (str, str), optional
         Their names in words, with size and place.
+
+    Examples
+    --------
+    >>> print(Bottleneck(Pose(0, 0, "359.99deg"), (1, 0)))
+    obstacle 1 and obstacle 0 at 0 deg
     """
 
     pose: Pose
@@ -52,9 +57,8 @@ class Bottleneck:
     def __str__(self) -> str:
         pairs = zip(self.obstacles, self.names or map(default_name, self.obstacles), strict=True)
         one, other = (name for _, name in sorted(pairs, reverse=True))
-        if one == other:
-            return f"parts of {one} at {math.degrees(self.pose.theta):.3g} deg"
-        return f"{one} and {other} at {math.degrees(self.pose.theta):.3g} deg"
+        degrees = float(f"{math.degrees(self.pose.theta):.3g}") % 360  # almost a whole turn is none
+        return f"{f'parts of {one}' if one == other else f'{one} and {other}'} at {degrees:g} deg"
 
 
 @dataclass(frozen=True, eq=False)

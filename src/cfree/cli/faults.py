@@ -1,8 +1,8 @@
 """Faults of the command: a message in one line, and an exit code.
 
 0    done; `plan`: a path; `verify`: verified; `cage`: caged, immobile; `disassemble`: the parts can be taken out
-1    `plan`, `disassemble`: proved impossible; `verify`: refuted; `cage`: not caged, mobile; `nest`: parts overlap;
-     `audit`: a door is not passed; nothing else
+1    `plan`, `disassemble`: proved impossible; `verify`: refuted; `cage`: not caged, mobile; `audit`: a door is not
+     passed; `nest`: parts overlap, or none has a place; nothing else
 2    bad input, also on the command line, and files that cannot be read or written
 3    a limit of time or memory; `plan`: no path, but perhaps one that touches
 4    a bug in cfree

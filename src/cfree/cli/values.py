@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from cfree.words import counted
 
+LARGEST = 10**150
+"""Coordinates of scenes are not larger."""
+
 if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
     from cfree.exact.pose import Pose
@@ -80,6 +83,12 @@ def read_seconds(text: str) -> float:
     return seconds
 
 
+def require_near(text: str, *numbers: Fraction) -> None:
+    """Raise a `ValueError` if a number is beyond the range of coordinates."""
+    if any(abs(number) > LARGEST for number in numbers):
+        raise ValueError(f"{text} is beyond 1e150, the largest coordinate; give a smaller number")
+
+
 def read_length(text: str, name: str, what: str = "a length") -> Fraction:
     """Read a length or a speed above 0, exactly."""
     from cfree.exact.number import to_fraction
@@ -90,6 +99,7 @@ def read_length(text: str, name: str, what: str = "a length") -> Fraction:
         length = Fraction(0)
     if length <= 0:
         raise ValueError(f'{name}: {text!r}; give {what} above 0 such as "0.3" or "1/3"')
+    require_near(f"{name}: {text!r}", length)
     return length
 
 

@@ -79,7 +79,7 @@ class OffsetSurface:
     core : Surface
         The v-e surface of the arc's centre and the edge, or the e-v surface of the edge and the arc's centre.
     signed_square : Fraction
-        rho |rho| of the arc.
+        ``rho |rho|`` of the arc.
     edge_offset : Fraction
         Offset of the edge.
 
@@ -206,7 +206,7 @@ class ArcArcSurface:
 
     @property
     def sign(self) -> int:
-        """Exact sign of sigma, which is that of the sum of the signed squares, as x |x| grows with x."""
+        """Exact sign of sigma, which is that of the sum of the signed squares, as ``x |x|`` grows with x."""
         total = self.robot.signed_square + self.obstacle.signed_square
         return (total > 0) - (total < 0)
 

@@ -37,7 +37,7 @@ class ArcFeature:
     ----------
     centre : pair of Fraction
     signed_square : Fraction
-        rho |rho| of the signed radius rho: rational, also where rho is not.
+        ``rho |rho|`` of the signed radius rho: rational, also where rho is not.
     start, end : pair of int
         Exact directions of the first and last outward normal, counter-clockwise from start to end.
     width : float, radians
@@ -195,7 +195,7 @@ def shape_features(shape: Polygon | Curved) -> ShapeFeatures:
 
 
 def signed_root(signed_square: Fraction) -> Fraction | None:
-    """Return the fraction x with x |x| equal to this number, None if there is none."""
+    """Return the fraction x with ``x |x|`` equal to this number, None if there is none."""
     root = rational_root(abs(signed_square))
     return root if root is None or signed_square > 0 else -root
 
@@ -248,7 +248,7 @@ class _Side:
 
     @property
     def signed_square(self) -> Fraction:
-        """rho |rho| of an arc."""
+        """``rho |rho|`` of an arc."""
         (x, y), _ = self.normals
         return self.sense * (x * x + y * y)
 

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from fractions import Fraction
 from typing import Any
 
 from cfree.analysis.leaving import outside
 from cfree.arguments import checked
+from cfree.curves.similar import moved_shape
 from cfree.exact.pose import Pose
+from cfree.nesting.layout import require_range, shape_box, union
 from cfree.scene.scene import AnyShape, Scene, shapes_in
 from cfree.words import counted, listed
-
-START = Pose(0, 0)
 
 
 @checked
@@ -40,7 +42,7 @@ class Assembly:
     Raises
     ------
     ValueError
-        If there is no part, or a fixed one is none of them.
+        If there is no part, or a fixed one is none of them, or a coordinate is larger than 1e150.
 
     Examples
     --------
@@ -59,6 +61,8 @@ class Assembly:
             raise ValueError("parts: there are none; give at least one")
         object.__setattr__(self, "names", tuple(parts))
         object.__setattr__(self, "shapes", tuple(tuple(shapes_in(shape, name)) for name, shape in parts.items()))
+        for name, shapes in zip(self.names, self.shapes, strict=True):
+            require_range(shapes, f"part {name}")
         object.__setattr__(self, "fixed", tuple(self.names[self.index(name, "fixed")] for name in fixed))
         object.__setattr__(self, "units", units)
 
@@ -93,11 +97,20 @@ class Assembly:
         Parameters
         ----------
         name : str
-            The part that moves: the robot of the scene.
+            The part that moves: the robot of the scene. Its reference point is about the middle of its box, so that
+            paths are as short far from the origin as near it.
         gone : iterable of str
             Parts that are already taken out.
+
+        Examples
+        --------
+        >>> lid = [(100, 3), (104, 3), (104, 4), (100, 4)]
+        >>> Assembly({"lid": lid, "box": [(100, 0), (104, 0), (104, 3), (100, 3)]}).scene("lid").start.x
+        Fraction(102, 1)
         """
-        part, away = self.shapes[self.index(name)], set(gone)
+        shapes_of_part, away = self.shapes[self.index(name)], set(gone)
+        start = middle_of(shapes_of_part)
+        part = [moved_shape(shape, Pose(-start.x, -start.y)) for shape in shapes_of_part]
         others = [
             (other, shape)
             for other, shapes in zip(self.names, self.shapes, strict=True)
@@ -107,5 +120,19 @@ class Assembly:
         shapes = [shape for _, shape in others]
         names = [other for other, _ in others]
         alone = Scene(part, shapes, obstacle_names=names, units=self.units)
-        goal = outside(alone, START)
-        return Scene(part, shapes, obstacle_names=names, start=START, goal=goal, units=self.units, name=name)
+        goal = outside(alone, start)
+        return Scene(part, shapes, obstacle_names=names, start=start, goal=goal, units=self.units, name=name)
+
+
+def middle_of(shapes: Sequence[AnyShape]) -> Pose:
+    """Return a pose in the middle of shapes, within a tenth of their size, in few binary digits.
+
+    Examples
+    --------
+    >>> from cfree.polygons.polygon import Polygon
+    >>> middle_of([Polygon([("1/3", 0), (8, 0), (8, 2)])]).x
+    Fraction(17, 4)
+    """
+    x0, y0, x1, y1 = union(map(shape_box, shapes))
+    unit = Fraction(2) ** (math.floor(math.log2(max(x1 - x0, y1 - y0))) - 4)
+    return Pose(*(round((low + high) / 2 / unit) * unit for low, high in ((x0, x1), (y0, y1))))

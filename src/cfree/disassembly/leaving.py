@@ -11,7 +11,7 @@ from cfree.analysis.leaving import holding, is_outside, leave
 from cfree.analysis.margins import NearestMiss, nearest_miss
 from cfree.arguments import checked
 from cfree.collision.nearest_free import ForbiddenPoseError
-from cfree.disassembly.assembly import START, Assembly
+from cfree.disassembly.assembly import Assembly
 from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.lazy import registered
 from cfree.paths.path import Path
@@ -132,7 +132,7 @@ def can_leave(
     >>> can_leave("peg", parts)
     Leaving('peg': it cannot leave, held by frame, lid)
     >>> can_leave("peg", parts, gone=["lid"]).path
-    Path(1 motion, length 11.25, turning 0)
+    Path(1 motion, length 4.21875, turning 0)
     """
     for name in gone:
         assembly.index(name, "gone")
@@ -150,8 +150,10 @@ def leaving(
 ) -> Leaving:
     """Decide as `can_leave` does."""
     scene = assembly.scene(part, gone)
+    start = scene.start
+    assert start is not None
     try:
-        answer = leave(scene, START, improve=improve, max_seconds=max_seconds, progress=progress)
+        answer = leave(scene, start, improve=improve, max_seconds=max_seconds, progress=progress)
     except ForbiddenPoseError as error:
         fault = str(error).split(": ", 1)[1].split(";")[0]
         raise InvalidPoseError(f"part {part!r} overlaps another one: {fault}; move one of them") from None
@@ -166,9 +168,9 @@ def leaving(
 
 
 def _ending_at(scene: Scene, path: Path) -> Scene:
-    names, units = scene.obstacle_names, scene.units
+    names, units, start, goal = scene.obstacle_names, scene.units, path.start, path.goal
     return Scene(
-        scene.robot, scene.obstacles, obstacle_names=names, start=START, goal=path.goal, units=units, name=scene.name
+        scene.robot, scene.obstacles, obstacle_names=names, start=start, goal=goal, units=units, name=scene.name
     )
 
 

@@ -207,8 +207,8 @@ def zero_mean_angles(surface: ArcArcSurface, *, angle_scale: Number = 1) -> tupl
 
     Notes
     -----
-    H = 0 means sigma |a| cos(delta) = |a|^2 + w^2. There are two angles if |sigma| |a| > |a|^2 + w^2, one if both are
-    equal, else none. So there is none if |sigma| < 2 w.
+    H = 0 means ``sigma |a| cos(delta) = |a|^2 + w^2``. There are two angles if ``|sigma| |a| > |a|^2 + w^2``, one if
+    both are equal, else none. So there is none if ``|sigma| < 2 w``.
 
     Examples
     --------
@@ -283,7 +283,7 @@ def line_of_curvature(
 
     Notes
     -----
-    Their slopes m = dpsi / dphi solve sigma c m^2 - (sigma c + |a|^2 + w^2) m + c^2 = 0, whose discriminant is
+    Their slopes m = dpsi / dphi solve ``sigma c m^2 - (sigma c + |a|^2 + w^2) m + c^2 = 0``, whose discriminant is
     positive: both families cover the surface without singularities. As m depends on psi - phi alone, all lines of one
     family are congruent. Runge and Kutta's method of order four, with steps halved until that moves points less than
     1e-10 of the longest length.

@@ -70,7 +70,7 @@ def distance_across(rows: Ruled, phi_from: Floats, phi_to: Floats, w: float) -> 
 
     Notes
     -----
-    u.R(phi) a = |a| sin(psi), where psi grows with phi.
+    ``u.R(phi) a = |a| sin(psi)``, where psi grows with phi.
     """
     (qx, qy), (ax, ay) = (np.moveaxis(vector, -1, 0) for vector in (rows.q, rows.a))
     first = np.arctan2(qx * ax + qy * ay, qy * ax - qx * ay)

@@ -62,7 +62,7 @@ def is_minimal(surface: AnySurface) -> bool:
     Lemma 3, as "if and only if". On an e-v surface H = w E F / (2 v^3) is 0 somewhere only if F = det(a_i, a_{i+1}) is
     0, and then everywhere. On a v-e surface H = -w E F / (2 v^3) with F = q x R(phi) a: it is 0 everywhere only if a_i
     is the reference point, and the surface then lies in a plane. The surface of an arc on an arc is never minimal, and
-    an offset c of an edge E changes F to F + c |E|: squares decide.
+    an offset c of an edge E changes F to ``F + c |E|``: squares decide.
 
     Examples
     --------
@@ -169,7 +169,7 @@ def distribution_parameters(ruled: ArrayLike, *, angle_scale: float = 1.0) -> Fl
 
 
 def _is_sum_of_roots(total: Fraction, first: Fraction, second: Fraction) -> bool:
-    """True if x = y + second for the numbers x and y with x |x| = total and y |y| = first."""
+    """True if x = y + second for the numbers x and y with ``x |x| = total`` and ``y |y| = first``."""
     # (x - y)^2 = second^2 holds exactly if 2 x y = x^2 + y^2 - second^2; the sign of x - y is that of total - first
     product = abs(total) + abs(first) - second * second
     same = (total > 0) == (first > 0) or not total or not first

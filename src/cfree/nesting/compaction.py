@@ -18,6 +18,7 @@ from cfree.exact.pose import Pose
 from cfree.nesting.checking import overlaps
 from cfree.nesting.layout import Nesting, Placed, shape_box, union
 from cfree.scene.scene import Scene
+from cfree.words import counted
 
 SIDES = {"left": (-1, 0), "right": (1, 0), "down": (0, -1), "up": (0, 1)}
 Side = Literal["left", "right", "down", "up"]
@@ -65,7 +66,8 @@ class Compacted:
 
     def __repr__(self) -> str:
         turns = sum(isinstance(each.motion, Rotation) for each in self.motions)
-        return f"<Compacted by {len(self.motions) - turns} slides and {turns} turns: {self.nesting!r}>"
+        motions = f"{counted(len(self.motions) - turns, 'slide')} and {counted(turns, 'turn')}"
+        return f"<Compacted by {motions}: {self.nesting!r}>"
 
 
 @checked

@@ -21,6 +21,7 @@ from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape, Scene, largest_of, shapes_in
 from cfree.words import counted
 
+LARGEST = 10**150  # coordinate
 ROUND_SHARE = 1000  # of a shape's size: error of the polygons that stand for round shapes
 
 
@@ -55,6 +56,7 @@ class Part:
             raise ValueError("shape: there is none; give a polygon or a round shape")
         if quantity < 1:
             raise ValueError(f"quantity: {quantity}; give at least 1")
+        require_range(shapes, f"part {name}".strip())
         if rotations is not None and not len(rotations):
             raise ValueError("rotations: there is none; give at least one angle, or None for any")
         values = {"shapes": shapes, "name": name, "quantity": quantity}
@@ -226,6 +228,12 @@ def shape_box(shape: AnyShape) -> tuple[Fraction, Fraction, Fraction, Fraction]:
         return shape.box
     xs, ys = zip(*shape.exact_vertices, strict=True)
     return min(xs), min(ys), max(xs), max(ys)
+
+
+def require_range(shapes: Iterable[AnyShape], name: str) -> None:
+    """Raise a `ValueError` if a coordinate of shapes is beyond the range of scenes."""
+    if any(abs(c) > LARGEST for shape in shapes for c in shape_box(shape)):
+        raise ValueError(f"{name}: a coordinate is larger than 1e150; scale it")
 
 
 def union(boxes: Iterable[tuple[Any, Any, Any, Any]]) -> tuple[Any, Any, Any, Any]:

@@ -33,6 +33,7 @@ from cfree.polygons.disc import around_disc
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import shapes_in
 
+MOST_PARTS = 10**6
 SIDES_OF_GAP = 16  # of the polygon around a disc that keeps parts apart
 MARGIN = 1e-8  # share of the size: candidates that far inside of a no-fit polygon are dropped in doubles
 FAR = 2.0**-20  # share of the coordinates that the size is at least, for rounding far from the origin
@@ -91,7 +92,7 @@ def place(
     Raises
     ------
     ValueError
-        If there is no part or no sheet, or a length is negative.
+        If there is no part or no sheet, there are more than a million parts, or a length is negative.
 
     Notes
     -----
@@ -121,6 +122,8 @@ def place(
     for name, length in (("gap", space), ("kerf", width)):
         if length < 0:
             raise ValueError(f"{name}: {length}; give a length, 0 or more")
+    if (count := sum(part.quantity for part in wanted)) > MOST_PARTS:
+        raise ValueError(f"parts: {count:,} with all copies; give {MOST_PARTS:,} at most")
     sizes = [shape.size for part in wanted for shape in part.shapes if isinstance(shape, Curved)]
     error = 2 * max(sizes, default=0.0) / ROUND_SHARE
     nester = _Nester(wanted, stock, space + width, space + width / 2, _angles(rotations), toward, error)

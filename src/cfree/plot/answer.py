@@ -60,11 +60,13 @@ Floats = NDArray[np.float64]
 PALE = Colours(*(paler(colour, 0.6) for colour in (VERTEX_EDGE, EDGE_VERTEX, HELIX, EDGE_EDGE)))
 MARGIN, LEAST = 15.0, 90.0  # degrees shown above and below a path, and degrees shown at least
 NEAR = 1.6  # robot's radii; patches beyond this and twice the least clearance are left out
+BESIDE = 0.06  # share of a surface's size that is free beside it
+HIGH = 0.75  # height of the space around a small surface, in its widths
 FADE = 0.5  # share of that reach from which on patches are fainter
 TINY = 0.03  # share of the window: narrower or lower patches have no outlines
 DASH = 8  # steps of the path from dash to dash
 WIDEST = 160  # characters of a headline; a longer one leaves out the obstacles' places
-STEPS = 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
+STEPS = 1, 2, 5, 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
 
 
 @checked
@@ -235,12 +237,20 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     return figure
 
 
-def draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labels: Labels) -> None:
-    """Draw the separating surface, and start and goal if they are within its rectangle."""
+def draw_surface(
+    figure: Figure, ax: Any, answer: Separated, scene: Scene, labels: Labels, *, close: bool = False
+) -> None:
+    """Draw the separating surface, and start and goal if they are within its rectangle.
+
+    With `close` the surface fills the picture: no more is shown around it, and only the angles that it has.
+    """
     surface = surface_of(answer, scene)
-    box = around_surface(surface)
+    box = around_surface(surface, BESIDE if close else None)
     space = _right(figure)
-    _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, tiny=TINY))
+    degrees = angles_around(surface, math.degrees(answer.start.theta)) if close else (0.0, 360.0)
+    size = min(1.0, max(box[2] - box[0], box[3] - box[1]) / (2 * robot_radius(surface.scene)))
+    patches = patches_of(surface, box, tiny=TINY * size if close else TINY)
+    _draw_patches(space, surface, box, degrees, slab(patches, box, degrees) if close else patches, close=close)
     kinds = {"v-e contacts": PatchKind.VERTEX_EDGE, "e-v contacts": PatchKind.EDGE_VERTEX}
     kinds |= {"arc-arc contacts": PatchKind.ARC_ARC, "bounds": PatchKind.BOUND}
     _legend(space, {name: COLOURS[kind] for name, kind in kinds.items() if (surface.patch_kind == kind).any()}, [])
@@ -342,8 +352,9 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
 
 
 def _draw_patches(
-    ax: Any, boundary: Boundary, window: Window, degrees: Range, pieces: Pieces, opacity: Floats | float = 1.0
-) -> None:
+    ax: Any, boundary: Boundary, window: Window, degrees: Range, pieces: Pieces, opacity: Floats | float = 1.0,
+    close: bool = False,
+) -> None:  # fmt: skip
     """Draw pieces above the obstacles; give the axes ticks and names."""
     import shapely
     from matplotlib.ticker import FuncFormatter, MultipleLocator
@@ -359,7 +370,7 @@ def _draw_patches(
     shadow = Poly3DCollection(floor, facecolor=FORBIDDEN, edgecolor=FORBIDDEN, linewidth=0.3, zorder=0.2)
     ax.add_collection(shadow, autolim=False)
     ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=degrees, zlabel="θ")
-    height = side * min(1.0, max(0.4, 0.75 * (high - low) / 360))
+    height = side * (HIGH if close else min(1.0, max(0.4, 0.75 * (high - low) / 360)))
     ax.set_box_aspect((x1 - x0, y1 - y0, height), zoom=1.06)
     ax.view_init(*VIEW)
     ax.zaxis.set_major_locator(MultipleLocator(next((s for s in STEPS if (high - low) / s <= 6), STEPS[-1])))
@@ -386,9 +397,29 @@ def _legend(ax: Any, patches: dict[str, str], lines: list[tuple[str, Any, Any]])
     )  # fmt: skip
 
 
-def around_surface(surface: Boundary) -> Window:
-    """Return a rectangle around a surface, large enough to show the obstacles it belongs to."""
-    return _around(strips(surface, math.radians(5)).points.reshape(-1, 2), robot_radius(surface.scene))
+def around_surface(surface: Boundary, beside: float | None = None) -> Window:
+    """Return a rectangle around a surface, large enough to show the obstacles it belongs to.
+
+    With `beside` that share of its size is left free on all sides instead.
+    """
+    points = strips(surface, math.radians(5)).points.reshape(-1, 2)
+    extent = float(np.ptp(points, axis=0).max())
+    return _around(points, robot_radius(surface.scene) if beside is None else beside * extent)
+
+
+def angles_around(surface: Boundary, start: float) -> Range:
+    """Return the angles of a surface around the start's, in degrees; a whole turn if it has almost all."""
+    theta = surface.trapezoids.theta_from, surface.trapezoids.theta_to
+    shares = np.sort(np.concatenate([np.linspace(*theta, 9).ravel() * 180 / math.pi - start]) % 360)
+    gaps = np.diff(shares, append=shares[0] + 360)
+    if gaps.max() < LEAST:
+        return 0.0, 360.0
+    last = int(gaps.argmax())
+    high, low = float(shares[last]), float(shares[(last + 1) % len(shares)])
+    low -= 360 if low > high else 0
+    middle, half = start + (low + high) / 2, (high - low) / 2
+    half *= 1 + BESIDE
+    return middle - half, middle + half
 
 
 def _around(points: Floats, margin: float) -> Window:

@@ -22,19 +22,22 @@ from cfree.exact.pose import Pose, Poses
 from cfree.libraries import Floats
 from cfree.palette import BARRIER, GHOST, INK, MARK, ROBOT
 from cfree.paths.path import Path
-from cfree.paths.preferences import NONE
+from cfree.paths.travel import Travel, ghosts
 from cfree.planning.separation import Separated
-from cfree.plot.answer import around_surface, draw_barrier, draw_surface, picture, surface_of
+from cfree.plot.answer import angles_around, around_surface, draw_barrier, draw_surface, picture, surface_of
 from cfree.plot.boundary import around, new_figure, plain, set_window
 from cfree.plot.headed import headed, new_picture, window_of
 from cfree.plot.labels import BODY, Labels
 from cfree.plot.looks import looks, of_polygons, own
-from cfree.plot.path import Track, draw_track
+from cfree.plot.unrolled import Range
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
 from cfree.scene.scene import AnyShape, Scene, polygons_for, size_of
 from cfree.scene.smooth import EDGES, smooth
 from cfree.words import counted, listed
 
+SAMPLES = 400  # poses of a way out from which some are drawn
+ROOM = 0.25  # beside all parts, in shares of their extent
+FAINT = 0.25  # opacity of a part on its way
 STEPS, TURNS = 25, 48  # poses of a grid inside of a cage, along a side and around
 ACROSS = 3  # panels beside each other
 PLACES = 15  # of a name in its part, along a side
@@ -176,28 +179,18 @@ def plot_disassembly(answer: Disassembly) -> Figure:
     steps = [*answer.removed, *answer.held]
     if not steps:
         raise ValueError("no part was decided: there is nothing to draw")
+    window = _window_of_parts(answer)
     across, down = min(ACROSS, len(steps)), math.ceil(len(steps) / ACROSS)
-    width, height = 6.2 * across, 5.6 * down
+    shape = float(np.clip((window[3] - window[1]) / (window[2] - window[0]), 0.5, 1.5))
+    width, height = 5.4 * across, (4.7 * shape + 1.1) * down
     figure = new_figure((width, height))
-    figure.subplots_adjust(left=0.6 / width, right=1 - 0.7 / width, bottom=0.6 / height, top=1 - 0.6 / height,
-                           wspace=0.45, hspace=0.35)  # fmt: skip
+    figure.subplots_adjust(left=0.7 / width, right=1 - 0.2 / width, bottom=0.6 / height, top=1 - 0.4 / height,
+                           wspace=0.2, hspace=0.35 / shape)  # fmt: skip
     for k, step in enumerate(steps):
         ax = figure.add_subplot(down, across, k + 1)
-        if isinstance(step.answer, Path):
-            scene = of_polygons(step.answer, step.scene)
-            track = Track.of(own(step.answer, step.scene), scene)
-            draw_track(ax, track, NONE)
-            title = f"{k + 1}. {plain(step.part)}: {_motions(step.answer)}"
-        else:
-            shown = smooth(step.scene)
-            window = window_of(shown, [step.answer.start])
-            draw_surroundings(ax, shown)
-            draw_barrier(ax, looks(step.answer, shown), step.answer.obstacles if step.answer.curved is None else ())
-            draw_robot(ax, shown, step.answer.start, faint=False, mark=False)
-            set_window(ax, window, step.scene.units)
-            title = f"{plain(step.part)} cannot leave"
+        title = _draw_step(ax, step, k, window)
         _name(ax, step.scene, [step.part])
-        ax.set_title(title, fontsize=10)
+        ax.set_title(title, fontsize=12)
     return figure
 
 
@@ -208,9 +201,10 @@ def _held(scene: Scene, proof: Separated, headline: str, details: str) -> tuple[
     """Draw a body that is held, all that it sweeps, and the separating surface beside it."""
     polygons = of_polygons(proof, scene)
     shown = looks(proof, polygons)
-    window, swept = window_of(shown, [proof.start]), None
+    window, swept, theta = window_of(shown, [proof.start]), None, proof.start.theta
     if len(proof.pieces):
-        swept = _swept(scene, proof.start, around_surface(surface_of(proof, polygons)))
+        surface = surface_of(proof, polygons)
+        swept = _swept(scene, proof.start, around_surface(surface, 0.0), angles_around(surface, math.degrees(theta)))
         window = window if swept is None else around([window, swept.bounds])
     figure, ax = new_picture(window, len(proof.pieces) > 0)
     if swept is not None:
@@ -223,10 +217,43 @@ def _held(scene: Scene, proof: Separated, headline: str, details: str) -> tuple[
     labels = Labels(ax, polygons)
     labels.avoid_robot(polygons, [proof.start], BODY)
     if len(proof.pieces):
-        draw_surface(figure, ax, proof, polygons, labels)
+        draw_surface(figure, ax, proof, polygons, labels, close=True)
     _name(ax, scene)
     headed(figure, scene, headline, details)
     return figure, ax
+
+
+def _draw_step(ax: Any, step: Leaving, k: int, window: Window) -> str:
+    """Draw a part that leaves, with poses on its way, or one that cannot; return the title."""
+    if not isinstance(step.answer, Path):
+        shown = smooth(step.scene)
+        draw_surroundings(ax, shown)
+        draw_barrier(ax, looks(step.answer, shown), step.answer.obstacles if step.answer.curved is None else ())
+        draw_robot(ax, shown, step.answer.start, faint=False, mark=False)
+        set_window(ax, window, step.scene.units)
+        return f"{plain(step.part)} cannot leave"
+    path = own(step.answer, step.scene)
+    shown = looks(path, of_polygons(step.answer, step.scene))
+    draw_surroundings(ax, shown)
+    travel = Travel(path, shown)
+    rows = travel.at(np.linspace(0, travel.total, SAMPLES))
+    for row in rows[ghosts(rows, shown)]:
+        draw_robot(ax, shown, Pose(*row.tolist()), faint=True, mark=False)
+    for patch in ax.patches[1:]:
+        patch.set_alpha(FAINT)
+    ax.plot(*rows[:, :2].T, color="white", linewidth=4, zorder=4)
+    ax.plot(*rows[:, :2].T, color=MARK, linewidth=2, zorder=4)
+    draw_robot(ax, shown, step.answer.start, faint=False, mark=False)
+    set_window(ax, window, step.scene.units)
+    return f"{k + 1}. {plain(step.part)}: {_motions(step.answer)}"
+
+
+def _window_of_parts(answer: Disassembly) -> Window:
+    """Return a rectangle around all parts at their places, with room for the beginning of each way out."""
+    parts = [(name, answer.assembly.scene(name)) for name in answer.assembly.names]
+    x0, y0, x1, y1 = around(window_of(smooth(scene), [scene.start]) for _, scene in parts if scene.start is not None)
+    room = ROOM * max(x1 - x0, y1 - y0)
+    return x0 - room, y0 - room, x1 + room, y1 + room
 
 
 def _motions(path: Path) -> str:
@@ -285,23 +312,25 @@ def _box_of(text: Any) -> shapely.Geometry:
     return shapely.box(*text.get_window_extent().extents)
 
 
-def _swept(scene: Scene, start: Pose, box: Window) -> Any:
+def _swept(scene: Scene, start: Pose, box: Window, degrees: Range) -> Any:
     """Return the union of the body in free poses of a grid that neighbours join with a pose; None if there are none."""
     x0, y0, x1, y1 = box
-    xs, ys = np.linspace(x0, x1, STEPS), np.linspace(y0, y1, STEPS)
-    thetas = start.theta + np.arange(TURNS) * math.tau / TURNS
-    x, y, theta = (grid.ravel() for grid in np.meshgrid(xs, ys, thetas, indexing="ij"))
-    free = is_free(scene, Poses(np.column_stack([x, y]), theta)).reshape(STEPS, STEPS, TURNS)
-    nearest = int(np.abs(xs - float(start.x)).argmin()), int(np.abs(ys - float(start.y)).argmin()), 0
+    low, high = degrees
+    (xs, i), (ys, j) = (_around(float(at), *ends, STEPS) for at, ends in ((start.x, (x0, x1)), (start.y, (y0, y1))))
+    turns, k = _around(math.degrees(start.theta), low, high, TURNS)
+    if high - low >= 360:
+        turns, k = math.degrees(start.theta) + 360 * np.arange(TURNS) / TURNS, 0
+    x, y, theta = (grid.ravel() for grid in np.meshgrid(xs, ys, np.radians(turns), indexing="ij"))
+    free = is_free(scene, Poses(np.column_stack([x, y]), theta)).reshape(len(xs), len(ys), len(turns))
     reached = np.zeros_like(free)
-    reached[nearest] = free[nearest]
+    reached[i, j, k] = free[i, j, k]
     while True:
         wider = reached.copy()
         wider[1:] |= reached[:-1]
         wider[:-1] |= reached[1:]
         wider[:, 1:] |= reached[:, :-1]
         wider[:, :-1] |= reached[:, 1:]
-        wider |= np.roll(reached, 1, 2) | np.roll(reached, -1, 2)
+        wider |= np.roll(reached, 1, 2) | np.roll(reached, -1, 2)  # a part of a turn ends in poses that are not free
         wider &= free
         if np.array_equal(wider, reached):
             break
@@ -311,6 +340,14 @@ def _swept(scene: Scene, start: Pose, box: Window) -> Any:
         return None
     body = shapely.union_all([p.to_shapely() for p in _polygons(scene.robot)])
     return shapely.union_all([_placed(body, x[k], y[k], theta[k]) for k in chosen.tolist()])
+
+
+def _around(middle: float, low: float, high: float, count: int) -> tuple[Floats, int]:
+    """Return steps from a number to both ends, about so many, and which of them it is."""
+    step = (high - low) / (count - 1) or 1.0
+    first, last = math.ceil((low - middle) / step - 1e-9), math.floor((high - middle) / step + 1e-9)
+    steps: Floats = np.arange(min(0, first), max(0, last) + 1, dtype=np.float64) * step + middle
+    return steps, -min(0, first)
 
 
 def _polygons(shapes: Sequence[AnyShape]) -> list[Any]:

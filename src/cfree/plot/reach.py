@@ -15,6 +15,7 @@ from cfree.palette import AHEAD, BACK, CATEGORIES, FORBIDDEN, GREY, INK, LOST, S
 from cfree.plot.boundary import around, new_axes, new_figure, plain, set_window
 from cfree.plot.workspace import draw_robot, draw_surroundings, path_of, rings_of_geometry
 from cfree.scene.smooth import smooth
+from cfree.words import counted
 
 PIXELS = 700  # along the longer side
 ACROSS = 2  # panels beside each other
@@ -67,7 +68,7 @@ def plot_reach(reached: ReachMap, ax: Axes | None = None) -> Axes:
     set_window(ax, around(boxes), scene.units)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.8)
     bar.set_ticks([0, 0.25, 0.5, 0.75, 1], labels=["0", "1/4", "1/2", "3/4", "all"])
-    ax.set_title(f"reached at a share of {count} orientations")
+    ax.set_title(f"reached at a share of {counted(count, 'orientation')}")
     return ax
 
 
@@ -109,8 +110,6 @@ def _draw_machine(ax: Axes, audited: Audit, machine: str) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import PathPatch
     from matplotlib.patheffects import withStroke
-
-    from cfree.words import counted
 
     scene = smooth(audited.machines[machine])
     boxes = draw_surroundings(ax, scene, frame=False)

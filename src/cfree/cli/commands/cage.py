@@ -12,7 +12,7 @@ from cfree.cli import drawing, options, reading
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults
 from cfree.cli.files import bar, check_outputs, read_scene
 from cfree.cli.options import Word, examples, file_option
-from cfree.cli.values import read_length, read_pose
+from cfree.cli.values import read_length, read_pose, require_near
 from cfree.words import counted
 
 if TYPE_CHECKING:
@@ -137,6 +137,7 @@ def _place(scene: Scene, start: str | None, more: tuple[str, ...], *, ignore_bou
     if not fingers:
         raise ValueError("there are no fingers: the scene has no obstacles; give --finger X,Y or --finger X,Y,R")
     pose = read_pose(start, "--start") or scene.start or Pose(0, 0)
+    require_near(f"--start: {start!r}", pose.x, pose.y)
     return scene.robot, fingers, pose, scene.units, _names(scene, len(fingers))
 
 
@@ -167,7 +168,9 @@ def _finger(text: str) -> Any:
         x, y = map(to_fraction, parts[:2])
     except ValueError as error:
         raise ValueError(f"--finger: {text!r}: {error}; give X,Y for a point, or X,Y,R for a disc") from None
-    return (x, y) if len(parts) < 3 else Curved.circle((x, y), read_length(parts[2], "--finger", "a radius"))
+    radius = read_length(parts[2], "--finger", "a radius") if len(parts) > 2 else None
+    require_near(f"--finger: {text!r}", x, y)
+    return (x, y) if radius is None else Curved.circle((x, y), radius)
 
 
 def _answered(
@@ -209,7 +212,7 @@ def _answered(
         if not chosen:
             return REFUTED, {"answer": "not caged, even by all fingers", **_cage_rows(chosen.cage, names)}, chosen.cage
         count = len(chosen.fingers)
-        rows: Rows = {"answer": f"caged by {count} of {len(fingers)} fingers, proved; by no fewer"}
+        rows: Rows = {"answer": f"caged by {count} of {counted(len(fingers), 'finger')}, proved; by no fewer"}
         rows |= {"fingers": _listed(chosen.fingers, names), "paths that exclude fewer": len(chosen.escapes)}
         return 0, rows, chosen.cage
     with bar("cage") as progress:

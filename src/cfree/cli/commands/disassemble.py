@@ -59,6 +59,7 @@ def disassemble(
         if output and output.exists() and not output.is_dir():
             raise ValueError(f"-o {output}: this is a file; give the name of a folder")
         assembly = _assembly(parts, fixed)
+        _refuse_fixed(assembly, only)
         from cfree.cli.report import print_result
         from cfree.errors import IncompleteError
 
@@ -103,6 +104,15 @@ def _assembly(source: Path, fixed: tuple[str, ...]) -> Assembly:
     return Assembly(named, fixed, units)
 
 
+def _refuse_fixed(assembly: Assembly, only: str | None) -> None:
+    """Refuse a question about parts that are not taken out."""
+    if only is None and not assembly.movable:
+        count = counted(len(assembly.names), "part")
+        raise ValueError(f"--fixed: all of the {count}, so that there is none to take out; leave one of them out")
+    if only in assembly.fixed:
+        raise ValueError(f"--part: {only!r} is fixed, and is not taken out; leave out --fixed for it")
+
+
 def _add_robot(named: dict[str, list[Any]], shapes: Shapes, robot: Any, source: Path) -> str:
     """Add the robot at the start of the scene, and the obstacles; return the unit."""
     from cfree.curves.similar import moved_shape
@@ -120,8 +130,8 @@ def _add_robot(named: dict[str, list[Any]], shapes: Shapes, robot: Any, source: 
 
 def _refuse_walls(bounds: Any, workspace: Any) -> None:
     if bounds is not None or workspace:
-        kind = "bounds" if bounds is not None else "a workspace"
-        raise ValueError(f"the file has {kind}, out of which nothing can leave; leave it out, or make it a part")
+        kind, it = ("bounds", "them") if bounds is not None else ("a workspace", "it")
+        raise ValueError(f"the file has {kind}, out of which nothing can leave; leave {it} out, or make {it} a part")
 
 
 Answered = tuple[int, Rows, Any, "list[Leaving]"]
@@ -163,7 +173,8 @@ def _of_one(assembly: Assembly, part: str, max_seconds: float | None, *, gap: bo
     if step and as_json:
         return 0, {"leaves": True}, step, [step]
     if step:
-        return 0, {"answer": f"{part} can leave", "path": _path_text(step)}, step, [step]
+        none = {"gap": "none is missing"} if gap else {}
+        return 0, {"answer": f"{part} can leave", "path": _path_text(step), **none}, step, [step]
     with bar("blocking parts"):
         blocking = what_blocks(part, assembly)
     miss = None

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
+import time
 from collections.abc import Sequence
-from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from cfree.cli import drawing, options, reading
-from cfree.cli.faults import REFUTED, one_line_faults
+from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults
 from cfree.cli.files import bar, check_outputs
 from cfree.cli.options import FILE, Word, examples, file_option
 from cfree.cli.terminal import print_json, status
+from cfree.cli.values import require_near
 from cfree.words import counted
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 PLACING = ("sheet", "strip", "sheets", "copies", "rotations", "gap", "kerf", "toward", "max_seconds")
 SIDES = ["left", "right", "down", "up"]
+NO_PLACE = "no part has a place on a sheet; give a larger sheet, a smaller gap, or more rotations"
+NO_TIME = "no part was placed in time; give more --max-seconds"
 
 
 @click.command(cls=drawing.Command, epilog=examples(
@@ -42,7 +45,7 @@ SIDES = ["left", "right", "down", "up"]
 @click.option("--strip", metavar="HEIGHT", help="Take a strip of this height and of open length.")
 @click.option("--sheets", type=click.IntRange(1, 1000), default=1, metavar="N", show_default=True,
               help="Take up to N copies of --sheet.")  # fmt: skip
-@click.option("--copies", type=click.IntRange(min=1), default=1, metavar="N", show_default=True,
+@click.option("--copies", type=click.IntRange(1, 100_000), default=1, metavar="N", show_default=True,
               help="Cut each part of a drawing N times as often as drawn.")  # fmt: skip
 @click.option("--rotations", default="4", metavar="WHICH", show_default=True,
               help='Turn parts by so many steps of a full turn, by angles as in "0deg,90deg", or by any.')  # fmt: skip
@@ -80,9 +83,12 @@ def nest(
 
     FILE is nesting JSON with items, and bins or a strip height, or a drawing: workspaces, and layers or names that
     begin with sheet, stock, bin or container, are sheets; all else are parts. Parts are placed bottom-left, the largest
-    first, exactly: into exact fits and holes as well. A packer that searches, such as sparrow, packs denser.
+    first, exactly: into exact fits and holes as well. A packer that searches, such as sparrow, packs denser. Exit code
+    0: parts are placed, and those without a place are listed as left; 1: no part has a place, or parts overlap; 2: bad
+    input; 3: no part was placed within --max-seconds.
     """
     with one_line_faults():
+        began = time.monotonic()
         written = check_outputs(source, {"layout": output, "picture": picture})
         _refuse_other_tasks(check, compact)
         job = _read(source)
@@ -106,6 +112,9 @@ def nest(
         _report(source, nesting, found, facts, written, as_json)
         if found:
             raise click.exceptions.Exit(REFUTED)
+        if not (nesting.placed or check or compact):
+            late = max_seconds is not None and time.monotonic() - began >= max_seconds
+            fail(NO_TIME if late else NO_PLACE, INCOMPLETE if late else REFUTED)
 
 
 def _refuse_other_tasks(check: bool, compact: str | None) -> None:
@@ -157,6 +166,8 @@ def _placed(
     from cfree.nesting.placement import place
 
     parts = [with_quantity(part, part.quantity * copies) for part in all_parts(job.nesting)]
+    if not parts and not job.nesting.sheets:
+        raise ValueError("no part: the file has no closed shape; draw one")
     if not parts:
         raise ValueError("no part: the file has only sheets; draw parts on other layers, or give them other names")
     stock, is_strip = _stock(job, parts, sheet, strip, sheets)
@@ -202,13 +213,9 @@ def _stock(job: Job, parts: Sequence[Any], sheet: str | None, strip: str | None,
 
 def _sheets_of(text: str) -> list[Any]:
     """Return the sheet of a size "WxH", or those in a file."""
-    size = re.fullmatch(r"\s*([^xX×*]+)[xX×*]([^xX×*]+)", text)
-    if size and not Path(text).exists():
-        with suppress(ValueError):
-            width, height = (_length(word.strip(), "--sheet", least=False) for word in size.groups())
-            return [[(0, 0), (width, 0), (width, height), (0, height)]]
     if not Path(text).exists():
-        raise ValueError(f'--sheet: {text!r} is no size and no file; give a size as in "1000x500"')
+        width, height = _size(text)
+        return [[(0, 0), (width, 0), (width, height), (0, height)]]
     from cfree.nesting.reading import load_nesting
 
     nesting = load_nesting(text)
@@ -216,6 +223,21 @@ def _sheets_of(text: str) -> list[Any]:
     if not shapes:
         raise ValueError(f"--sheet: {text} has no shape; draw a closed outline")
     return list(shapes)
+
+
+def _size(text: str) -> tuple[Fraction, Fraction]:
+    """Read a size such as "1000x500"."""
+    from cfree.exact.number import to_fraction
+
+    try:
+        width, height = map(to_fraction, re.split("[xX×*]", text))
+    except ValueError:
+        raise ValueError(f'--sheet: {text!r} is no size and no file; give a size as in "1000x500"') from None
+    for name, value in (("width", width), ("height", height)):
+        if value <= 0:
+            raise ValueError(f"--sheet: {text}: its {name} is {value}; give a width and a height above 0")
+    require_near(f"--sheet: {text}", width, height)
+    return width, height
 
 
 def _length(text: str, name: str, *, least: bool = True) -> Fraction:
@@ -227,18 +249,22 @@ def _length(text: str, name: str, *, least: bool = True) -> Fraction:
         raise ValueError(f'{name}: {text!r} is no length; give a number as in "2.5"') from None
     if value < 0 or (value == 0 and not least):
         raise ValueError(f"{name}: {text}; give a length{', 0 or more' if least else ' above 0'}")
+    require_near(f"{name}: {text}", value)
     return value
 
 
 def _rotations(text: str) -> Any:
     """Return "any", a number of steps, or angles."""
-    if text == "any" or not text.strip():
-        return text or 1
-    if re.fullmatch(r"\d+", text.strip()):
+    if text == "any":
+        return text
+    if re.fullmatch(r"[-+]?\d+", text.strip()):
         return int(text)
     from cfree.cli.values import read_angle
 
-    return [read_angle(word.strip(), "--rotations") for word in text.split(",")]
+    try:
+        return [read_angle(word.strip(), "--rotations") for word in text.split(",")]
+    except ValueError as error:
+        raise ValueError(f'{error}; or give any, or a number of steps of a full turn, as in "4"') from None
 
 
 def _compacted(nesting: Nesting, side: str) -> tuple[Nesting, dict[str, Any]]:
@@ -284,10 +310,12 @@ def _report(
             "files": written,
         })  # fmt: skip
         return
-    rows: dict[str, Any] = {"parts": f"{len(nesting.placed)} placed{f' on {sheets}' if nesting.sheets else ''}"}
-    if nesting.sheets:
+    is_on_sheets = bool(nesting.sheets and nesting.placed)
+    rows: dict[str, Any] = {"parts": f"{len(nesting.placed)} placed{f' on {sheets}' if is_on_sheets else ''}"}
+    if is_on_sheets:
         rows["used"] = f"{100 * nesting.density:.2f} % of the area"
-    rows["extent"] = f"{x1 - x0:.6g} x {y1 - y0:.6g}{' ' + nesting.units if nesting.units else ''}"
+    if nesting.placed:
+        rows["extent"] = f"{x1 - x0:.6g} x {y1 - y0:.6g}{' ' + nesting.units if nesting.units else ''}"
     if facts:
         rows["motions"] = f"{counted(facts['slides'], 'slide')}, {counted(facts['turns'], 'turn')}, all proved free"
     if left:
