@@ -74,6 +74,16 @@ class PosePlanner:
     def _planner(self) -> _core.Planner:
         return _core.Planner(self._known, self.angle_scale)
 
+    @property
+    def has_slides(self) -> bool:
+        """True if paths of it may slide along contacts."""
+        return bool(self._slides)
+
+    def keep_slides(self, path: Path) -> None:
+        """Keep the slides of a path as they are when it is improved."""
+        slides = ((ends, motion) for ends, motion in zip(pairwise(path.poses), path.motions, strict=True))
+        self._slides |= {ends: motion for ends, motion in slides if isinstance(motion, Slide)}
+
     def updated(self, scene: Scene) -> PosePlanner:
         """Return a planner of another scene that shares what holds in it."""
         other = PosePlanner(scene)
