@@ -24,7 +24,6 @@ from cfree.scene.scene import Scene, with_bounds
 PORTALS = "portals"
 GROUP = 64  # rooms in a file
 KEPT = 64  # groups kept in memory
-MOST_WAYS = 20_000  # steps whose motions are kept in memory
 
 
 @dataclass
@@ -150,12 +149,18 @@ class StoredAtlas:
         self.work, self.ground = work, StoredGround(work)
         self.rooms = read_rooms(work)
         self.ways: Ways = {}
-        self._shard = lru_cache(maxsize=KEPT)(lambda group: work.shard(PORTALS, group))
+        self._shard = lru_cache(maxsize=KEPT)(self._group)
         self._entry = lru_cache(maxsize=KEPT * GROUP)(self._read)
 
     def entry(self, room: int) -> Entry:
         """Return the portals of a room."""
         return self._entry(room)
+
+    def _group(self, group: int) -> Shard:
+        """Read the portals of a group; if its task was not run, they are made in memory."""
+        if not self.work.path(PORTALS, group).exists():
+            return _portals(self.work, group)
+        return self.work.shard(PORTALS, group)
 
     def _read(self, room: int) -> Entry:
         group, place = divmod(room, GROUP)
@@ -170,6 +175,6 @@ class StoredAtlas:
 def atlas_of(folder: str, stamp: str) -> StoredAtlas | LazyAtlas:
     """Rooms and portals of a folder; of one that has none, made on the way."""
     work = opened(folder, stamp)
-    if (work.folder / "rooms.npz").exists() and (work.folder / PORTALS).exists():
+    if (work.folder / "rooms.npz").exists():
         return StoredAtlas(work)
     return LazyAtlas(StoredGround(work), rooms_of(work))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from cfree.collision.slide import Slide, Touch
@@ -14,7 +14,7 @@ def has_slides(path: Path) -> bool:
     return any(isinstance(motion, Slide) for motion in path.motions)
 
 
-def renumbered(path: Path, numbers: Sequence[int]) -> Path:
+def renumbered(path: Path, numbers: Sequence[int] | Mapping[int, int]) -> Path:
     """Path whose slides name obstacles by other numbers: obstacle k has the number numbers[k]."""
     motions = tuple(
         Slide((_touch(m.contacts[0], numbers), _touch(m.contacts[1], numbers)), m.x, m.y, m.d, m.tau)
@@ -25,6 +25,6 @@ def renumbered(path: Path, numbers: Sequence[int]) -> Path:
     return replace(path, motions=motions)
 
 
-def _touch(touch: Touch, numbers: Sequence[int]) -> Touch:
+def _touch(touch: Touch, numbers: Sequence[int] | Mapping[int, int]) -> Touch:
     polygon, vertex = touch.obstacle
     return touch if polygon < 0 else replace(touch, obstacle=(numbers[polygon], vertex))

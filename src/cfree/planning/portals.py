@@ -1,7 +1,7 @@
 """Portals: free poses on the borders between rooms, one for each part of a border that the robot can cross.
 
-Borders are sampled at steps of the robot's radius and in 16 orientations. So a passage narrower than a step may have no
-portal: a route along portals is a path, once its motions are proved free; no route proves nothing.
+Borders are sampled at steps of the robot's radius, in the middle between walls, and in 16 orientations. So a passage
+may have no portal: a route along portals is a path, once its motions are proved free; no route proves nothing.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from cfree.forbidden.boundary import boundary
 from cfree.free.space import free_space
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
-from cfree.planning.rooms import UNIT, Box, Ints, Rooms
+from cfree.planning.rooms import UNIT, Box, Floats, Ints, Rooms
 from cfree.scene.scene import Scene
 
 _QUARTER = [Fraction(0), Fraction(1, 5), Fraction(5, 12), Fraction(2, 3), Fraction(1), Fraction(3, 2), Fraction(12, 5)]
@@ -83,27 +83,26 @@ Borders = dict[tuple[int, int], list[Portal]]
 
 def portals_of(rooms: Rooms, room: int, checker: PoseChecker, radius: float, known: Borders) -> list[Portal]:
     """Portals on all borders of a room, by a checker of the obstacles near it; `known` gets them by border."""
-    result = []
+    result, walls = [], _walls(checker.scene)
     for other, line in rooms.borders(room):
         border = min(room, other), max(room, other)
         if border not in known:  # the same from both sides: verdicts are exact
-            known[border] = [*_portals(border, line, checker, radius)]
+            known[border] = [*_portals(border, line, walls, checker, radius)]
         result += known[border]
     return result
 
 
-def _portals(border: tuple[int, int], line: Box, checker: PoseChecker, radius: float) -> Iterator[Portal]:
-    x0, y0, x1, y1 = line
+def _portals(
+    border: tuple[int, int], line: Box, walls: Floats, checker: PoseChecker, radius: float
+) -> Iterator[Portal]:
+    x0, y0, x1, _ = line
     is_upright = x0 == x1
-    length = max(x1 - x0, y1 - y0)
-    count = min(MOST, max(3, math.ceil(length / radius)))
-    unit = 2.0 ** math.floor(math.log2(min(radius, length / count) / UNIT))
-    places = (y0 if is_upright else x0) + np.round((np.arange(count) + 0.5) * (length / count) / unit) * unit
-    table = np.empty((count, len(TAUS), 3))
+    places = _places(line, walls, radius)
+    table = np.empty((len(places), len(TAUS), 3))
     table[:, :, 1 if is_upright else 0] = places[:, None]
     table[:, :, 0 if is_upright else 1] = x0 if is_upright else y0
     table[:, :, 2] = THETAS
-    free = checker.verdicts(table.reshape(-1, 3), 1).reshape(count, len(TAUS)) == FREE
+    free = checker.verdicts(table.reshape(-1, 3), 1).reshape(table.shape[:2]) == FREE
     number = 0
     for place, turn in _chosen(free, 0 if is_upright else QUARTER):
         x, y, _ = table[place, turn].tolist()
@@ -111,6 +110,30 @@ def _portals(border: tuple[int, int], line: Box, checker: PoseChecker, radius: f
         if is_free_at(checker, portal.pose):  # its tangent is not that of the table
             yield portal
             number += 1
+
+
+def _places(line: Box, walls: Floats, radius: float) -> Floats:
+    """Places along a border: at even steps, and in the middle between walls that cross it near each other."""
+    along = int(line[0] == line[2])
+    begin, end, across = line[along], line[along + 2], line[1 - along]
+    count = min(MOST, max(3, math.ceil((end - begin) / radius)))
+    step = (end - begin) / count
+    unit = 2.0 ** math.floor(math.log2(min(radius, step) / UNIT))
+    even = begin + np.round((np.arange(count) + 0.5) * step / unit) * unit
+    a, b = walls[:, 1 - along], walls[:, 3 - along]
+    crossing = walls[(a < across) != (b < across)]
+    a, b = crossing[:, 1 - along], crossing[:, 3 - along]
+    met = np.sort(crossing[:, along] + (crossing[:, along + 2] - crossing[:, along]) * (across - a) / (b - a))
+    fine = unit / UNIT
+    middle = np.round((met[1:] + met[:-1])[np.diff(met) < 4 * radius] / 2 / fine) * fine
+    return np.unique(np.concatenate([even, middle[(middle > begin) & (middle < end)]]))
+
+
+def _walls(scene: Scene) -> Floats:
+    """Edges of the obstacles and the workspace, (n, 4), rounded."""
+    shapes = [*scene.obstacles, *([] if scene.workspace is None else [scene.workspace])]
+    rings = [np.concatenate([ring, np.roll(ring, -1, axis=0)], axis=1) for shape in shapes for ring in shape.rings]
+    return np.concatenate([np.zeros((0, 4)), *rings])
 
 
 def _chosen(free: NDArray[np.bool_], across: int) -> Iterator[tuple[int, int]]:

@@ -75,6 +75,11 @@ class PosePlanner:
         return _core.Planner(self._known, self.angle_scale)
 
     @property
+    def has_space(self) -> bool:
+        """True if the free space has been computed."""
+        return self._space is not None
+
+    @property
     def has_slides(self) -> bool:
         """True if paths of it may slide along contacts."""
         return bool(self._slides)

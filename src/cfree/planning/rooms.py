@@ -148,20 +148,21 @@ def _within(bounds: Sequence[Fraction | float]) -> list[float]:
 
 
 def _cut(box: Floats, edges: Floats, least: float, unit: float) -> tuple[int, float] | None:
-    """The best cut of a room across its longer side, or else the other; None if no cut is worth it."""
-    sides = box[2:] - box[:2]
-    for axis in sorted((0, 1), key=lambda k: -sides[k]):
-        rim = max(least, sides[axis] / 4)
+    """The best cut of a room: few edges cross it, much room is around it, and the room is long; None without one."""
+    choice, most = None, 0.0
+    for axis in (0, 1):
+        side = box[axis + 2] - box[axis]
+        rim = max(least, side / 4)
         low, high = np.sort(edges[:, axis]), np.sort(edges[:, axis + 2])
         ends = np.unique(np.clip(np.concatenate([low, high]), box[axis] + rim, box[axis + 2] - rim))
-        if sides[axis] < 2 * rim or len(ends) < 2:
+        if side < 2 * rim or len(ends) < 2:
             continue
         places = np.round((ends[1:] + ends[:-1]) / 2 / unit) * unit
         before, after = np.searchsorted(low, places), len(high) - np.searchsorted(high, places, side="right")
         crossed = np.maximum(0, before + after - len(edges))  # some lie on it
-        value = np.diff(ends) / (1 + crossed)
+        value = np.diff(ends) / (1 + crossed) * side
         value[np.maximum(before, after) > FEWER * len(edges)] = 0
         best = int(value.argmax())
-        if value[best] > 0 and box[axis] < places[best] < box[axis + 2]:
-            return axis, float(places[best])
-    return None
+        if value[best] > most and box[axis] < places[best] < box[axis + 2]:
+            choice, most = (axis, float(places[best])), float(value[best])
+    return choice

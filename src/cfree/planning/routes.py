@@ -17,8 +17,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeVar
 
+import numpy as np
+
 from cfree.collision.motion import Motion
-from cfree.errors import IncompleteError
+from cfree.collision.motion_checker import MotionChecker
+from cfree.errors import IncompleteError, InvariantError
 from cfree.exact.pose import Pose
 from cfree.paths.numbering import renumbered
 from cfree.paths.path import Path
@@ -28,13 +31,16 @@ from cfree.planning.options import Options
 from cfree.planning.portals import THETAS, Ground, Key, Portal
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rooms import Box, Ints
+from cfree.scene.frame import frame_of
 
 START, GOAL = (-1, -1, 0), (-1, -1, 1)  # ends of a route, beside the keys of portals
 HASTE = 1.2  # factor of the straight distance to the goal: a route is at most this much longer than the shortest
 PATCHES = 20_000  # most contact patches trimmed for one step
 WINDOW = 3  # steps improved together
+KEPT = 10_000  # steps whose motions are kept between queries
 FAILURES = 30  # most steps that rooms refuse, before routes are given up
 MANY = 2_000  # portals settled before the search looks if the goal can be left at all
+DISTANT = 40  # radii of the robot
 POLL = 0.1  # seconds
 
 Result = TypeVar("Result")
@@ -117,6 +123,8 @@ class Router:
             Asked once, after a room of an end has refused a step: true if the ends are proved to be separated.
         """
         refused, is_asked = 0, False
+        if len(self.atlas.ways) > KEPT:
+            self.atlas.ways.clear()
         while refused <= FAILURES:
             steps = self.route()
             if steps is None:
@@ -307,6 +315,30 @@ def _improved(
             raise
         return done, True
     return done, False
+
+
+def is_distant(start: Pose, goal: Pose, radius: float) -> bool:
+    """True if a route may be of use: the goal is many radii of the robot away from the start."""
+    return math.hypot(start.x - goal.x, start.y - goal.y) > DISTANT * radius
+
+
+def joined(start: Pose, legs: Sequence[Leg], ground: Ground) -> tuple[Path, list[int]]:
+    """Path of legs, checked as a whole among all obstacles that the robot may touch on them, and their numbers.
+
+    Its scene has these obstacles, in this order.
+
+    Raises
+    ------
+    InvariantError
+        If it is not free: a fault of cfree.
+    """
+    numbers = np.unique(np.concatenate([leg.obstacles for leg in legs]))
+    scene, place = ground.part(numbers, None), {number: k for k, number in enumerate(numbers.tolist())}
+    motions = [motion for leg in legs for motion in leg.motions]
+    path = renumbered(Path(start, motions, scene.units, frame_of(scene), scene=scene), place)
+    if not path.is_free(MotionChecker(scene)):
+        raise InvariantError("a path from room to room is not free", state=path)
+    return path, numbers.tolist()
 
 
 def in_threads(tasks: Sequence[Callable[[Options], Result]], options: Options) -> list[Result]:
