@@ -1,4 +1,4 @@
-"""The boundary and the cells of a scene of any size, tile by tile, into a folder."""
+"""The boundary and the cells of a scene of any size, tile by tile, into a folder; and portals for routes across it."""
 
 from __future__ import annotations
 

@@ -168,7 +168,8 @@ class Sharded(Value):
     ) -> Path | Proof:
         """A path among all obstacles, each motion proved free, or a proof that there is none.
 
-        Only tiles near the paths tried are read: `tiles_read` is their number.
+        Only tiles near the paths tried are read: `tiles_read` is their number. To a far goal the path leads through
+        portals, from room to room.
 
         Parameters
         ----------
