@@ -19,7 +19,7 @@ unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: help build demo test check rest ctest sanitize notebooks wheels fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded fuzz-nesting fuzz-cages lint bench docs viewer viewer-test dev stub clean
+.PHONY: help build demo test check rest ctest sanitize notebooks wheels fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded fuzz-nesting fuzz-cages fuzz-routes lint bench docs viewer viewer-test dev stub clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
@@ -90,6 +90,9 @@ fuzz-nesting: $(TESTED)  ## no-fit polygons against exact slices, layouts agains
 
 fuzz-cages: $(TESTED)  ## cages against flooding, discs and points against polygons; COUNT=2000 SEED=0
 	$(BIN)/python tests/support/fuzz_cages.py --count $(or $(COUNT),2000) --seed $(or $(SEED),0)
+
+fuzz-routes: $(TESTED)  ## routes from room to room in mazes, against plans of the whole scene; COUNT=200 SEED=0
+	$(BIN)/python tests/support/fuzz_routes.py --count $(or $(COUNT),200) --seed $(or $(SEED),0)
 
 lint: $(TESTED)  ## style and types
 	$(BIN)/ruff check src tests benchmarks examples tools

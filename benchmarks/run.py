@@ -32,6 +32,7 @@ BENCHES = (
     "cells",
     "city",
     "shards",
+    "routes",
     "plan",
     "paths",
     "tight",

@@ -14,8 +14,8 @@ import cfree
 from cfree.cli.app import app
 from cfree.collision.slide import Slide
 from cfree.distributed import boundary
+from cfree.paths.numbering import renumbered
 from cfree.scene.digest import Whole, stamp_of
-from cfree.verify.whole import renumbered
 from second_opinion import check_answer
 from stones import SCENE as STONES
 from stones import stones

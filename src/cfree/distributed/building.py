@@ -1,4 +1,4 @@
-"""The boundary and the cells of a scene of any size, tile by tile, into a folder."""
+"""The boundary and the cells of a scene of any size, tile by tile, into a folder; and portals for routes across it."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from cfree.distributed import tasks
 from cfree.distributed.division import Division, Features, divide_scene
 from cfree.distributed.joining import JoinedSurfaces, join
 from cfree.distributed.nesting import Answer, Nesting, Question, nest
+from cfree.distributed.portals import groups_of, portals_task, write_rooms
 from cfree.distributed.reading import read_source, source_key
 from cfree.distributed.running import check_client, run
 from cfree.distributed.shard import VERSION, key_of, read_json, read_shard, write_json, write_shard
@@ -119,6 +120,7 @@ class _Build:
         components = self._glue(division)
         if not self._is_finished(counts):
             self._finish(store, counts, *self._cells(store, division, components))
+        self._open_portals()
         return Sharded(self.folder)
 
     def _claim(self) -> None:
@@ -239,6 +241,12 @@ class _Build:
         features = work.store.rest
         nesting = nest(joined, present, division.boxes, ask, features.rim is not None, float(features.scale))
         return joined, nesting, self._measure(store, joined, present, len(joined))
+
+    def _open_portals(self) -> None:
+        """Divide the plane into rooms, and find the portals between them."""
+        groups = groups_of(write_rooms(tasks.Work(self.folder)))
+        for _ in self._each(portals_task, "portals", groups):
+            pass
 
     def _measure(
         self, store: SceneStore, joined: JoinedSurfaces, present: dict[int, Any], count: int

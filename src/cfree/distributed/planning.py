@@ -1,33 +1,34 @@
-"""Plan in a scene that is too large to be read, with the obstacles near the paths found so far.
-
-A separating surface among some of the obstacles separates two poses among all. A path among some is one among all if
-all obstacles near it are included. So obstacles are added along the paths that are found, until one of the two is
-certain.
-"""
+"""Plan in a scene that is too large to be read: along a route, or with the obstacles near the paths found so far."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.distributed.portals import StoredAtlas, StoredGround, atlas_of
 from cfree.distributed.tasks import Work
 from cfree.distributed.tiles import BoxIndex
-from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
-from cfree.paths.path import Path
-from cfree.planning.plan import plan
+from cfree.paths.numbering import has_slides
+from cfree.paths.path import Objective, Path
+from cfree.paths.preferences import NONE, Preferences
+from cfree.planning.among import MARGIN, are_apart, check_length, plan_around
+from cfree.planning.atlas import LazyAtlas
+from cfree.planning.goals import refuse_far
+from cfree.planning.options import Options, to_seconds
 from cfree.planning.proof import Proof
+from cfree.planning.routes import Leg, Router, improved, is_distant, joined
 from cfree.scene.digest import Whole
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, vehicle_for
+from cfree.vehicles.vehicle import Vehicle
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
-MOST_STEPS = 10_000_000  # along a path, each as long as the robot's reach
-MARGIN, WIDER = 2.0, 4.0
-"""Distance around a path within which obstacles are added, in reaches of the robot; the factor if some were missing."""
 
 
 @dataclass
@@ -46,6 +47,16 @@ class Surroundings:
     work: Work
     numbers: set[int] = field(default_factory=set)
     read: set[int] = field(default_factory=set)
+
+    @property
+    def radius(self) -> float:
+        """Radius of the robot."""
+        return self.work.store.radius
+
+    @cached_property
+    def atlas(self) -> StoredAtlas | LazyAtlas:
+        """Rooms and portals of the stored scene."""
+        return atlas_of(str(self.work.folder), self.work.stamp)
 
     @property
     def scene(self) -> Scene:
@@ -75,11 +86,7 @@ class Surroundings:
         UndecidedError
             If the path is too long to look at all places along it.
         """
-        if path.length > MOST_STEPS * self.work.store.radius:
-            raise UndecidedError(
-                f"a path was found that is {path.length:.3g} long, too long to look for all obstacles along it; "
-                "give the scene bounds, or the vehicle a smaller turning radius"
-            )
+        check_length(path, self.radius)
         ends = np.array([[float(q.x), float(q.y)] for q in (path.start, path.goal)])
         points, radius = path.sample(self.work.store.radius).xy, self.work.store.radius
         near = set(self.around(points, 2 * radius).tolist()) | set(self.around(ends, radius, spans=True).tolist())
@@ -89,25 +96,40 @@ class Surroundings:
         return True
 
 
-def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Proof:
-    """Path or proof, whose scene has the obstacles that it is about; `wishes` are options of `cfree.plan`."""
-    for end in (start, goal):
-        known.add_around(Path(end, []), MARGIN * known.work.store.radius)
-    for wish in ({"improve": 0.0}, wishes):
-        margin = MARGIN * known.work.store.radius
-        while True:
-            try:
-                answer = plan(known.scene, start, goal, **wishes | wish)
-            except UndecidedError as error:  # a vehicle needs too many manoeuvres on a path, if that is free among all
-                if isinstance(error.path, Path) and known.add_around(error.path, margin):
-                    margin *= WIDER
-                    continue
-                raise
-            if isinstance(answer, Proof):  # further obstacles do not change that
-                return replace(answer, whole=known.whole)
-            assert isinstance(answer, Path)
-            if not known.add_around(answer, margin):
-                break
-            margin *= WIDER
-    assert isinstance(answer, Path)
-    return replace(answer, whole=known.whole)
+def plan_among(
+    known: Surroundings,
+    start: Pose,
+    goal: Pose,
+    *,
+    improve: float | None = None,
+    objective: Objective = "balanced",
+    preferences: Preferences | None = None,
+    vehicle: Vehicle | Literal["any"] | None = None,
+) -> Path | Proof:
+    """Path or proof, whose scene has the obstacles that it is about; options are those of `cfree.plan`.
+
+    If the goal is far, a route from room to room is tried first. Else obstacles near the paths found decide.
+    """
+    driver = vehicle_for(known.work.store.head, vehicle)
+    options = Options(to_seconds(improve), objective=objective, preferences=preferences or NONE, vehicle=driver)
+    refuse_far(start, goal)
+    way: Sequence[Pose] | None = None
+    legs = _legs(known, start, goal, options) if is_distant(start, goal, known.radius) else None
+    if legs is not None:
+        ground = StoredGround(known.work)
+        if driver is None:
+            legs = improved(start, legs, ground, options)
+        known.read |= {tile for leg in legs for tile in ground.tiles(leg.box)}
+        path, numbers = joined(start, legs, ground)
+        known.numbers |= set(numbers)
+        if driver is None:
+            return replace(path, whole=known.whole)
+        known.add_around(path, MARGIN * known.radius)
+        way = None if has_slides(path) else path.poses
+    return replace(plan_around(known, start, goal, options, way), whole=known.whole)
+
+
+def _legs(known: Surroundings, start: Pose, goal: Pose, options: Options) -> list[Leg] | None:
+    """Legs along a route; None without one, or if the goal is not far."""
+    router = Router(known.atlas, start, goal, replace(options, vehicle=None))
+    return router.legs(lambda: are_apart(Surroundings(known.work), start, goal)) if router.is_far else None

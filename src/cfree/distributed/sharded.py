@@ -25,6 +25,7 @@ from cfree.distributed.verifying import cells_findings, summary, verify_task
 from cfree.errors import FormatError
 from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
 from cfree.free.space import FORBIDDEN, NO_CELL
+from cfree.paths.numbering import renumbered
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.proof import Proof
@@ -32,7 +33,6 @@ from cfree.scene.scene import Scene, required
 from cfree.value import Value
 from cfree.vehicles.vehicle import Vehicle
 from cfree.verify.result import Verification
-from cfree.verify.whole import renumbered
 from cfree.words import counted
 
 Ints = NDArray[np.int64]
@@ -168,7 +168,8 @@ class Sharded(Value):
     ) -> Path | Proof:
         """A path among all obstacles, each motion proved free, or a proof that there is none.
 
-        Only tiles near the paths tried are read: `tiles_read` is their number.
+        Only tiles near the paths tried are read: `tiles_read` is their number. To a far goal the path leads through
+        portals, from room to room.
 
         Parameters
         ----------

@@ -29,6 +29,7 @@ from cfree.distributed.tiles import BoxIndex
 from cfree.distributed.trim import digest, trim_tile
 from cfree.errors import FormatError
 
+LISTS = 64  # lists of obstacles kept in memory
 TRIMMED, REGULAR, GLUED = "trim", "regular", "glue"
 
 
@@ -47,6 +48,7 @@ class Work:
         self.store = SceneStore(folder / "scene")
         self.store.check()
         self.division = Division.open(folder / "tiles", self.plan["key"])
+        self.obstacles = lru_cache(maxsize=LISTS)(lambda tile: self.division.listed("obstacles", tile))
 
     @property
     def stamp(self) -> str:

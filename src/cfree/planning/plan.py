@@ -136,6 +136,9 @@ def plan(
     Among segments and arcs a robot without vehicle and preferences turns no more than it needs to on the way that was
     found. A balanced path still turns where that makes a very narrow place twice as wide.
 
+    In a scene of polygons with 20,000 vertices and more, a path is planned among the obstacles near it, to a far goal
+    along a route: docs/shards.md. Time and memory follow the path's length.
+
     A vehicle that reverses reaches every pose of its cell that touches nothing, whatever its turning radius. So
     `Separated` is a proof for every vehicle. "balanced" keeps half of the distance that a path of the robot keeps
     there, and no more than a twentieth of the robot's length. Where that takes many changes of direction, it keeps a

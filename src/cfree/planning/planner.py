@@ -27,6 +27,8 @@ from cfree.scene.scene import Scene
 from cfree.value import Value
 from cfree.vehicles.vehicle import Vehicle
 
+LARGE = 20_000  # least number of vertices of a scene of which a path needs only some obstacles
+
 
 @checked
 @dataclass(eq=False)
@@ -180,7 +182,17 @@ def answer_for_one(planner: PosePlanner, start: Pose, goal: Pose, options: Optio
     """Answer a query for one pose."""
     if options.clearance:
         return plan_at_distance(planner.scene, start, goal, options)
-    return planner.path_or_proof(start, goal, options)
+    return _path_in_parts(planner, start, goal, options) or planner.path_or_proof(start, goal, options)
+
+
+def _path_in_parts(planner: PosePlanner, start: Pose, goal: Pose, options: Options) -> Path | None:
+    """Path in a scene of many obstacles by those near it; None if another way is better, or decides."""
+    scene = planner.scene
+    if planner.has_space or options.work or scene.curved or sum(map(len, scene.obstacles)) < LARGE:
+        return None
+    from cfree.planning.large import ground_of, path_around
+
+    return path_around(ground_of(planner), start, goal, options)
 
 
 def answer_for_any(planner: PosePlanner, start: Pose, goals: Sequence[Goal], options: Options) -> Path | AllSeparated:

@@ -74,6 +74,21 @@ class PosePlanner:
     def _planner(self) -> _core.Planner:
         return _core.Planner(self._known, self.angle_scale)
 
+    @property
+    def has_space(self) -> bool:
+        """True if the free space has been computed."""
+        return self._space is not None
+
+    @property
+    def has_slides(self) -> bool:
+        """True if paths of it may slide along contacts."""
+        return bool(self._slides)
+
+    def keep_slides(self, path: Path) -> None:
+        """Keep the slides of a path as they are when it is improved."""
+        slides = ((ends, motion) for ends, motion in zip(pairwise(path.poses), path.motions, strict=True))
+        self._slides |= {ends: motion for ends, motion in slides if isinstance(motion, Slide)}
+
     def updated(self, scene: Scene) -> PosePlanner:
         """Return a planner of another scene that shares what holds in it."""
         other = PosePlanner(scene)

@@ -599,6 +599,23 @@ def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) ->
     return other
 
 
+def with_bounds(scene: Scene, box: Sequence[float]) -> Scene:
+    """Return the scene with bounds that are the common part of its own and a box of doubles, which is not empty.
+
+    Examples
+    --------
+    >>> scene = with_bounds(Scene([(0, 0), (1, 0), (0, 1)], bounds=(0, 0, 9, 9)), (-1, 2, 5, 20))
+    >>> tuple(map(str, scene.bounds))
+    ('0', '2', '5', '9')
+    """
+    other = copy(scene)
+    x0, y0, x1, y1 = map(Fraction, box)
+    if (own := scene.bounds) is not None:
+        x0, y0, x1, y1 = max(x0, own[0]), max(y0, own[1]), min(x1, own[2]), min(y1, own[3])
+    object.__setattr__(other, "bounds", (x0, y0, x1, y1))
+    return other
+
+
 def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
     """Return the scene with another start and goal; None keeps its own.
 

@@ -13,6 +13,7 @@ from cfree.arguments import checked
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.formats.answers.answer_file import read_answer
+from cfree.paths.numbering import renumbered
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.proof import Proof
@@ -48,7 +49,7 @@ from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verifi
 from cfree.verify.round_answers import TEXTS, rounded_findings
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
 from cfree.verify.stuck import HELD, stuck_findings
-from cfree.verify.whole import part_of, renumbered, whole_of
+from cfree.verify.whole import part_of, whole_of
 from cfree.verify.world import World
 from cfree.words import counted
 

@@ -6,10 +6,6 @@ own. A path is checked among all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-
-from cfree.collision.slide import Slide, Touch
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.proof import Proof
@@ -30,19 +26,3 @@ def part_of(scene: Scene, answer: Path | Proof, whole: Whole) -> Scene | None:
     obstacles = [scene.obstacles[k] for k in whole.obstacles]
     part = Scene(scene.robot, obstacles, bounds=scene.bounds, workspace=scene.workspace)
     return None if answer.stamp is not None and answer.stamp.sha256 != stamp_of(part).sha256 else part
-
-
-def renumbered(path: Path, numbers: Sequence[int]) -> Path:
-    """Path whose slides name obstacles by other numbers: obstacle k has the number numbers[k]."""
-    motions = tuple(
-        Slide((_touch(m.contacts[0], numbers), _touch(m.contacts[1], numbers)), m.x, m.y, m.d, m.tau)
-        if isinstance(m, Slide)
-        else m
-        for m in path.motions
-    )
-    return replace(path, motions=motions)
-
-
-def _touch(touch: Touch, numbers: Sequence[int]) -> Touch:
-    polygon, vertex = touch.obstacle
-    return touch if polygon < 0 else replace(touch, obstacle=(numbers[polygon], vertex))

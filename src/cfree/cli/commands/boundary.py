@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 @options.threads
 @options.max_seconds
 @options.max_memory
-@file_option("--folder", metavar="DIR", help="Compute tile by tile, with cells, into a folder; or resume there.")
+@file_option("--folder", metavar="DIR", help="Compute it in tiles, with cells and portals, into a folder; or resume.")
 @click.option("--obstacles", multiple=True, type=FILE, metavar="FILE", help="Add obstacles from a file; with --folder.")
 @click.option("--tiles", type=click.IntRange(min=1), metavar="N", help="Divide into N tiles; with --folder.",
               show_default="one per 20,000 vertices")  # fmt: skip

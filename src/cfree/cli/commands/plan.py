@@ -149,9 +149,9 @@ def plan(
 
     Each motion is proved free. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads; or a
     boundary written by cfree boundary -o; or a folder written by cfree boundary --folder, of which only tiles near the
-    path are read. Exit code 0: a path; 1: proved impossible; 2: bad input; 3: undecided, by a limit, because only paths
-    that touch may exist, because the clearance is too near to the largest, because round shapes almost touch, or
-    because a vehicle needs too many manoeuvres.
+    path are read: to a far goal it leads through the portals kept there. Exit code 0: a path; 1: proved impossible; 2:
+    bad input; 3: undecided, by a limit, because only paths that touch may exist, because the clearance is too near to
+    the largest, because round shapes almost touch, or because a vehicle needs too many manoeuvres.
     """
     with one_line_faults():
         from cfree.cli.answering import Answering, Sampling
