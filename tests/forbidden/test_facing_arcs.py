@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import random
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from arc_rings import BAY, BRACKET, DROP, HALF, HOOK, LENS, SECTOR, plate, shape
-from cfree import Curved, Scene, UnsupportedError, boundary, free_space, verify
+from cfree import Curved, Scene, UnsupportedError, boundary, free_space, load, save, verify
 from cfree.geometry import gauss_bonnet
 from cfree.verify.result import PROVED
 from facing_arcs import FAMILIES, faults, scene
@@ -95,3 +96,19 @@ def test_an_arc_that_fits_between_two_arcs_about_one_center_is_refused() -> None
     made = Scene(shape(HALF, by=Fraction(1, 5)), [plate(), Curved.circle((0, 0), 1)])
     with pytest.raises(UnsupportedError, match="fits exactly between two arcs about one center"):
         boundary(made)
+
+
+@pytest.mark.slow
+def test_files_and_meshes_have_facing_arcs(tmp_path: Path) -> None:
+    """The mesh bounds the sums of the half disc and the plate's square, but for the half disc's room in the hole."""
+    made = Scene(shape(HALF, by=Fraction(3, 10)), [plate()])
+    found = boundary(made)
+    save(found, tmp_path / "half.npz")
+    assert load(tmp_path / "half.npz") == found
+    mesh = found.mesh(0.05)
+    x, y, z = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
+    normals = np.cross(y - x, z - x) / 2
+    volume = ((x + y + z)[:, :2] / 3 * normals[:, :2]).sum() / 2 / mesh.angle_scale
+    room = math.pi * 1.5**2 / 2 + lens_area(3, 3) / 2
+    sums = math.tau * (100 + math.pi * 1.5**2 / 2) + 40 * (math.pi * 1.5 + 3)
+    assert abs(volume - (sums - math.tau * room)) < 0.05 * np.hypot(*normals[:, :2].T).sum() / mesh.angle_scale

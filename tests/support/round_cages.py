@@ -80,6 +80,16 @@ def random_hollow_cage(seed: int) -> Scene:
     return Scene(parts[: rng.randint(1, 2)], [shape(rng.choice([JAR, TUB])), lid], bounds=bounds)
 
 
+def random_facing_cage(seed: int) -> Scene:
+    """A jar or a tub with a lid that has concave arcs, and a robot with convex ones."""
+    rng = random.Random(f"facing {seed}")
+    size = Fraction(rng.randint(24, 60), 8)
+    robot = shape(RINGS[rng.choice([*RINGS])], 0, 0, size / 10)
+    at = Fraction(rng.randint(-32, 32), 8)
+    lid = plate(at, 14) if seed % 2 else shape(CONCAVE["bracket"], -4, 6 + abs(at) / 2)
+    return Scene(robot, [shape(rng.choice([JAR, TUB])), lid], bounds=(-SIZE, -SIZE, SIZE, SIZE))
+
+
 def decided(scene: Scene, most: int, seed: int) -> Iterator[tuple[Pose, Pose, bool]]:
     """Yield start, goal, and True if polygons around the shapes prove them joined, False if those inside prove not."""
     rng = random.Random(seed)
