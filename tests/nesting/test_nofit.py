@@ -11,6 +11,7 @@ import shapely
 
 import cfree
 from cfree import Curved, Polygon
+from cfree.curves import Circle
 from cfree.nesting import NFP, InnerFit, RoundedFit, inner_fit, nfp
 from fuzz_nesting import TAUS, check_pair, random_pair
 
@@ -143,9 +144,20 @@ def test_a_peg_in_a_square_hole_is_a_point() -> None:
     assert isinstance(result, RoundedFit) and result.points == ((1, 1),) and not result.segments
 
 
-def test_a_round_container_is_refused_with_the_remedy() -> None:
-    with pytest.raises(cfree.UnsupportedError, match=r"workspace: round; give it as a polygon"):
-        inner_fit(Curved.circle((0, 0), 5), SQUARE)
+def test_parts_fit_in_round_containers() -> None:
+    """The square's corners are in four discs of radius 5 about the corners of one of side 1; its own peg fits exactly."""
+    fit = inner_fit(Curved.circle((0, 0), 5), SQUARE)
+    discs = [shapely.Point(-x, -y).buffer(5, 2000) for x, y in SQUARE]
+    assert isinstance(fit, RoundedFit) and math.isclose(fit.area, shapely.intersection_all(discs).area, rel_tol=1e-5)
+    assert not fit.overlaps((0, 0)) and fit.overlaps((4, 3))
+    peg = inner_fit(Curved.circle((0, 0), 1), Curved.circle((2, "1/3"), 1))
+    assert isinstance(peg, RoundedFit) and peg.points == ((-2, Fraction(-1, 3)),) and peg.area == 0
+
+
+def test_areas_count_concave_arcs_clockwise() -> None:
+    plate = Curved([(-5, -5), (5, -5), (5, 5), (-5, 5)], [Circle((0, 0), 3)])
+    fit = nfp(plate, Curved.circle((0, 0), 1))
+    assert isinstance(fit, RoundedFit) and math.isclose(fit.area, 100 + 40 + math.pi - 4 * math.pi, rel_tol=1e-9)
 
 
 def test_the_nearest_free_position_may_be_in_a_hole() -> None:

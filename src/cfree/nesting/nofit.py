@@ -180,7 +180,7 @@ def inner_fit(container: Any, part: Any, theta: Angle = 0) -> InnerFit | Rounded
     Parameters
     ----------
     container : shape
-        One polygon; the part must keep out of its holes as well.
+        One shape; the part must keep out of its holes as well.
     part : shape or sequence of shapes
         Turned about the origin, its reference point.
     theta : Angle

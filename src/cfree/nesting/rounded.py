@@ -40,9 +40,9 @@ class ContactEdge:
     start, end : (x, y)
         Rounded; the overlap is on the left.
     center : (x, y) or None
-        Center of the arc; None of a line. The arc runs counter-clockwise.
+        Center of the arc; None of a line.
     radius : float
-        0 of a line.
+        0 of a line. The arc runs counter-clockwise; clockwise if the radius is below 0, as of a concave arc.
     """
 
     start: Place
@@ -98,7 +98,8 @@ class RoundedFit:
             doubled += x * v - y * u
             if edge.center is not None:
                 a, b = edge.center
-                turn = (math.atan2(v - b, u - a) - math.atan2(y - b, x - a)) % math.tau
+                sense = math.copysign(1.0, edge.radius)
+                turn = sense * (sense * (math.atan2(v - b, u - a) - math.atan2(y - b, x - a)) % math.tau)
                 doubled += edge.radius**2 * (turn - math.sin(turn))
         return abs(doubled) / 2
 
