@@ -145,7 +145,7 @@ def test_a_peg_in_a_square_hole_is_a_point() -> None:
 
 
 def test_parts_fit_in_round_containers() -> None:
-    """Four discs about the corners of a unit square contain those of the square; a peg of the same radius fits exactly."""
+    """Discs about the corners of a unit square contain those of the part; a peg of the same radius fits exactly."""
     fit = inner_fit(Curved.circle((0, 0), 5), SQUARE)
     discs = [shapely.Point(-x, -y).buffer(5, 2000) for x, y in SQUARE]
     assert isinstance(fit, RoundedFit) and math.isclose(fit.area, shapely.intersection_all(discs).area, rel_tol=1e-5)
