@@ -26,7 +26,7 @@ from cfree.verify.round_pieces import Piece, Reader, Scale
 from cfree.verify.round_proof import Features, RoundSeparation
 from cfree.verify.round_separation import scale_of, side_findings, size_of
 from cfree.verify.round_slices import SURE, compared, pillar_of
-from cfree.verify.round_world import Part, Place, RoundWorld, is_apart
+from cfree.verify.round_world import ArcFilletPair, FilletPair, Part, Place, RoundWorld, is_apart
 from cfree.words import counted
 
 PIECES, TRAPEZOIDS, FREE = "convex pieces", "names, angles, domains", "not forbidden"
@@ -134,7 +134,7 @@ class _Covering:
 
     def __init__(self, world: RoundWorld) -> None:
         self._size = world.size
-        self._fillet_pairs = [*world.fillet_pairs, *world.arc_fillet_pairs]
+        self._fillet_pairs: list[FilletPair | ArcFilletPair] = [*world.fillet_pairs, *world.arc_fillet_pairs]
         self._pairs: list[tuple[Part, Part]] = [(a, b) for some, others in world.layers for a in some for b in others]
         ends = [[_around(part) for part in side] for side in zip(*self._pairs, strict=True)]
         self._centers = np.array([[center for center, _ in side] for side in ends])
