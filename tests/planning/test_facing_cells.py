@@ -34,7 +34,7 @@ def test_a_drop_too_wide_for_the_mouth_of_a_jar_by_a_hair_has_a_proof(tmp_path: 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0])
 def test_proofs_in_random_cages_of_facing_arcs_agree_with_floods(seed: int) -> None:
     scene = random_facing_cage(seed)
     for start, goal, is_joined in decided(scene, 2, seed):
