@@ -12,7 +12,8 @@ import cfree
 # -----------------------
 #
 # A square that does not turn is a point among obstacles that are grown by it. At 0 degrees the forbidden region of a
-# box has the area (2 + 1)^2. Let the class guess the area at 45 degrees: 2^2 + 1^2 + 4 times the square root of 2.
+# box has the area (2 + 1)^2. Let the class guess the area at 45 degrees. It is 2^2 + 1^2 and 4 times the square root
+# of 2.
 
 square, box = [(0, 0), (1, 0), (1, 1), (0, 1)], [(3, 3), (5, 3), (5, 5), (3, 5)]
 scene = cfree.Scene(square, [box], bounds=(0, 0, 9, 9), start=(1, 1, 0), goal=(7, 6, "90deg"))
