@@ -1,0 +1,437 @@
+// Free parts of curves in concave arcs. A curve's point enters and leaves the forbidden space on lines and circles of pillars only.
+// So it is free or not everywhere between two angles at which it is on one, as at a sample; theory, "Exact fits".
+#include "forbidden/equal_radii.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "cfree/contact/contact_line.hpp"
+#include "cfree/scene/features.hpp"
+#include "collision/box_tree.hpp"
+#include "forbidden/coincident_surfaces.hpp"
+#include "predicates/round_junction.hpp"
+#include "support/parallel.hpp"
+
+namespace cfree {
+
+bool have_equal_radii(const Scene& scene, Index i, Index j) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool is_pair = A.convex[i] ? O.is_concave(j) : O.convex[j] && A.is_concave(i);
+    return is_pair && (A.radius_of(i).exact + O.radius_of(j).exact).is_zero();
+}
+
+bool has_facing_arcs(const Scene& scene) {
+    const auto has_convex = [](const Shape& s) {
+        for (Index v = 0; s.has_arcs() && v < s.ring_vertices; ++v)
+            if (s.is_arc[v] && s.convex[v]) return true;
+        return false;
+    };
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    return (A.has_concave() && has_convex(O)) || (O.has_concave() && has_convex(A));
+}
+
+namespace {
+
+Feature on_branch(Feature f, int branch) {
+    f.branch = static_cast<std::int8_t>(branch);
+    return f;
+}
+Feature contact_line_of(bool of_robot, Index edge, Index vertex) {
+    return of_robot ? Feature{Kind::edge_vertex, edge, vertex} : Feature{Kind::vertex_edge, vertex, edge};
+}
+Feature contact_circle_of(bool of_robot, Index own, Index other) {
+    return of_robot ? Feature{Kind::vertex_vertex, own, other, 1} : Feature{Kind::vertex_vertex, other, own, 1};
+}
+
+// Something that covers places: its surfaces, and whether a place is in its open inside.
+struct OpenCover {
+    std::vector<Feature> surfaces;
+    std::function<bool(RoundJunction&, const RoundSpot&)> has;
+};
+
+// Pillar of two convex pieces.
+class OpenPillar {
+public:
+    OpenPillar(const Scene& s, Index p, Index k)
+        : scene(s), a(&s.robot.piece_vertex[s.robot.piece[p]]), b(&s.obstacles.piece_vertex[s.obstacles.piece[k]]),
+          n(s.robot.piece[p + 1] - s.robot.piece[p]), m(s.obstacles.piece[k + 1] - s.obstacles.piece[k]),
+          g(n > 1 ? &s.robot.piece_edge[s.robot.piece[p]] : nullptr), f(m > 1 ? &s.obstacles.piece_edge[s.obstacles.piece[k]] : nullptr) {}
+
+    bool is_empty() const { return n == 1 && m == 1 && !has_disc(0, 0); }
+    std::vector<Feature> surfaces() const {
+        std::vector<Feature> result;
+        for (Index x = 0; x < n; ++x)
+            for (Index y = 0; y < m; ++y) {
+                if (m > 1) result.push_back(on_edge(x, y));
+                if (n > 1) result.push_back(of_edge(x, y));
+                if (has_disc(x, y)) result.push_back(circle(x, y));
+            }
+        return result;
+    }
+    // A place is outside if it is beyond an edge, or from an arc in a direction of both cones and beyond its circle.
+    bool has(RoundJunction& at, const RoundSpot& place) const {
+        for (Index x = 0; x < n; ++x)
+            for (Index y = 0; y < m; ++y) {
+                const auto is_beyond = [&](const Feature& surface) { return at.outside(surface, place) >= 0; };
+                const auto is_ahead = [&](const Feature& before, const Feature& after) {
+                    return at.ahead(before, circle(x, y), place) >= 0 && at.ahead(after, circle(x, y), place) <= 0;
+                };
+                const auto turns_over = [&](const Feature& before, const Feature& after, const Feature& line) {
+                    return at.turn(before, line) >= 0 && at.turn(after, line) <= 0;
+                };
+                if (m > 1 && is_beyond(on_edge(x, y)) && (n == 1 || turns_over(of_edge(last(x, n), y), of_edge(x, y), on_edge(x, y)))) return false;
+                if (n > 1 && is_beyond(of_edge(x, y)) && (m == 1 || turns_over(on_edge(x, last(y, m)), on_edge(x, y), of_edge(x, y)))) return false;
+                if (has_disc(x, y) && is_beyond(circle(x, y)) && (m == 1 || is_ahead(on_edge(x, last(y, m)), on_edge(x, y))) &&
+                    (n == 1 || is_ahead(of_edge(last(x, n), y), of_edge(x, y))))
+                    return false;
+            }
+        return true;
+    }
+
+private:
+    static Index last(Index x, Index count) { return (x + count - 1) % count; }
+    bool has_disc(Index x, Index y) const {
+        return (scene.robot.radius_of(a[x]).exact + scene.obstacles.radius_of(b[y]).exact).sign() > 0;
+    }
+    Feature circle(Index x, Index y) const { return {Kind::vertex_vertex, a[x], b[y], 1}; }
+    Feature on_edge(Index x, Index y) const { return {Kind::vertex_edge, a[x], f[y]}; }
+    Feature of_edge(Index x, Index y) const { return {Kind::edge_vertex, g[x], b[y]}; }
+
+    const Scene& scene;
+    const Index *a, *b;
+    Index n, m;
+    const Index *g, *f;
+};
+
+// All that may cover the places at which the vertices of a pair are as far apart as the sum of their radii, or less.
+class Covers {
+public:
+    explicit Covers(const Scene& s) : scene(s) {
+        for (const bool of_robot : {false, true}) {
+            const Shape &own = of_robot ? s.robot : s.obstacles, &other = of_robot ? s.obstacles : s.robot;
+            if (own.fillets.empty()) continue;
+            std::vector<Index> list = other.fillet_ends;  // with the convex vertices, those of the shape without its fillets
+            for (Index v = 0; v < other.ring_vertices; ++v)
+                if (other.convex[v] && other.layer[v] == body_layer) list.push_back(v);
+            std::sort(list.begin(), list.end(), [&](Index v, Index w) { return std::pair(other.point[v], v) < std::pair(other.point[w], w); });
+            list.erase(std::unique(list.begin(), list.end(), [&](Index v, Index w) { return other.point[v] == other.point[w]; }), list.end());
+            for (const Shape::Fillet& fillet : own.fillets)
+                for (const Index v : list)
+                    if ((own.radius_of(fillet.vertex[0]).exact + other.radius_of(v).exact).is_zero()) fillets.push_back({&fillet, of_robot, v});
+        }
+    }
+
+    std::vector<OpenCover> near(const Feature& pair) const {
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        std::vector<OpenCover> result;
+        for (Index k = 0; k < O.pieces(); ++k)
+            for (Index p = 0; p < A.pieces(); ++p) {
+                if (A.piece_layer[p] != O.piece_layer[k] || !is_near(pair, &A.piece_vertex[A.piece[p]], A.piece[p + 1] - A.piece[p], &O.piece_vertex[O.piece[k]], O.piece[k + 1] - O.piece[k]))
+                    continue;
+                const OpenPillar pillar(scene, p, k);
+                if (!pillar.is_empty()) result.push_back({pillar.surfaces(), [pillar](RoundJunction& at, const RoundSpot& place) { return pillar.has(at, place); }});
+            }
+        for (const auto& [fillet, of_robot, v] : fillets) {
+            const Index* corners = fillet->vertex.data();
+            if (!(of_robot ? is_near(pair, corners, 4, &v, 1) : is_near(pair, &v, 1, corners, 4))) continue;
+            OpenCover cover;
+            for (const Index edge : fillet->edge) cover.surfaces.push_back(contact_line_of(of_robot, edge, v));
+            cover.surfaces.push_back(contact_circle_of(of_robot, fillet->arc, v));
+            cover.has = [all = cover.surfaces](RoundJunction& at, const RoundSpot& place) {  // the open quadrangle outside of the circle
+                return std::all_of(all.begin(), all.end(), [&](const Feature& x) { return at.outside(x, place) * (is_line(x) ? -1 : 1) > 0; });
+            };
+            result.push_back(std::move(cover));
+        }
+        return result;
+    }
+
+private:
+    struct Near {
+        const Shape::Fillet* fillet;
+        bool of_robot;
+        Index vertex;
+    };
+    // False if vertices of the two shapes are certainly too far away at every angle.
+    bool is_near(const Feature& pair, const Index* a, Index n, const Index* b, Index m) const {
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        const double ax = A.x[pair.robot], ay = A.y[pair.robot], bx = O.x[pair.obstacle], by = O.y[pair.obstacle];
+        double reach = 0, own = 0, other = 0, size = std::abs(ax) + std::abs(ay) + std::abs(bx) + std::abs(by);
+        Box box;
+        for (Index x = 0; x < n; ++x) {
+            reach = std::max(reach, std::hypot(A.x[a[x]] - ax, A.y[a[x]] - ay)), own = std::max(own, std::abs(A.radius_of(a[x]).about.hi));
+            size = std::max(size, std::abs(A.x[a[x]]) + std::abs(A.y[a[x]]));
+        }
+        for (Index y = 0; y < m; ++y) {
+            box.add(O.x[b[y]], O.y[b[y]]), other = std::max(other, std::abs(O.radius_of(b[y]).about.hi));
+            size = std::max(size, std::abs(O.x[b[y]]) + std::abs(O.y[b[y]]));
+        }
+        const double dx = std::max({box.x0 - bx, bx - box.x1, 0.0}), dy = std::max({box.y0 - by, by - box.y1, 0.0});
+        const double apart = std::abs(A.radius_of(pair.robot).about.hi) + std::abs(O.radius_of(pair.obstacle).about.hi);
+        return std::hypot(dx, dy) <= (reach + own + other + apart) * (1 + 0x1p-40) + size * 0x1p-40;
+    }
+
+    const Scene& scene;
+    std::vector<Near> fillets;
+};
+
+// A curve on a circle's surface in one chart: what is free of it, and where the two arcs touch.
+class FreeCurve {
+public:
+    struct Range {
+        Event from, to;
+        bool is_one;  // a single angle
+    };
+    FreeCurve(const Scene& s, const Surface& surface, const Feature& curve) : decide(s, surface), scene(s), on(surface), name(curve) {}
+
+    // Free closed ranges between two angles, and single angles; `meets` is true where the arcs touch, which changes at these events.
+    template <class Meets>
+    std::vector<Range> free(const Event& from, const Event& to, std::vector<Event> changes, const Meets& meets, const std::vector<OpenCover>& covers) {
+        std::vector<Range> left = without({{from, to, false}}, std::move(changes), [&](RoundJunction& at, const RoundSpot& p) { return !meets(at, p); });
+        for (const OpenCover& cover : covers) {
+            if (left.empty()) break;
+            heed_stop();
+            left = without(left, cover);
+        }
+        return left;
+    }
+    Predicates decide;
+
+private:
+    std::vector<Range> without(const std::vector<Range>& whole, const OpenCover& cover) {
+        std::vector<Range> result;
+        for (const Range& range : whole) {
+            std::vector<Event> changes;
+            for (const Feature& surface : cover.surfaces) {
+                if (range.is_one) break;
+                const bool is_point = name.kind == Kind::seam;
+                const Feature first = is_point ? on_branch(surface, 1) : name, second = is_point ? Feature{} : surface;
+                if (decide.event_sign_on(first, second, range.from.lo, range.to.hi) != 0) continue;
+                const auto roots = decide.event_roots(first, second, range.from, range.to);
+                changes.insert(changes.end(), roots.at.begin(), roots.at.end());
+            }
+            const auto rest = without({range}, std::move(changes), cover.has);
+            result.insert(result.end(), rest.begin(), rest.end());
+        }
+        return result;
+    }
+    // Ranges without the angles at which a place is covered, an open set but for its ends, which changes at events only.
+    template <class Covered>
+    std::vector<Range> without(const std::vector<Range>& whole, std::vector<Event> changes, const Covered& is_covered) {
+        std::sort(changes.begin(), changes.end(), [&](const Event& x, const Event& y) { return decide.order(x, y) < 0; });
+        const auto at_event = [&](const Event& e) {
+            RoundJunction here(scene, on.chart, e.lo, e.hi, [&] { return decide.long_root_of(e); }, [&] { return decide.narrowed(e); });
+            return is_covered(here, here.spot(on.contact, name, false));
+        };
+        const auto between = [&](const Event& first, const Event& last) {
+            const Dyadic tau = decide.between(first, last).exact();
+            RoundJunction here(scene, on.chart, tau.rounded_down(), tau.rounded_up(), [&] { return LongRoot{LongPoly{-tau.n, Int(1) << tau.k}, tau, tau}; },
+                               [&]() -> std::optional<Predicates::Bracket> {
+                                   const Ball number = ball(tau.n, static_cast<int>(tau.k));
+                                   return Predicates::Bracket{number, number};
+                               });
+            return is_covered(here, here.spot(on.contact, name, false));
+        };
+        std::vector<Range> result;
+        for (const Range& range : whole) {
+            if (range.is_one) {
+                if (!at_event(range.from)) result.push_back(range);
+                continue;
+            }
+            std::vector<Event> ends{range.from};
+            for (const Event& x : changes)
+                if (decide.order(ends.back(), x) < 0 && decide.order(x, range.to) < 0) ends.push_back(x);
+            ends.push_back(range.to);
+            bool is_open = false;  // true if the last range goes on
+            for (std::size_t k = 0; k < ends.size(); ++k) {
+                const bool goes_on = k + 1 < ends.size() && !between(ends[k], ends[k + 1]);
+                const bool is_free = is_open || goes_on || !at_event(ends[k]);
+                if (is_open) result.back().to = ends[k];
+                else if (is_free) result.push_back({ends[k], ends[k], !goes_on});
+                is_open = goes_on;
+            }
+        }
+        return result;
+    }
+
+    const Scene& scene;
+    const Surface on;
+    const Feature name;
+};
+
+// Curves of fits in concave arcs, one patch after another.
+class FitsOfArcs {
+public:
+    FitsOfArcs(const Scene& s, const Patches& p) : scene(s), patches(p), covers(s) {}
+
+    bool may_have(Index patch) const {
+        const Feature contact = patches.contact(patch);
+        return is_circle(contact) && is_concave(scene, contact);
+    }
+    void add(Index patch, std::vector<Trapezoid>& out) const {
+        const Feature contact = patches.contact(patch);
+        if (have_equal_radii(scene, contact.robot, contact.obstacle)) {
+            const std::vector<OpenCover> near = covers.near(contact);
+            for (const int chart : {0, 1}) add_helix({contact, chart}, near, patch, out);
+            return;
+        }
+        const std::vector<Held> held = held_on(contact);
+        if (held.empty()) return;
+        const std::vector<OpenCover> near = covers.near(contact);
+        for (const Held& curve : held)
+            for (const int chart : {0, 1}) add_held({contact, chart}, curve, near, patch, out);
+    }
+
+private:
+    // A surface that covers a circle but for one point at all angles.
+    struct Held {
+        Feature surface;
+        Vec<Int> normal;  // outward normal u of the obstacle there, in the plane of the obstacles, or of the robot with the opposite sign
+        bool turns;       // true in that of the robot
+    };
+
+    static Event chart_end(double side) { return {{}, {}, side, side}; }
+    std::array<Feature, 2> cone(bool of_robot, const Feature& pair) const {  // first and last edge beside a vertex
+        const Shape& s = of_robot ? scene.robot : scene.obstacles;
+        const Index own = of_robot ? pair.robot : pair.obstacle, other = of_robot ? pair.obstacle : pair.robot;
+        std::array<Feature, 2> result{contact_line_of(of_robot, s.previous[own], other), contact_line_of(of_robot, own, other)};
+        if (s.is_concave(own)) std::swap(result[0], result[1]);
+        return result;
+    }
+    static void put(FreeCurve& free, const std::vector<FreeCurve::Range>& ranges, Index patch, const Surface& on, const Feature& curve, std::vector<Trapezoid>& out) {
+        for (const auto& [from, to, is_one] : ranges)
+            out.push_back({patch, on.chart, curve, curve, from, to, free.decide.place(from), free.decide.place(to)});
+    }
+
+    void add_helix(const Surface& on, const std::vector<OpenCover>& near, Index patch, std::vector<Trapezoid>& out) const {
+        const Feature& pair = on.contact;
+        const Feature end{Kind::seam, pair.robot, pair.obstacle, pair.branch};
+        FreeCurve free(scene, on, end);
+        const Event first = chart_end(-1), last = chart_end(1);
+        std::vector<Event> changes;
+        const bool has_cones = scene.robot.has_extent(pair.robot) && scene.obstacles.has_extent(pair.obstacle);
+        const auto mine = has_cones ? cone(true, pair) : std::array<Feature, 2>{}, other = has_cones ? cone(false, pair) : std::array<Feature, 2>{};
+        for (const Feature& x : mine)
+            for (const Feature& y : other) {
+                if (!has_cones) break;
+                const auto roots = free.decide.parallel_roots(x.robot, y.obstacle, first, last);
+                changes.insert(changes.end(), roots.at.begin(), roots.at.end());
+            }
+        // of two ranges of directions that meet, one begins in the other
+        const auto meets = [&](RoundJunction& at, const RoundSpot&) {
+            return !has_cones || (at.turn(mine[0], other[0]) >= 0 && at.turn(mine[1], other[0]) <= 0) ||
+                   (at.turn(other[0], mine[0]) >= 0 && at.turn(other[1], mine[0]) <= 0);
+        };
+        put(free, free.free(first, last, std::move(changes), meets, near), patch, on, end, out);
+    }
+
+    void add_held(const Surface& on, const Held& held, const std::vector<OpenCover>& near, Index patch, std::vector<Trapezoid>& out) const {
+        FreeCurve free(scene, on, held.surface);
+        const Feature& pair = on.contact;
+        std::vector<Event> ends{chart_end(-1)};
+        const auto in_order = [&](const Event& x, const Event& y) { return free.decide.order(x, y) < 0; };
+        if (held.turns) {
+            for (const int end : {0, 1}) {
+                const Feature seam{Kind::seam, pair.robot, pair.obstacle, (pair.branch + end) & 3};
+                const auto roots = free.decide.event_roots(held.surface, seam, chart_end(-1), chart_end(1));
+                ends.insert(ends.end(), roots.at.begin(), roots.at.end());
+            }
+            std::sort(ends.begin() + 1, ends.end(), in_order);
+        }
+        ends.push_back(chart_end(1));
+        std::vector<Event> changes;
+        std::vector<std::array<Feature, 2>> cones;
+        if (scene.robot.has_extent(pair.robot)) cones.push_back(cone(true, pair));
+        if (scene.obstacles.has_extent(pair.obstacle)) cones.push_back(cone(false, pair));
+        for (const auto& edges : cones)
+            for (const Feature& edge : edges) {
+                const auto roots = free.decide.event_roots(held.surface, on_branch(edge, 0), chart_end(-1), chart_end(1));
+                changes.insert(changes.end(), roots.at.begin(), roots.at.end());
+            }
+        const auto meets = [&](RoundJunction& at, const RoundSpot& p) {  // u points from the place to the circle's centre
+            return std::all_of(cones.begin(), cones.end(), [&](const auto& edges) { return at.ahead(edges[0], pair, p) <= 0 && at.ahead(edges[1], pair, p) >= 0; });
+        };
+        for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+            if (free.decide.order(ends[k], ends[k + 1]) == 0) continue;
+            Vec<Int> normal = held.normal;
+            if (held.turns) {
+                const Dyadic tau = free.decide.between(ends[k], ends[k + 1]).exact();
+                const auto R = rotation_by(on.chart, tau.n, Int(1) << tau.k);
+                const Vec<Int> turned = R(normal);
+                normal = {-turned.x, -turned.y};
+            }
+            for (int turns = pair.branch; turns > 0; --turns) normal = {normal.y, -normal.x};  // the quadrant becomes the first
+            if (normal.x.sign() < 0 || normal.y.sign() < 0) continue;
+            put(free, free.free(ends[k], ends[k + 1], changes, meets, near), patch, on, held.surface, out);
+        }
+    }
+
+    // Surfaces of the same convex vertex: a line or a circle of a convex vertex with the circle inside of it, or that of another
+    // concave arc with the circle outside of it. And such a circle of another convex vertex, about the same centre.
+    std::vector<Held> held_on(const Feature& pair) const {
+        const bool of_robot = scene.robot.is_concave(pair.robot);
+        const Shape &s = of_robot ? scene.robot : scene.obstacles, &t = of_robot ? scene.obstacles : scene.robot;
+        const Index arc = of_robot ? pair.robot : pair.obstacle, vertex = of_robot ? pair.obstacle : pair.robot;
+        const Int own = t.radius_of(vertex).exact, size = -(s.radius_of(arc).exact + own);
+        std::vector<Held> result;
+        // in doubles, whether two lengths may be equal
+        const double reach = t.radius_of(vertex).about.hi, round = -(s.radius_of(arc).about.hi + reach);
+        const auto may_be_one = [&](double x, double y) {
+            return std::abs(x - y) <= 0x1p-30 * (std::abs(x) + std::abs(y) + round + reach + std::abs(s.x[arc]) + std::abs(s.y[arc]));
+        };
+        for (Index v = 0; v < s.ring_vertices; ++v) {
+            if (s.layer[v] != s.layer[arc] || !s.emit[v]) continue;
+            const double far = std::hypot(s.x[v] - s.x[arc], s.y[v] - s.y[arc]), other_near = s.radius_of(v).about.hi + reach;
+            if (may_be_one(far, other_near < 0 ? round - other_near : other_near - round)) {
+                const Int other = s.radius_of(v).exact + own, between = other.sign() < 0 ? size - other : other - size;
+                const Vec<Int> d = difference<Int>(s, v, arc);
+                const Feature circle = contact_circle_of(of_robot, v, vertex);
+                if (makes_circles(scene, circle.robot, circle.obstacle) && between.sign() > 0 && dot(d, d) == between * between)
+                    result.push_back({circle, other.sign() < 0 ? Vec<Int>{-d.x, -d.y} : d, of_robot});
+            }
+            if (!s.makes_surfaces(v)) continue;
+            const Index start = s.v[v];
+            const double ex = s.x[s.w[v]] - s.x[start], ey = s.y[s.w[v]] - s.y[start], length = std::hypot(ex, ey);
+            const double away = (ex * (s.y[arc] - s.y[start]) - ey * (s.x[arc] - s.x[start])) / length;
+            if (!may_be_one(away, round - (s.radius_of(start).about.hi + reach))) continue;
+            const Vec<Int> E = edge<Int>(s, v);
+            const Int height = cross(E, difference<Int>(s, arc, start)), wanted = size - (s.radius_of(start).exact + own);
+            if (height.sign() == wanted.sign() && height * height == wanted * wanted * dot(E, E))
+                result.push_back({on_branch(contact_line_of(of_robot, v, vertex), 1), {-E.y, E.x}, of_robot});
+        }
+        for (Index j = 0; j < s.ring_vertices; ++j) {
+            if (!s.is_concave(j) || !s.emit[j] || s.X[j] != s.X[arc] || s.Y[j] != s.Y[arc] || (j != arc && s.vertex_radius[j] == s.vertex_radius[arc])) continue;
+            for (Index w = 0; w < t.ring_vertices; ++w) {
+                if (t.layer[w] != t.layer[vertex] || !t.convex[w] || !t.emit[w]) continue;
+                const double far = std::hypot(t.x[w] - t.x[vertex], t.y[w] - t.y[vertex]);
+                const double both = round - (s.radius_of(j).about.hi + t.radius_of(w).about.hi);
+                if (std::abs(far - both) > 0x1p-30 * (far + std::abs(both) + round + std::abs(t.x[vertex]) + std::abs(t.y[vertex]))) continue;
+                const Int other = -(s.radius_of(j).exact + t.radius_of(w).exact), between = size + other;
+                const Vec<Int> d = difference<Int>(t, w, vertex);
+                if (other.sign() > 0 && dot(d, d) == between * between)
+                    result.push_back({contact_circle_of(of_robot, j, w), {-d.x, -d.y}, !of_robot});
+            }
+        }
+        return result;
+    }
+
+    const Scene& scene;
+    const Patches& patches;
+    const Covers covers;
+};
+
+}  // namespace
+
+void add_fits_of_arcs(const Scene& scene, const Patches& patches, int threads, Trapezoids& thin) {
+    if (!scene.robot.has_concave() && !scene.obstacles.has_concave()) return;
+    const FitsOfArcs fits(scene, patches);
+    std::vector<Index> chosen;
+    for (Index k = 0; k < static_cast<Index>(patches.size()); ++k)
+        if (fits.may_have(k)) chosen.push_back(k);
+    std::vector<std::vector<Trapezoid>> parts(chosen.size());
+    for_each_in_parallel(threads, chosen.size(), [&](std::size_t n) { fits.add(chosen[n], parts[n]); });
+    for (const auto& list : parts)
+        for (const Trapezoid& part : list) thin.push_back(part);
+}
+
+}  // namespace cfree
