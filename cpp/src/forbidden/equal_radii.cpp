@@ -366,53 +366,48 @@ private:
         }
     }
 
-    // Surfaces of the same convex vertex: a line or a circle of a convex vertex with the circle inside of it, or that of another
-    // concave arc with the circle outside of it. And such a circle of another convex vertex, about the same centre.
+    // All surfaces that do so: of the same place of the convex vertex's shape, with features of the other one; or of the centre of the
+    // arc, with features of the convex vertex's shape.
     std::vector<Held> held_on(const Feature& pair) const {
         const bool of_robot = scene.robot.is_concave(pair.robot);
         const Shape &s = of_robot ? scene.robot : scene.obstacles, &t = of_robot ? scene.obstacles : scene.robot;
         const Index arc = of_robot ? pair.robot : pair.obstacle, vertex = of_robot ? pair.obstacle : pair.robot;
-        const Int own = t.radius_of(vertex).exact, size = -(s.radius_of(arc).exact + own);
         std::vector<Held> result;
-        // in doubles, whether two lengths may be equal
-        const double reach = t.radius_of(vertex).about.hi, round = -(s.radius_of(arc).about.hi + reach);
-        const auto may_be_one = [&](double x, double y) {
-            return std::abs(x - y) <= 0x1p-30 * (std::abs(x) + std::abs(y) + round + reach + std::abs(s.x[arc]) + std::abs(s.y[arc]));
-        };
-        for (Index v = 0; v < s.ring_vertices; ++v) {
-            if (s.layer[v] != s.layer[arc] || !s.emit[v]) continue;
-            const double far = std::hypot(s.x[v] - s.x[arc], s.y[v] - s.y[arc]), other_near = s.radius_of(v).about.hi + reach;
-            if (may_be_one(far, other_near < 0 ? round - other_near : other_near - round)) {
-                const Int other = s.radius_of(v).exact + own, between = other.sign() < 0 ? size - other : other - size;
-                const Vec<Int> d = difference<Int>(s, v, arc);
-                const Feature circle = contact_circle_of(of_robot, v, vertex);
-                if (makes_circles(scene, circle.robot, circle.obstacle) && between.sign() > 0 && dot(d, d) == between * between)
-                    result.push_back({circle, other.sign() < 0 ? Vec<Int>{-d.x, -d.y} : d, of_robot});
-            }
-            if (!s.makes_surfaces(v)) continue;
-            const Index start = s.v[v];
-            const double ex = s.x[s.w[v]] - s.x[start], ey = s.y[s.w[v]] - s.y[start], length = std::hypot(ex, ey);
-            const double away = (ex * (s.y[arc] - s.y[start]) - ey * (s.x[arc] - s.x[start])) / length;
-            if (!may_be_one(away, round - (s.radius_of(start).about.hi + reach))) continue;
-            const Vec<Int> E = edge<Int>(s, v);
-            const Int height = cross(E, difference<Int>(s, arc, start)), wanted = size - (s.radius_of(start).exact + own);
-            if (height.sign() == wanted.sign() && height * height == wanted * wanted * dot(E, E))
-                result.push_back({on_branch(contact_line_of(of_robot, v, vertex), 1), {-E.y, E.x}, of_robot});
-        }
-        for (Index j = 0; j < s.ring_vertices; ++j) {
-            if (!s.is_concave(j) || !s.emit[j] || s.X[j] != s.X[arc] || s.Y[j] != s.Y[arc] || (j != arc && s.vertex_radius[j] == s.vertex_radius[arc])) continue;
-            for (Index w = 0; w < t.ring_vertices; ++w) {
-                if (t.layer[w] != t.layer[vertex] || !t.convex[w] || !t.emit[w]) continue;
-                const double far = std::hypot(t.x[w] - t.x[vertex], t.y[w] - t.y[vertex]);
-                const double both = round - (s.radius_of(j).about.hi + t.radius_of(w).about.hi);
-                if (std::abs(far - both) > 0x1p-30 * (far + std::abs(both) + round + std::abs(t.x[vertex]) + std::abs(t.y[vertex]))) continue;
-                const Int other = -(s.radius_of(j).exact + t.radius_of(w).exact), between = size + other;
-                const Vec<Int> d = difference<Int>(t, w, vertex);
-                if (other.sign() > 0 && dot(d, d) == between * between)
-                    result.push_back({contact_circle_of(of_robot, j, w), {-d.x, -d.y}, !of_robot});
-            }
-        }
+        for (Index w = 0; w < t.ring_vertices; ++w)
+            if (is_at(t, w, vertex)) add_held_by(s, arc, t, w, of_robot, pair, result);
+        for (Index j = 0; j < s.ring_vertices; ++j)
+            if (is_at(s, j, arc) && (j == arc || s.vertex_radius[j] != s.vertex_radius[arc])) add_held_by(t, vertex, s, j, !of_robot, pair, result);
         return result;
+    }
+    static bool is_at(const Shape& s, Index v, Index other) { return s.X[v] == s.X[other] && s.Y[v] == s.Y[other] && s.layer[v] == s.layer[other] && s.emit[v]; }
+
+    // The same about one place, a vertex `at` of a shape: with features of the other shape, of which `own` is the pair's.
+    void add_held_by(const Shape& s, Index own, const Shape& other, Index at, bool of_robot, const Feature& pair, std::vector<Held>& out) const {
+        const Int size = -(scene.robot.radius_of(pair.robot).exact + scene.obstacles.radius_of(pair.obstacle).exact), &radius = other.radius_of(at).exact;
+        // in doubles, whether two lengths may be equal
+        const double size_near = -(scene.robot.radius_of(pair.robot).about.hi + scene.obstacles.radius_of(pair.obstacle).about.hi);
+        const double radius_near = other.radius_of(at).about.hi, most = size_near + std::abs(radius_near) + std::abs(s.x[own]) + std::abs(s.y[own]);
+        const auto may_be_one = [&](double x, double y) { return std::abs(x - y) <= 0x1p-30 * (std::abs(x) + std::abs(y) + most); };
+        for (Index v = 0; v < s.ring_vertices; ++v) {
+            if (s.layer[v] != s.layer[own] || !s.emit[v]) continue;
+            const double sigma_near = s.radius_of(v).about.hi + radius_near;
+            if (may_be_one(std::hypot(s.x[v] - s.x[own], s.y[v] - s.y[own]), sigma_near < 0 ? size_near - sigma_near : sigma_near - size_near)) {
+                const Int sigma = s.radius_of(v).exact + radius, between = sigma.sign() < 0 ? size - sigma : sigma - size;
+                const Vec<Int> d = difference<Int>(s, v, own);
+                const Feature circle = contact_circle_of(of_robot, v, at);
+                if (makes_circles(scene, circle.robot, circle.obstacle) && between.sign() > 0 && dot(d, d) == between * between)
+                    out.push_back({circle, sigma.sign() < 0 ? Vec<Int>{-d.x, -d.y} : d, of_robot});
+            }
+            if (!s.makes_surfaces(v) || !other.convex[at]) continue;
+            const Index start = s.v[v];
+            const double ex = s.x[s.w[v]] - s.x[start], ey = s.y[s.w[v]] - s.y[start];
+            const double away = (ex * (s.y[own] - s.y[start]) - ey * (s.x[own] - s.x[start])) / std::hypot(ex, ey);
+            if (!may_be_one(away, size_near - (s.radius_of(start).about.hi + radius_near))) continue;
+            const Vec<Int> E = edge<Int>(s, v);
+            const Int height = cross(E, difference<Int>(s, own, start)), wanted = size - (s.radius_of(start).exact + radius);
+            if (height.sign() == wanted.sign() && height * height == wanted * wanted * dot(E, E))
+                out.push_back({on_branch(contact_line_of(of_robot, v, at), 1), {-E.y, E.x}, of_robot});
+        }
     }
 
     const Scene& scene;
