@@ -19,7 +19,7 @@ unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: help build demo test check rest ctest sanitize fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded fuzz-nesting fuzz-cages lint bench docs viewer viewer-test dev stub clean
+.PHONY: help build demo test check rest ctest sanitize fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded fuzz-fits fuzz-nesting fuzz-cages lint bench docs viewer viewer-test dev stub clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
@@ -84,6 +84,10 @@ fuzz-arcs: $(TESTED)  ## poses and motions among segments and arcs against fine 
 
 fuzz-rounded: $(TESTED)  ## surfaces and cells of rounded shapes against distances, slices, and the same space in other forms
 	$(BIN)/python tests/support/fuzz_rounded.py --count $(or $(COUNT),2000) --seed $(or $(SEED),0)
+
+fuzz-fits: $(TESTED)  ## exact fits of rounded shapes, in concave arcs as well, against exact tests of poses
+	$(BIN)/python tests/support/round_fits.py --count $(or $(COUNT),100) --seed $(or $(SEED),0)
+	$(BIN)/python tests/support/hollow_fits.py --count $(or $(COUNT),100) --seed $(or $(SEED),0)
 
 fuzz-nesting: $(TESTED)  ## no-fit polygons against exact slices, layouts against overlaps by the same slices
 	$(BIN)/python tests/support/fuzz_nesting.py --count $(or $(COUNT),10000) --seed $(or $(SEED),0)
