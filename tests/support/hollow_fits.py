@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import itertools
 import random
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
@@ -209,6 +210,23 @@ def centers(where: Scene) -> tuple[list[tuple[ExactPoint, Fraction]], list[tuple
     return sides[0], sides[1]
 
 
+def middles(centers_of_one: Sequence[tuple[ExactPoint, Fraction]], hollow: Fraction) -> Iterator[ExactPoint]:
+    """Places at which two or three arcs touch a concave one of this radius from inside, the middle of their centers."""
+    for some in itertools.chain.from_iterable(itertools.combinations(centers_of_one, n) for n in (2, 3)):
+        if len({s for _, s in some}) > 1:
+            continue
+        (x, y), (u, v) = some[0][0], some[1][0]
+        at = (x + u) / 2, (y + v) / 2
+        if len(some) == 3:
+            (a, b), (c, d) = (u - x, v - y), (some[2][0][0] - x, some[2][0][1] - y)
+            if not (turn := 2 * (a * d - b * c)):
+                continue
+            p, q = a * a + b * b, c * c + d * d
+            at = x + (d * p - b * q) / turn, y + (a * q - c * p) / turn
+        if (at[0] - x) ** 2 + (at[1] - y) ** 2 == (hollow - some[0][1]) ** 2:
+            yield at
+
+
 class HollowOracle(Oracle):
     """Exact tests of poses, those on helices of equal radii as well."""
 
@@ -216,6 +234,11 @@ class HollowOracle(Oracle):
         """Poses with the center of an arc on that of another of its radius, at simple angles and where others meet."""
         robot, obstacles = centers(self.scene)
         pairs = [(p, q) for p, s in robot for q, t in obstacles if s and s == -t]
+        for q, t in obstacles:
+            pairs += [(p, q) for p in middles([one for one in robot if one[1] >= 0], -t)] if t < 0 else []
+        for p, t in robot:
+            pairs += [(p, q) for q in middles([one for one in obstacles if one[1] >= 0], -t)] if t < 0 else []
+        pairs = [*dict.fromkeys(pairs)]
         r = random.Random(seed)
         taus: dict[Fraction | None, None] = dict.fromkeys([F(0), F(1), F(-1), None])
         for c, s in TURNS:
