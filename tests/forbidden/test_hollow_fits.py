@@ -161,6 +161,37 @@ def test_a_triangle_on_less_than_half_of_a_hole_has_room() -> None:
     assert not found_in(Scene(cfree.Polygon(points((5, 0), (3, 4), (-3, 4))), [plate(round_hole(5))]))
 
 
+# --- held at one orientation ---
+
+
+def two_discs_in_holes(apart: object, turn: Turn = (F(1), F(0))) -> Scene:
+    """Discs 6 apart in holes with half a unit of room, whose centers are as far apart as given."""
+    far, (c, s) = F(apart), turn  # type: ignore[arg-type]
+    holes = [round_hole(F(3, 2)), round_hole(F(3, 2), (c * far, s * far))]
+    return Scene([disc(1), disc(1, (6, 0))], [Curved(box(-20, -20, 20, 20), holes)])
+
+
+@pytest.mark.parametrize("turn", TURNS)
+@pytest.mark.parametrize("apart", [5, 7])
+def test_two_holes_too_near_or_too_far_but_for_one_orientation_have_two_points(apart: int, turn: Turn) -> None:
+    found = found_in(two_discs_in_holes(apart, turn))
+    theta = math.degrees(math.atan2(turn[1], turn[0]))
+    assert kinds(found) == ["point", "point"]
+    assert sorted(t for *_, t in places(found)) == pytest.approx(sorted([theta % 360, (theta + 180) % 360]))
+
+
+@pytest.mark.parametrize("apart", [7 + HAIR, 5 - HAIR, 7 - HAIR, F(13, 2)])
+def test_a_hair_more_or_less_between_two_holes_leaves_no_exact_fit(apart: F) -> None:
+    assert not found_in(two_discs_in_holes(apart))
+
+
+def test_holes_that_leave_a_point_between_room_before_and_after_have_no_exact_fit() -> None:
+    """Discs half a unit apart in holes half a unit apart, which are opposite there."""
+    holes = [round_hole(F(3, 2)), round_hole(F(3, 2), (F(1, 2), 0))]
+    parts = [Curved(PLATE, [holes[0]]), Curved(PLATE, [holes[1]])]
+    assert not found_in(Scene([disc(1), disc(1, (F(1, 2), 0))], parts))
+
+
 # --- pegs in slots ---
 
 

@@ -180,8 +180,26 @@ def inscribed(r: HollowDraw) -> Scene:
     return Scene(robot, [r.hollow(box(-12, -12, 12, 12), [hole_of_all])])
 
 
+def extreme(r: HollowDraw) -> Scene:
+    """Two discs of the robot, one or both in larger holes, as far apart as these or a wall allow, or almost."""
+    apart, own, second = r.randint(3, 7), r.parts(1, 3, 2), r.parts(1, 3, 2)
+    room, more = r.parts(1, 3, 2), r.choice([F(0), F(0), F(1)])
+    (c, s), hair = r.choice(TURNS), r.choice([F(0), F(0), F(0), F(1, 2**40), -F(1, 2**40), F(1, 2)])
+    far = apart + r.choice([1, 1, -1]) * (room + more) + hair
+    far = max(far, room + more + own + second + F(1, 2))
+    robot = [r.moving(points((0, 0)), own), r.moving(points((apart, 0)), second)]
+    first: Ring = Circle((F(0), F(0)), own + room)  # type: ignore[assignment]
+    if r.random() < 0.5:
+        last: Ring = Circle((c * far, s * far), second + more)  # type: ignore[assignment]
+    else:
+        x0, half = far - second - more, F(second + 1)
+        corners = [(x0, -half), (x0 + 2 * second + 2, -half), (x0 + 2 * second + 2, half), (x0, half)]
+        last = [(c * x - s * y, s * x + c * y) for x, y in corners]
+    return Scene(robot, [r.hollow(box(-25, -25, 25, 25), [first, last])])
+
+
 FAMILIES: dict[str, Callable[[HollowDraw], Scene]] = {
-    f.__name__: f for f in (hole, slot, bay, room, link, pair, inscribed)
+    f.__name__: f for f in (hole, slot, bay, room, link, pair, inscribed, extreme)
 }
 
 

@@ -11,6 +11,7 @@
 #include "collision/box_tree.hpp"
 #include "forbidden/coincident_surfaces.hpp"
 #include "predicates/round_junction.hpp"
+#include "predicates/round_orders.hpp"
 #include "support/parallel.hpp"
 
 namespace cfree {
@@ -184,10 +185,16 @@ public:
     };
     FreeCurve(const Scene& s, const Surface& surface, const Feature& curve) : decide(s, surface), scene(s), on(surface), name(curve) {}
 
+    // True if a surface touches this one at an angle.
+    bool vanishes(const Feature& surface, const Event& at) const {
+        LongRoot root = decide.long_root_of(at);
+        return sign_at(RoundOrders(scene, on).exactly(surface, {}), root) == 0;
+    }
     // Free closed ranges between two angles, and single angles; `meets` is true where the arcs touch, which changes at these events.
     template <class Meets>
     std::vector<Range> free(const Event& from, const Event& to, std::vector<Event> changes, const Meets& meets, const std::vector<OpenCover>& covers) {
-        std::vector<Range> left = without({{from, to, false}}, std::move(changes), [&](RoundJunction& at, const RoundSpot& p) { return !meets(at, p); });
+        const bool is_one = decide.order(from, to) == 0;
+        std::vector<Range> left = without({{from, to, is_one}}, std::move(changes), [&](RoundJunction& at, const RoundSpot& p) { return !meets(at, p); });
         for (const OpenCover& cover : covers) {
             if (left.empty()) break;
             heed_stop();
@@ -276,10 +283,13 @@ public:
             return;
         }
         const std::vector<Held> held = held_on(contact);
-        if (held.empty()) return;
+        const std::vector<Feature> touching = touching_once(contact);
+        if (held.empty() && touching.empty()) return;
         const std::vector<OpenCover> near = covers.near(contact);
-        for (const Held& curve : held)
-            for (const int chart : {0, 1}) add_held({contact, chart}, curve, near, patch, out);
+        for (const int chart : {0, 1}) {
+            for (const Held& curve : held) add_held({contact, chart}, curve, near, patch, out);
+            for (const Feature& surface : touching) add_touch({contact, chart}, surface, near, patch, out);
+        }
     }
 
 private:
@@ -348,9 +358,7 @@ private:
                 const auto roots = free.decide.event_roots(held.surface, on_branch(edge, 0), chart_end(-1), chart_end(1));
                 changes.insert(changes.end(), roots.at.begin(), roots.at.end());
             }
-        const auto meets = [&](RoundJunction& at, const RoundSpot& p) {  // u points from the place to the circle's centre
-            return std::all_of(cones.begin(), cones.end(), [&](const auto& edges) { return at.ahead(edges[0], pair, p) <= 0 && at.ahead(edges[1], pair, p) >= 0; });
-        };
+        const auto meets = [&](RoundJunction& at, const RoundSpot& p) { return has_normal(at, cones, pair, p); };
         for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
             if (free.decide.order(ends[k], ends[k + 1]) == 0) continue;
             Vec<Int> normal = held.normal;
@@ -364,6 +372,56 @@ private:
             if (normal.x.sign() < 0 || normal.y.sign() < 0) continue;
             put(free, free.free(ends[k], ends[k + 1], changes, meets, near), patch, on, held.surface, out);
         }
+    }
+
+    // Surfaces that may touch the circle at an extreme of their distance, and cover all of it but for one point there: their quadratic
+    // has a double root, in doubles.
+    std::vector<Feature> touching_once(const Feature& pair) const {
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        const RoundSurfaces<Approx> of(scene);
+        std::vector<Feature> result;
+        const auto add = [&](Feature f) {
+            f.branch = static_cast<std::int8_t>(is_circle(f) && is_below_zero(of.rho(f)) ? 1 : -1);
+            const Trig<Approx> form = of.tangency(pair, f, f.branch);
+            const double most = form.a.m + form.b.m + form.c.m;
+            if (std::abs(std::abs(form.a.v) - std::hypot(form.b.v, form.c.v)) > 0x1p-30 * most) return;
+            if (std::abs(form.a.v) > 0x1p-40 * most) result.push_back(f);  // else they touch at every angle
+        };
+        for (Index j = 0; j < O.ring_vertices; ++j)
+            for (Index i = 0; i < A.ring_vertices; ++i) {
+                if (A.layer[i] != O.layer[j] || A.layer[i] != body_layer || !O.emit[j]) continue;
+                if (A.convex[i] && O.makes_surfaces(j)) add({Kind::vertex_edge, i, j});
+                if (O.convex[j] && A.makes_surfaces(i)) add({Kind::edge_vertex, i, j});
+                if (makes_circles(scene, i, j) && !(i == pair.robot && j == pair.obstacle)) add({Kind::vertex_vertex, i, j});
+            }
+        return result;
+    }
+
+    // The points where a surface touches a circle, in one quadrant of it.
+    void add_touch(const Surface& on, const Feature& surface, const std::vector<OpenCover>& near, Index patch, std::vector<Trapezoid>& out) const {
+        FreeCurve free(scene, on, surface);
+        const Feature& pair = on.contact;
+        const auto roots = free.decide.event_roots(surface, {}, chart_end(-1), chart_end(1));
+        if (roots.all_zero) return;
+        std::vector<Event> events{chart_end(-1), chart_end(1)};
+        events.insert(events.end(), roots.at.begin(), roots.at.end());
+        std::vector<std::array<Feature, 2>> cones;
+        if (scene.robot.has_extent(pair.robot)) cones.push_back(cone(true, pair));
+        if (scene.obstacles.has_extent(pair.obstacle)) cones.push_back(cone(false, pair));
+        for (const Event& e : events) {
+            const bool is_end = e.first.kind == Kind::none;
+            if (is_end ? free.decide.event_sign_on(surface, {}, e.lo, e.hi) != 0 || !free.vanishes(surface, e) : !e.is_touch) continue;
+            const auto meets = [&](RoundJunction& at, const RoundSpot& p) {
+                const auto seam = [&](int turns) { return at.spot(pair, {Kind::seam, pair.robot, pair.obstacle, turns & 3}, false); };
+                const Quadrant ends = quadrant_of(scene, pair);
+                return at.is_between(pair, seam(ends.begin), seam(ends.end), p) && has_normal(at, cones, pair, p);
+            };
+            put(free, free.free(e, e, {}, meets, near), patch, on, surface, out);
+        }
+    }
+    // True if the outward normal at a place, from it to the circle's centre, is in all cones.
+    static bool has_normal(RoundJunction& at, const std::vector<std::array<Feature, 2>>& cones, const Feature& pair, const RoundSpot& p) {
+        return std::all_of(cones.begin(), cones.end(), [&](const auto& edges) { return at.ahead(edges[0], pair, p) <= 0 && at.ahead(edges[1], pair, p) >= 0; });
     }
 
     // All surfaces that do so: of the same place of the convex vertex's shape, with features of the other one; or of the centre of the

@@ -1,6 +1,6 @@
 // Fits of concave arcs that trimming leaves on no patch: a convex vertex in a concave arc of its own radius, whose circle is a point
 // and whose contacts are a helix; and a circle of a concave arc, free inside, that another surface covers but for one point at all
-// angles. Theory, "Exact fits".
+// angles, or at one. Theory, "Exact fits".
 #pragma once
 #include "cfree/forbidden/columns.hpp"
 

@@ -186,8 +186,8 @@ class Boundary(BoundaryRecord, Shown):
         The trimmed patches, as arrays.
     isolated : IsolatedParts
         Exact fits that no trapezoid reaches: curves, segments at one orientation, and points. All that are listed are
-        free and have no room beside them. In concave arcs two kinds are left out: places that two opposite contacts
-        hold at one orientation alone, and arcs to slide along at one orientation.
+        free and have no room beside them. In concave arcs two kinds are left out: places at one orientation that
+        several pairs of opposite contacts hold together, and arcs to slide along at one orientation.
     stats : Stats
     trimmed : (P,) bool
         True for patches that have been trimmed: all of them, unless a limit of time or memory stopped the computation.
