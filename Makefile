@@ -19,7 +19,7 @@ unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: help build demo test check rest ctest sanitize notebooks wheels fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded fuzz-facing fuzz-nesting fuzz-cages fuzz-routes lint bench docs viewer viewer-test dev stub clean
+.PHONY: help build demo test check rest ctest sanitize notebooks wheels fuzz fuzz-answers fuzz-files fuzz-readers fuzz-drawings fuzz-round fuzz-arcs fuzz-rounded fuzz-facing fuzz-fits fuzz-nesting fuzz-cages fuzz-routes lint bench docs viewer viewer-test dev stub clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
@@ -87,6 +87,10 @@ fuzz-rounded: $(TESTED)  ## surfaces and cells of rounded shapes against distanc
 
 fuzz-facing: $(TESTED)  ## cells where concave arcs face convex ones against exact poses; COUNT=500 SEED=0
 	$(BIN)/python tests/support/fuzz_facing.py --count $(or $(COUNT),500) --seed $(or $(SEED),0)
+
+fuzz-fits: $(TESTED)  ## exact fits of rounded shapes, in concave arcs as well, against exact tests of poses
+	$(BIN)/python tests/support/round_fits.py --count $(or $(COUNT),100) --seed $(or $(SEED),0)
+	$(BIN)/python tests/support/hollow_fits.py --count $(or $(COUNT),100) --seed $(or $(SEED),0)
 
 fuzz-nesting: $(TESTED)  ## no-fit polygons against exact slices, layouts against overlaps by the same slices
 	$(BIN)/python tests/support/fuzz_nesting.py --count $(or $(COUNT),10000) --seed $(or $(SEED),0)

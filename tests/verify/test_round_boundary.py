@@ -16,7 +16,8 @@ from flint import arb
 import cfree
 import cfree.verify
 from arc_rings import BRACKET, CONCAVE, RINGS, plate, random_arcs, random_concave, shape
-from cfree import Polygon, Scene, boundary
+from cfree import Curved, Polygon, Scene, boundary
+from cfree.curves import Arc
 from cfree.exact.pose import pose_at
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import IsolatedParts, Trapezoids
@@ -192,6 +193,26 @@ def test_wrong_exact_fits_are_refuted() -> None:
     for bad in wrong:
         kinds = {finding.kind for finding in cfree.verify.boundary(bad, slices=0).findings}
         assert kinds == {"isolated parts"}
+
+
+@pytest.mark.slow
+def test_wrong_exact_fits_in_concave_arcs_are_refuted() -> None:
+    """A peg in a slot of its shape: its points at another angle, and turned into curves."""
+    ends = [Arc((2, 1), center=(2, 0)), Arc((-2, -1), center=(-2, 0))]
+    rim = [(-2, -1), (2, -1), ends[0], (-2, 1), ends[1]]
+    right = cfree.boundary(Scene(Curved(rim), [Curved([(-5, -3), (5, -3), (5, 3), (-5, 3)], [rim])]))
+    assert cfree.verify.boundary(right, slices=0).verified and len(right.isolated) == 2
+
+    def at_chart_end(end: str, tau: float) -> dict[str, Any]:
+        names = {f"{end}_{x}": np.zeros(2, np.uint64) for x in ("first", "second")}
+        return names | {f"{end}_{x}": np.full(2, tau) for x in ("lo", "hi")}
+
+    wrong = [
+        with_parts(right, **at_chart_end("from", -1), **at_chart_end("to", -1)),
+        with_parts(right, **at_chart_end("to", 1)),
+    ]
+    for bad in wrong:
+        assert {finding.kind for finding in cfree.verify.boundary(bad, slices=0).findings} == {"isolated parts"}
 
 
 def changed(result: Boundary, table: dict[str, Any], kind: Any = None) -> Boundary:

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "forbidden/equal_radii.hpp"
 #include "forbidden/round_shadows.hpp"
 #include "forbidden/round_trim.hpp"
 
@@ -29,12 +30,14 @@ Patches list_patches(const Scene& scene) {
             if (A.layer[i] == O.layer[j] && A.convex[i]) add(Kind::vertex_edge, i, j);
         for (Index i = 0; O.convex[j] && i < A.ring_vertices; ++i)
             if (A.layer[i] == O.layer[j] && A.makes_surfaces(i)) add(Kind::edge_vertex, i, j);
-        for (Index i = 0; scene.is_round && i < A.ring_vertices; ++i)
-            if (A.layer[i] == O.layer[j] && makes_circles(scene, i, j))
-                for (const int quadrant : {0, 1, 2, 3}) {
-                    add(Kind::vertex_vertex, i, j);
-                    list.kind.back() = static_cast<std::uint8_t>(list.kind.back() | quadrant << 4);
-                }
+        for (Index i = 0; scene.is_round && i < A.ring_vertices; ++i) {
+            if (A.layer[i] != O.layer[j]) continue;
+            if (have_equal_radii(scene, i, j)) add(Kind::vertex_vertex, i, j);  // a helix, of which only isolated parts are on the boundary
+            for (int quadrant = 0; quadrant < 4 && makes_circles(scene, i, j); ++quadrant) {
+                add(Kind::vertex_vertex, i, j);
+                list.kind.back() = static_cast<std::uint8_t>(list.kind.back() | quadrant << 4);
+            }
+        }
     }
     return list;
 }
@@ -186,6 +189,7 @@ std::vector<PatchTrimming::NearFillet> PatchTrimming::fillets_near(const Feature
 void PatchTrimming::trim_round(Index patch, const Shadows& near, const std::vector<Feature>& before_it, std::vector<Trapezoid>& out,
                                std::vector<Trapezoid>& thin, Count& count) const {
     const Feature contact = patches.contact(patch);
+    if (is_circle(contact) && have_equal_radii(scene, contact.robot, contact.obstacle)) return;
     const Range range = range_of(scene, contact, count.decisions);
     const std::size_t before = out.size();
     const std::vector<Index> edges = owners.edges_at(contact.obstacle);

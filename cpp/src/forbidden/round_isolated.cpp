@@ -7,10 +7,12 @@
 
 #include "cfree/forbidden/isolated.hpp"
 #include "collision/box_tree.hpp"
+#include "forbidden/equal_radii.hpp"
 #include "forbidden/junction_at.hpp"
 #include "forbidden/patch_trimming.hpp"
 #include "forbidden/round_names.hpp"
 #include "predicates/round_junction.hpp"
+#include "predicates/round_orders.hpp"
 #include "predicates/round_points.hpp"
 #include "support/parallel.hpp"
 
@@ -113,6 +115,17 @@ private:
 
     // --- along theta ---
 
+    // False if a helix of equal radii is on the surface of trapezoid k at single angles only; of other curves a sample decides.
+    bool may_hold(Index k, Index row) const {
+        const Feature own = on(row);
+        if (!is_circle(own) || !have_equal_radii(scene, own.robot, own.obstacle)) return true;
+        Feature other = on(k);
+        other.branch = 1;
+        const Surface helix{own, rows.chart[row]};
+        if (Predicates(scene, helix).event_sign_on(other, {}, rows.from_lo[row], rows.to_hi[row]) != 0) return false;
+        return is_zero(RoundOrders(scene, helix).exactly(other, {}));
+    }
+
     std::vector<RoundRidge> ridges_of(Index row) const {
         const Index from = angles.from[row], to = angles.to[row];
         const int chart = rows.chart[row];
@@ -121,6 +134,7 @@ private:
         std::vector<Index> sides;  // trapezoids that have the curve as a side, by its name
         tree.query(boxes[row], [&](Index k) {
             if (angles.from[k] >= to || angles.to[k] <= from || rows.chart[k] != chart) return;
+            if (!may_hold(k, row)) return;
             near.push_back(k);
             for (const Index end : {angles.from[k], angles.to[k]})
                 if (from < end && end < to) cuts.push_back(end);
@@ -339,8 +353,10 @@ private:
 }  // namespace
 
 IsolatedParts isolated_round_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin, int threads) {
-    if (thin.size() == 0) return {};
-    return RoundFinder(scene, patches, live, thin, threads).run();
+    Trapezoids all = thin;
+    add_fits_of_arcs(scene, patches, threads, all);
+    if (all.size() == 0) return {};
+    return RoundFinder(scene, patches, live, all, threads).run();
 }
 
 }  // namespace cfree

@@ -359,7 +359,8 @@ public:
             const auto [a, b] = along(of.along(x), x);
             return {a, b, p.d, p.c * constant(of.square_of_length(x)), p.has_root};
         }
-        const auto e = from_centre(x, x.branch + 1 + axis);
+        const Quadrant ends = quadrant_of(scene, x);
+        const auto e = from_centre(x, axis == 0 ? ends.end : ends.begin + 2);
         return {e.a, e.b, p.d, p.c * constant(of.rho(x)), p.has_root};
     }
     CurvePlace<V> ahead(const Feature& line, const Feature& circle) const {

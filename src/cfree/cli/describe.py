@@ -132,7 +132,7 @@ def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
     """Count patches before trimming: of contacts, convex vertices times edges, both ways; and of the bounds.
 
     Among rounded shapes also those of arcs: four for each two convex vertices, and for each concave arc and convex
-    vertex of a smaller radius.
+    vertex of a smaller radius; one for each of an equal radius.
     """
     robot, obstacles = features.robot, features.obstacles
     a, b = robot.core.layer == BODY, (obstacles.core.layer == BODY) & (obstacles.core.emit > 0)
@@ -142,8 +142,9 @@ def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
     if scene.curved:
         sharp_a, sharp_b = (s.radius[: len(s.previous)] == 0 for s in (robot, obstacles))
         sharp = _pairs(convex_a & sharp_a, convex_b & sharp_b)
-        concave = _pairs_below_zero(robot, convex_a, obstacles, b) + _pairs_below_zero(obstacles, convex_b, robot, a)
-        counts["arc-arc"] = 4 * (_pairs(convex_a, convex_b) - sharp + concave)
+        concave = [_concave_pairs(robot, convex_a, obstacles, b), _concave_pairs(obstacles, convex_b, robot, a)]
+        below, equal = map(sum, zip(*concave, strict=True))
+        counts["arc-arc"] = 4 * (_pairs(convex_a, convex_b) - sharp + below) + equal
     counts["bound"] = 4 if scene.bounds else 0
     return counts | {"total": sum(counts.values())}
 
@@ -152,13 +153,14 @@ def _pairs(some: NDArray[np.bool_], others: NDArray[np.bool_]) -> int:
     return int(some.sum()) * int(others.sum())
 
 
-def _pairs_below_zero(
+def _concave_pairs(
     some: ShapeFeatures, are_convex: NDArray[np.bool_], others: ShapeFeatures, may_be: NDArray[np.bool_]
-) -> int:
-    """Count pairs of a convex vertex and of a concave arc whose radii, negative there, have a sum below 0."""
+) -> tuple[int, int]:
+    """Count pairs of a convex vertex and of a concave arc whose radii, negative there, have a sum below 0, and of 0."""
     radii = Counter(some.core.radius[k] for k in np.flatnonzero(are_convex).tolist())
     negative = Counter(r for k in np.flatnonzero(may_be).tolist() if (r := others.core.radius[k]) < 0)
-    return sum(n * m for r, n in radii.items() for s, m in negative.items() if r + s < 0)
+    sums = [(r + s, n * m) for r, n in radii.items() for s, m in negative.items()]
+    return sum(n for s, n in sums if s < 0), sum(n for s, n in sums if s == 0)
 
 
 def _core_counts(cores: Sequence[Rounded]) -> dict[str, int]:

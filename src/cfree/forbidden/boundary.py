@@ -88,7 +88,8 @@ def boundary(
     if the origin of a scene far from 0 has moved. Doubles, and shapes turned by any angle, change nothing elsewhere,
     but where exact integers decided something. `Boundary.kept_patches` counts the patches that were taken.
 
-    Rounded shapes are exact, not replaced by polygons, and so are exact fits among them (`Boundary.isolated`).
+    Rounded shapes are exact, not replaced by polygons, and so are exact fits among them (`Boundary.isolated`): discs in
+    round holes and pegs in round slots included.
 
     Examples
     --------
@@ -183,8 +184,9 @@ class Boundary(BoundaryRecord, Shown):
     trapezoids : Trapezoids
         The trimmed patches, as arrays.
     isolated : IsolatedParts
-        Exact fits that no trapezoid reaches: curves, segments at one orientation, and points. None are computed among
-        round shapes.
+        Exact fits that no trapezoid reaches: curves, segments at one orientation, and points. All that are listed are
+        free and have no room beside them. In concave arcs two kinds are left out: places at one orientation that
+        several pairs of opposite contacts hold together, and arcs to slide along at one orientation.
     stats : Stats
     trimmed : (P,) bool
         True for patches that have been trimmed: all of them, unless a limit of time or memory stopped the computation.

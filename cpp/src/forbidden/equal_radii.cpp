@@ -1,0 +1,490 @@
+// Free parts of curves in concave arcs. A curve's point enters and leaves the forbidden space on lines and circles of pillars only.
+// So it is free or not everywhere between two angles at which it is on one, as at a sample; theory, "Exact fits".
+#include "forbidden/equal_radii.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "cfree/contact/contact_line.hpp"
+#include "cfree/scene/features.hpp"
+#include "collision/box_tree.hpp"
+#include "forbidden/coincident_surfaces.hpp"
+#include "predicates/round_junction.hpp"
+#include "predicates/round_orders.hpp"
+#include "support/parallel.hpp"
+
+namespace cfree {
+
+bool have_equal_radii(const Scene& scene, Index i, Index j) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool is_pair = A.convex[i] ? O.is_concave(j) : O.convex[j] && A.is_concave(i);
+    return is_pair && (A.radius_of(i).exact + O.radius_of(j).exact).is_zero();
+}
+
+bool has_facing_arcs(const Scene& scene) {
+    const auto has_convex = [](const Shape& s) {
+        for (Index v = 0; s.has_arcs() && v < s.ring_vertices; ++v)
+            if (s.is_arc[v] && s.convex[v]) return true;
+        return false;
+    };
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    return (A.has_concave() && has_convex(O)) || (O.has_concave() && has_convex(A));
+}
+
+namespace {
+
+Feature on_branch(Feature f, int branch) {
+    f.branch = static_cast<std::int8_t>(branch);
+    return f;
+}
+Feature contact_line_of(bool of_robot, Index edge, Index vertex) {
+    return of_robot ? Feature{Kind::edge_vertex, edge, vertex} : Feature{Kind::vertex_edge, vertex, edge};
+}
+Feature contact_circle_of(bool of_robot, Index own, Index other) {
+    return of_robot ? Feature{Kind::vertex_vertex, own, other, 1} : Feature{Kind::vertex_vertex, other, own, 1};
+}
+
+// Something that covers places: its surfaces, and whether a place is in its open inside.
+struct OpenCover {
+    std::vector<Feature> surfaces;
+    std::function<bool(RoundJunction&, const RoundSpot&)> has;
+};
+
+// Pillar of two convex pieces.
+class OpenPillar {
+public:
+    OpenPillar(const Scene& s, Index p, Index k)
+        : scene(s), a(&s.robot.piece_vertex[s.robot.piece[p]]), b(&s.obstacles.piece_vertex[s.obstacles.piece[k]]),
+          n(s.robot.piece[p + 1] - s.robot.piece[p]), m(s.obstacles.piece[k + 1] - s.obstacles.piece[k]),
+          g(n > 1 ? &s.robot.piece_edge[s.robot.piece[p]] : nullptr), f(m > 1 ? &s.obstacles.piece_edge[s.obstacles.piece[k]] : nullptr) {}
+
+    bool is_empty() const { return n == 1 && m == 1 && !has_disc(0, 0); }
+    std::vector<Feature> surfaces() const {
+        std::vector<Feature> result;
+        for (Index x = 0; x < n; ++x)
+            for (Index y = 0; y < m; ++y) {
+                if (m > 1) result.push_back(on_edge(x, y));
+                if (n > 1) result.push_back(of_edge(x, y));
+                if (has_disc(x, y)) result.push_back(circle(x, y));
+            }
+        return result;
+    }
+    // A place is outside if it is beyond an edge, or from an arc in a direction of both cones and beyond its circle.
+    bool has(RoundJunction& at, const RoundSpot& place) const {
+        for (Index x = 0; x < n; ++x)
+            for (Index y = 0; y < m; ++y) {
+                const auto is_beyond = [&](const Feature& surface) { return at.outside(surface, place) >= 0; };
+                const auto is_ahead = [&](const Feature& before, const Feature& after) {
+                    return at.ahead(before, circle(x, y), place) >= 0 && at.ahead(after, circle(x, y), place) <= 0;
+                };
+                const auto turns_over = [&](const Feature& before, const Feature& after, const Feature& line) {
+                    return at.turn(before, line) >= 0 && at.turn(after, line) <= 0;
+                };
+                if (m > 1 && is_beyond(on_edge(x, y)) && (n == 1 || turns_over(of_edge(last(x, n), y), of_edge(x, y), on_edge(x, y)))) return false;
+                if (n > 1 && is_beyond(of_edge(x, y)) && (m == 1 || turns_over(on_edge(x, last(y, m)), on_edge(x, y), of_edge(x, y)))) return false;
+                if (has_disc(x, y) && is_beyond(circle(x, y)) && (m == 1 || is_ahead(on_edge(x, last(y, m)), on_edge(x, y))) &&
+                    (n == 1 || is_ahead(of_edge(last(x, n), y), of_edge(x, y))))
+                    return false;
+            }
+        return true;
+    }
+
+private:
+    static Index last(Index x, Index count) { return (x + count - 1) % count; }
+    bool has_disc(Index x, Index y) const {
+        return (scene.robot.radius_of(a[x]).exact + scene.obstacles.radius_of(b[y]).exact).sign() > 0;
+    }
+    Feature circle(Index x, Index y) const { return {Kind::vertex_vertex, a[x], b[y], 1}; }
+    Feature on_edge(Index x, Index y) const { return {Kind::vertex_edge, a[x], f[y]}; }
+    Feature of_edge(Index x, Index y) const { return {Kind::edge_vertex, g[x], b[y]}; }
+
+    const Scene& scene;
+    const Index *a, *b;
+    Index n, m;
+    const Index *g, *f;
+};
+
+// All that may cover the places at which the vertices of a pair are as far apart as the sum of their radii, or less.
+class Covers {
+public:
+    explicit Covers(const Scene& s) : scene(s) {
+        for (const bool of_robot : {false, true}) {
+            const Shape &own = of_robot ? s.robot : s.obstacles, &other = of_robot ? s.obstacles : s.robot;
+            if (own.fillets.empty()) continue;
+            std::vector<Index> list = other.fillet_ends;  // with the convex vertices, those of the shape without its fillets
+            for (Index v = 0; v < other.ring_vertices; ++v)
+                if (other.convex[v] && other.layer[v] == body_layer) list.push_back(v);
+            std::sort(list.begin(), list.end(), [&](Index v, Index w) { return std::pair(other.point[v], v) < std::pair(other.point[w], w); });
+            list.erase(std::unique(list.begin(), list.end(), [&](Index v, Index w) { return other.point[v] == other.point[w]; }), list.end());
+            for (const Shape::Fillet& fillet : own.fillets)
+                for (const Index v : list)
+                    if ((own.radius_of(fillet.vertex[0]).exact + other.radius_of(v).exact).is_zero()) fillets.push_back({&fillet, of_robot, v});
+        }
+    }
+
+    std::vector<OpenCover> near(const Feature& pair) const {
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        std::vector<OpenCover> result;
+        for (Index k = 0; k < O.pieces(); ++k)
+            for (Index p = 0; p < A.pieces(); ++p) {
+                if (A.piece_layer[p] != O.piece_layer[k] || !is_near(pair, &A.piece_vertex[A.piece[p]], A.piece[p + 1] - A.piece[p], &O.piece_vertex[O.piece[k]], O.piece[k + 1] - O.piece[k]))
+                    continue;
+                const OpenPillar pillar(scene, p, k);
+                if (!pillar.is_empty()) result.push_back({pillar.surfaces(), [pillar](RoundJunction& at, const RoundSpot& place) { return pillar.has(at, place); }});
+            }
+        for (const auto& [fillet, of_robot, v] : fillets) {
+            const Index* corners = fillet->vertex.data();
+            if (!(of_robot ? is_near(pair, corners, 4, &v, 1) : is_near(pair, &v, 1, corners, 4))) continue;
+            OpenCover cover;
+            for (const Index edge : fillet->edge) cover.surfaces.push_back(contact_line_of(of_robot, edge, v));
+            cover.surfaces.push_back(contact_circle_of(of_robot, fillet->arc, v));
+            cover.has = [all = cover.surfaces](RoundJunction& at, const RoundSpot& place) {  // the open quadrangle outside of the circle
+                return std::all_of(all.begin(), all.end(), [&](const Feature& x) { return at.outside(x, place) * (is_line(x) ? -1 : 1) > 0; });
+            };
+            result.push_back(std::move(cover));
+        }
+        return result;
+    }
+
+private:
+    struct Near {
+        const Shape::Fillet* fillet;
+        bool of_robot;
+        Index vertex;
+    };
+    // False if vertices of the two shapes are certainly too far away at every angle.
+    bool is_near(const Feature& pair, const Index* a, Index n, const Index* b, Index m) const {
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        const double ax = A.x[pair.robot], ay = A.y[pair.robot], bx = O.x[pair.obstacle], by = O.y[pair.obstacle];
+        double reach = 0, own = 0, other = 0, size = std::abs(ax) + std::abs(ay) + std::abs(bx) + std::abs(by);
+        Box box;
+        for (Index x = 0; x < n; ++x) {
+            reach = std::max(reach, std::hypot(A.x[a[x]] - ax, A.y[a[x]] - ay)), own = std::max(own, std::abs(A.radius_of(a[x]).about.hi));
+            size = std::max(size, std::abs(A.x[a[x]]) + std::abs(A.y[a[x]]));
+        }
+        for (Index y = 0; y < m; ++y) {
+            box.add(O.x[b[y]], O.y[b[y]]), other = std::max(other, std::abs(O.radius_of(b[y]).about.hi));
+            size = std::max(size, std::abs(O.x[b[y]]) + std::abs(O.y[b[y]]));
+        }
+        const double dx = std::max({box.x0 - bx, bx - box.x1, 0.0}), dy = std::max({box.y0 - by, by - box.y1, 0.0});
+        const double apart = std::abs(A.radius_of(pair.robot).about.hi) + std::abs(O.radius_of(pair.obstacle).about.hi);
+        return std::hypot(dx, dy) <= (reach + own + other + apart) * (1 + 0x1p-40) + size * 0x1p-40;
+    }
+
+    const Scene& scene;
+    std::vector<Near> fillets;
+};
+
+// A curve on a circle's surface in one chart: what is free of it, and where the two arcs touch.
+class FreeCurve {
+public:
+    struct Range {
+        Event from, to;
+        bool is_one;  // a single angle
+    };
+    FreeCurve(const Scene& s, const Surface& surface, const Feature& curve) : decide(s, surface), scene(s), on(surface), name(curve) {}
+
+    // True if a surface touches this one at an angle.
+    bool vanishes(const Feature& surface, const Event& at) const {
+        LongRoot root = decide.long_root_of(at);
+        return sign_at(RoundOrders(scene, on).exactly(surface, {}), root) == 0;
+    }
+    // Free closed ranges between two angles, and single angles; `meets` is true where the arcs touch, which changes at these events.
+    template <class Meets>
+    std::vector<Range> free(const Event& from, const Event& to, std::vector<Event> changes, const Meets& meets, const std::vector<OpenCover>& covers) {
+        const bool is_one = decide.order(from, to) == 0;
+        std::vector<Range> left = without({{from, to, is_one}}, std::move(changes), [&](RoundJunction& at, const RoundSpot& p) { return !meets(at, p); });
+        for (const OpenCover& cover : covers) {
+            if (left.empty()) break;
+            heed_stop();
+            left = without(left, cover);
+        }
+        return left;
+    }
+    Predicates decide;
+
+private:
+    std::vector<Range> without(const std::vector<Range>& whole, const OpenCover& cover) {
+        std::vector<Range> result;
+        for (const Range& range : whole) {
+            std::vector<Event> changes;
+            for (const Feature& surface : cover.surfaces) {
+                if (range.is_one) break;
+                const bool is_point = name.kind == Kind::seam;
+                const Feature first = is_point ? on_branch(surface, 1) : name, second = is_point ? Feature{} : surface;
+                if (decide.event_sign_on(first, second, range.from.lo, range.to.hi) != 0) continue;
+                const auto roots = decide.event_roots(first, second, range.from, range.to);
+                changes.insert(changes.end(), roots.at.begin(), roots.at.end());
+            }
+            const auto rest = without({range}, std::move(changes), cover.has);
+            result.insert(result.end(), rest.begin(), rest.end());
+        }
+        return result;
+    }
+    // Ranges without the angles at which a place is covered, an open set but for its ends, which changes at events only.
+    template <class Covered>
+    std::vector<Range> without(const std::vector<Range>& whole, std::vector<Event> changes, const Covered& is_covered) {
+        std::sort(changes.begin(), changes.end(), [&](const Event& x, const Event& y) { return decide.order(x, y) < 0; });
+        const auto at_event = [&](const Event& e) {
+            RoundJunction here(scene, on.chart, e.lo, e.hi, [&] { return decide.long_root_of(e); }, [&] { return decide.narrowed(e); });
+            return is_covered(here, here.spot(on.contact, name, false));
+        };
+        const auto between = [&](const Event& first, const Event& last) {
+            const Dyadic tau = decide.between(first, last).exact();
+            RoundJunction here(scene, on.chart, tau.rounded_down(), tau.rounded_up(), [&] { return LongRoot{LongPoly{-tau.n, Int(1) << tau.k}, tau, tau}; },
+                               [&]() -> std::optional<Predicates::Bracket> {
+                                   const Ball number = ball(tau.n, static_cast<int>(tau.k));
+                                   return Predicates::Bracket{number, number};
+                               });
+            return is_covered(here, here.spot(on.contact, name, false));
+        };
+        std::vector<Range> result;
+        for (const Range& range : whole) {
+            if (range.is_one) {
+                if (!at_event(range.from)) result.push_back(range);
+                continue;
+            }
+            std::vector<Event> ends{range.from};
+            for (const Event& x : changes)
+                if (decide.order(ends.back(), x) < 0 && decide.order(x, range.to) < 0) ends.push_back(x);
+            ends.push_back(range.to);
+            bool is_open = false;  // true if the last range goes on
+            for (std::size_t k = 0; k < ends.size(); ++k) {
+                const bool goes_on = k + 1 < ends.size() && !between(ends[k], ends[k + 1]);
+                const bool is_free = is_open || goes_on || !at_event(ends[k]);
+                if (is_open) result.back().to = ends[k];
+                else if (is_free) result.push_back({ends[k], ends[k], !goes_on});
+                is_open = goes_on;
+            }
+        }
+        return result;
+    }
+
+    const Scene& scene;
+    const Surface on;
+    const Feature name;
+};
+
+// Curves of fits in concave arcs, one patch after another.
+class FitsOfArcs {
+public:
+    FitsOfArcs(const Scene& s, const Patches& p) : scene(s), patches(p), covers(s) {}
+
+    bool may_have(Index patch) const {
+        const Feature contact = patches.contact(patch);
+        return is_circle(contact) && is_concave(scene, contact);
+    }
+    void add(Index patch, std::vector<Trapezoid>& out) const {
+        const Feature contact = patches.contact(patch);
+        if (have_equal_radii(scene, contact.robot, contact.obstacle)) {
+            const std::vector<OpenCover> near = covers.near(contact);
+            for (const int chart : {0, 1}) add_helix({contact, chart}, near, patch, out);
+            return;
+        }
+        const std::vector<Held> held = held_on(contact);
+        const std::vector<Feature> touching = touching_once(contact);
+        if (held.empty() && touching.empty()) return;
+        const std::vector<OpenCover> near = covers.near(contact);
+        for (const int chart : {0, 1}) {
+            for (const Held& curve : held) add_held({contact, chart}, curve, near, patch, out);
+            for (const Feature& surface : touching) add_touch({contact, chart}, surface, near, patch, out);
+        }
+    }
+
+private:
+    // A surface that covers a circle but for one point at all angles.
+    struct Held {
+        Feature surface;
+        Vec<Int> normal;  // outward normal u of the obstacle there, in the plane of the obstacles, or of the robot with the opposite sign
+        bool turns;       // true in that of the robot
+    };
+
+    static Event chart_end(double side) { return {{}, {}, side, side}; }
+    std::array<Feature, 2> cone(bool of_robot, const Feature& pair) const {  // first and last edge beside a vertex
+        const Shape& s = of_robot ? scene.robot : scene.obstacles;
+        const Index own = of_robot ? pair.robot : pair.obstacle, other = of_robot ? pair.obstacle : pair.robot;
+        std::array<Feature, 2> result{contact_line_of(of_robot, s.previous[own], other), contact_line_of(of_robot, own, other)};
+        if (s.is_concave(own)) std::swap(result[0], result[1]);
+        return result;
+    }
+    static void put(FreeCurve& free, const std::vector<FreeCurve::Range>& ranges, Index patch, const Surface& on, const Feature& curve, std::vector<Trapezoid>& out) {
+        for (const auto& [from, to, is_one] : ranges)
+            out.push_back({patch, on.chart, curve, curve, from, to, free.decide.place(from), free.decide.place(to)});
+    }
+
+    void add_helix(const Surface& on, const std::vector<OpenCover>& near, Index patch, std::vector<Trapezoid>& out) const {
+        const Feature& pair = on.contact;
+        const Feature end{Kind::seam, pair.robot, pair.obstacle, pair.branch};
+        FreeCurve free(scene, on, end);
+        const Event first = chart_end(-1), last = chart_end(1);
+        std::vector<Event> changes;
+        const bool has_cones = scene.robot.has_extent(pair.robot) && scene.obstacles.has_extent(pair.obstacle);
+        const auto mine = has_cones ? cone(true, pair) : std::array<Feature, 2>{}, other = has_cones ? cone(false, pair) : std::array<Feature, 2>{};
+        for (const Feature& x : mine)
+            for (const Feature& y : other) {
+                if (!has_cones) break;
+                const auto roots = free.decide.parallel_roots(x.robot, y.obstacle, first, last);
+                changes.insert(changes.end(), roots.at.begin(), roots.at.end());
+            }
+        // of two ranges of directions that meet, one begins in the other
+        const auto meets = [&](RoundJunction& at, const RoundSpot&) {
+            return !has_cones || (at.turn(mine[0], other[0]) >= 0 && at.turn(mine[1], other[0]) <= 0) ||
+                   (at.turn(other[0], mine[0]) >= 0 && at.turn(other[1], mine[0]) <= 0);
+        };
+        put(free, free.free(first, last, std::move(changes), meets, near), patch, on, end, out);
+    }
+
+    void add_held(const Surface& on, const Held& held, const std::vector<OpenCover>& near, Index patch, std::vector<Trapezoid>& out) const {
+        FreeCurve free(scene, on, held.surface);
+        const Feature& pair = on.contact;
+        std::vector<Event> ends{chart_end(-1)};
+        const auto in_order = [&](const Event& x, const Event& y) { return free.decide.order(x, y) < 0; };
+        if (held.turns) {
+            for (const int end : {0, 1}) {
+                const Feature seam{Kind::seam, pair.robot, pair.obstacle, (pair.branch + end) & 3};
+                const auto roots = free.decide.event_roots(held.surface, seam, chart_end(-1), chart_end(1));
+                ends.insert(ends.end(), roots.at.begin(), roots.at.end());
+            }
+            std::sort(ends.begin() + 1, ends.end(), in_order);
+        }
+        ends.push_back(chart_end(1));
+        std::vector<Event> changes;
+        std::vector<std::array<Feature, 2>> cones;
+        if (scene.robot.has_extent(pair.robot)) cones.push_back(cone(true, pair));
+        if (scene.obstacles.has_extent(pair.obstacle)) cones.push_back(cone(false, pair));
+        for (const auto& edges : cones)
+            for (const Feature& edge : edges) {
+                const auto roots = free.decide.event_roots(held.surface, on_branch(edge, 0), chart_end(-1), chart_end(1));
+                changes.insert(changes.end(), roots.at.begin(), roots.at.end());
+            }
+        const auto meets = [&](RoundJunction& at, const RoundSpot& p) { return has_normal(at, cones, pair, p); };
+        for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+            if (free.decide.order(ends[k], ends[k + 1]) == 0) continue;
+            Vec<Int> normal = held.normal;
+            if (held.turns) {
+                const Dyadic tau = free.decide.between(ends[k], ends[k + 1]).exact();
+                const auto R = rotation_by(on.chart, tau.n, Int(1) << tau.k);
+                const Vec<Int> turned = R(normal);
+                normal = {-turned.x, -turned.y};
+            }
+            for (int turns = pair.branch; turns > 0; --turns) normal = {normal.y, -normal.x};  // the quadrant becomes the first
+            if (normal.x.sign() < 0 || normal.y.sign() < 0) continue;
+            put(free, free.free(ends[k], ends[k + 1], changes, meets, near), patch, on, held.surface, out);
+        }
+    }
+
+    // Surfaces that may touch the circle at an extreme of their distance, and cover all of it but for one point there: their quadratic
+    // has a double root, in doubles.
+    std::vector<Feature> touching_once(const Feature& pair) const {
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        const RoundSurfaces<Approx> of(scene);
+        std::vector<Feature> result;
+        const auto add = [&](Feature f) {
+            f.branch = static_cast<std::int8_t>(is_circle(f) && is_below_zero(of.rho(f)) ? 1 : -1);
+            const Trig<Approx> form = of.tangency(pair, f, f.branch);
+            const double most = form.a.m + form.b.m + form.c.m;
+            if (std::abs(std::abs(form.a.v) - std::hypot(form.b.v, form.c.v)) > 0x1p-30 * most) return;
+            if (std::abs(form.a.v) > 0x1p-40 * most) result.push_back(f);  // else they touch at every angle
+        };
+        for (Index j = 0; j < O.ring_vertices; ++j)
+            for (Index i = 0; i < A.ring_vertices; ++i) {
+                if (A.layer[i] != O.layer[j] || A.layer[i] != body_layer || !O.emit[j]) continue;
+                if (A.convex[i] && O.makes_surfaces(j)) add({Kind::vertex_edge, i, j});
+                if (O.convex[j] && A.makes_surfaces(i)) add({Kind::edge_vertex, i, j});
+                if (makes_circles(scene, i, j) && !(i == pair.robot && j == pair.obstacle)) add({Kind::vertex_vertex, i, j});
+            }
+        return result;
+    }
+
+    // The points where a surface touches a circle, in one quadrant of it.
+    void add_touch(const Surface& on, const Feature& surface, const std::vector<OpenCover>& near, Index patch, std::vector<Trapezoid>& out) const {
+        FreeCurve free(scene, on, surface);
+        const Feature& pair = on.contact;
+        const auto roots = free.decide.event_roots(surface, {}, chart_end(-1), chart_end(1));
+        if (roots.all_zero) return;
+        std::vector<Event> events{chart_end(-1), chart_end(1)};
+        events.insert(events.end(), roots.at.begin(), roots.at.end());
+        std::vector<std::array<Feature, 2>> cones;
+        if (scene.robot.has_extent(pair.robot)) cones.push_back(cone(true, pair));
+        if (scene.obstacles.has_extent(pair.obstacle)) cones.push_back(cone(false, pair));
+        for (const Event& e : events) {
+            const bool is_end = e.first.kind == Kind::none;
+            if (is_end ? free.decide.event_sign_on(surface, {}, e.lo, e.hi) != 0 || !free.vanishes(surface, e) : !e.is_touch) continue;
+            const auto meets = [&](RoundJunction& at, const RoundSpot& p) {
+                const auto seam = [&](int turns) { return at.spot(pair, {Kind::seam, pair.robot, pair.obstacle, turns & 3}, false); };
+                const Quadrant ends = quadrant_of(scene, pair);
+                return at.is_between(pair, seam(ends.begin), seam(ends.end), p) && has_normal(at, cones, pair, p);
+            };
+            put(free, free.free(e, e, {}, meets, near), patch, on, surface, out);
+        }
+    }
+    // True if the outward normal at a place, from it to the circle's centre, is in all cones.
+    static bool has_normal(RoundJunction& at, const std::vector<std::array<Feature, 2>>& cones, const Feature& pair, const RoundSpot& p) {
+        return std::all_of(cones.begin(), cones.end(), [&](const auto& edges) { return at.ahead(edges[0], pair, p) <= 0 && at.ahead(edges[1], pair, p) >= 0; });
+    }
+
+    // All surfaces that do so: of the same place of the convex vertex's shape, with features of the other one; or of the centre of the
+    // arc, with features of the convex vertex's shape.
+    std::vector<Held> held_on(const Feature& pair) const {
+        const bool of_robot = scene.robot.is_concave(pair.robot);
+        const Shape &s = of_robot ? scene.robot : scene.obstacles, &t = of_robot ? scene.obstacles : scene.robot;
+        const Index arc = of_robot ? pair.robot : pair.obstacle, vertex = of_robot ? pair.obstacle : pair.robot;
+        std::vector<Held> result;
+        for (Index w = 0; w < t.ring_vertices; ++w)
+            if (is_at(t, w, vertex)) add_held_by(s, arc, t, w, of_robot, pair, result);
+        for (Index j = 0; j < s.ring_vertices; ++j)
+            if (is_at(s, j, arc) && (j == arc || s.vertex_radius[j] != s.vertex_radius[arc])) add_held_by(t, vertex, s, j, !of_robot, pair, result);
+        return result;
+    }
+    static bool is_at(const Shape& s, Index v, Index other) { return s.X[v] == s.X[other] && s.Y[v] == s.Y[other] && s.layer[v] == s.layer[other] && s.emit[v]; }
+
+    // The same about one place, a vertex `at` of a shape: with features of the other shape, of which `own` is the pair's.
+    void add_held_by(const Shape& s, Index own, const Shape& other, Index at, bool of_robot, const Feature& pair, std::vector<Held>& out) const {
+        const Int size = -(scene.robot.radius_of(pair.robot).exact + scene.obstacles.radius_of(pair.obstacle).exact), &radius = other.radius_of(at).exact;
+        // in doubles, whether two lengths may be equal
+        const double size_near = -(scene.robot.radius_of(pair.robot).about.hi + scene.obstacles.radius_of(pair.obstacle).about.hi);
+        const double radius_near = other.radius_of(at).about.hi, most = size_near + std::abs(radius_near) + std::abs(s.x[own]) + std::abs(s.y[own]);
+        const auto may_be_one = [&](double x, double y) { return std::abs(x - y) <= 0x1p-30 * (std::abs(x) + std::abs(y) + most); };
+        for (Index v = 0; v < s.ring_vertices; ++v) {
+            if (s.layer[v] != s.layer[own] || !s.emit[v]) continue;
+            const double sigma_near = s.radius_of(v).about.hi + radius_near;
+            if (may_be_one(std::hypot(s.x[v] - s.x[own], s.y[v] - s.y[own]), sigma_near < 0 ? size_near - sigma_near : sigma_near - size_near)) {
+                const Int sigma = s.radius_of(v).exact + radius, between = sigma.sign() < 0 ? size - sigma : sigma - size;
+                const Vec<Int> d = difference<Int>(s, v, own);
+                const Feature circle = contact_circle_of(of_robot, v, at);
+                if (makes_circles(scene, circle.robot, circle.obstacle) && between.sign() > 0 && dot(d, d) == between * between)
+                    out.push_back({circle, sigma.sign() < 0 ? Vec<Int>{-d.x, -d.y} : d, of_robot});
+            }
+            if (!s.makes_surfaces(v) || !other.convex[at]) continue;
+            const Index start = s.v[v];
+            const double ex = s.x[s.w[v]] - s.x[start], ey = s.y[s.w[v]] - s.y[start];
+            const double away = (ex * (s.y[own] - s.y[start]) - ey * (s.x[own] - s.x[start])) / std::hypot(ex, ey);
+            if (!may_be_one(away, size_near - (s.radius_of(start).about.hi + radius_near))) continue;
+            const Vec<Int> E = edge<Int>(s, v);
+            const Int height = cross(E, difference<Int>(s, own, start)), wanted = size - (s.radius_of(start).exact + radius);
+            if (height.sign() == wanted.sign() && height * height == wanted * wanted * dot(E, E))
+                out.push_back({on_branch(contact_line_of(of_robot, v, at), 1), {-E.y, E.x}, of_robot});
+        }
+    }
+
+    const Scene& scene;
+    const Patches& patches;
+    const Covers covers;
+};
+
+}  // namespace
+
+void add_fits_of_arcs(const Scene& scene, const Patches& patches, int threads, Trapezoids& thin) {
+    if (!scene.robot.has_concave() && !scene.obstacles.has_concave()) return;
+    const FitsOfArcs fits(scene, patches);
+    std::vector<Index> chosen;
+    for (Index k = 0; k < static_cast<Index>(patches.size()); ++k)
+        if (fits.may_have(k)) chosen.push_back(k);
+    std::vector<std::vector<Trapezoid>> parts(chosen.size());
+    for_each_in_parallel(threads, chosen.size(), [&](std::size_t n) { fits.add(chosen[n], parts[n]); });
+    for (const auto& list : parts)
+        for (const Trapezoid& part : list) thin.push_back(part);
+}
+
+}  // namespace cfree
