@@ -10,6 +10,7 @@
 
 #include "arrays.hpp"
 #include "cfree/forbidden/consistency.hpp"
+#include "cfree/forbidden/sampled_count.hpp"
 #include "polynomials.hpp"
 #include "watched.hpp"
 
@@ -149,6 +150,11 @@ void bind_boundary(nb::module_& m) {
         .def("angle_ranks", &angle_ranks);
     m.def("compute_boundary", &computed, "scene"_a, "threads"_a, "regularized"_a, "watch"_a, "features"_a = nb::none(),
           "reuse"_a = nb::none());
+    m.def("sampled_count", [](const cfree::Scene& scene, int samples) {
+        Tally tally;
+        watched([&] { tally.add(cfree::sampled_count(scene, samples)); });
+        return std::tuple(tally, cfree::list_patches(scene.near()).size());
+    }, "scene"_a, "samples"_a);
     m.def("may_have_slits", [](const cfree::Scene& scene) { return cfree::may_have_slits(scene); }, "scene"_a);
     m.def("misfit", [](const Boundary& b, int threads) { return watched([&] { return cfree::misfit(b, threads); }); },
           "boundary"_a, "threads"_a);

@@ -1,5 +1,6 @@
 #include "cfree/forbidden/boundary.hpp"
 
+#include "cfree/forbidden/sampled_count.hpp"
 #include "cfree/forbidden/slice.hpp"
 #include "check.hpp"
 #include "shapes.hpp"
@@ -118,6 +119,16 @@ static void patches_far_from_a_change_are_kept_as_they_are() {
     }
 }
 
+static void a_sample_of_all_patches_counts_like_the_boundary() {
+    const auto scene = scene_of({robot}, triangles(40));
+    const auto whole = compute_boundary(scene, {1, false, {}});
+    const auto patches = static_cast<Index>(whole->patches.size());
+    const Count all = sampled_count(*scene, 2 * patches), some = sampled_count(*scene, patches / 4);
+    CHECK(all.pairs == whole->tally.pairs && all.live_patches == whole->tally.live_patches);
+    CHECK(all.decisions.filter == whole->tally.decisions.filter);
+    CHECK(some.pairs * 5 > all.pairs && some.pairs * 3 < all.pairs);
+}
+
 int main() {
     one_pair_keeps_all_patches_whole();
     coincident_obstacles_count_once();
@@ -127,5 +138,6 @@ int main() {
     the_one_who_waits_is_asked();
     far_away_it_is_the_same();
     patches_far_from_a_change_are_kept_as_they_are();
+    a_sample_of_all_patches_counts_like_the_boundary();
     return failures > 0;
 }

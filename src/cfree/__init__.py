@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from cfree.errors import InvalidPoseError as InvalidPoseError
     from cfree.errors import InvalidVehicleError as InvalidVehicleError
     from cfree.errors import InvariantError as InvariantError
+    from cfree.errors import LaboriousSceneError as LaboriousSceneError
     from cfree.errors import UndecidedError as UndecidedError
     from cfree.errors import UnsupportedError as UnsupportedError
     from cfree.exact.pose import Pose as Pose
@@ -78,7 +79,8 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "errors": "CfreeError FormatError IncompleteError "
-    "InvalidPolygonError InvalidPoseError InvalidVehicleError InvariantError UndecidedError UnsupportedError",
+    "InvalidPolygonError InvalidPoseError InvalidVehicleError InvariantError LaboriousSceneError UndecidedError "
+    "UnsupportedError",
     "curves.curved": "Curved",
     "exact.pose": "Pose Poses",
     "polygons.polygon": "Polygon",

@@ -7,6 +7,7 @@
       InvalidVehicleError (ValueError)     a turning radius, axle or heading that no vehicle has
       FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
+        LaboriousSceneError                few vertices whose boundary takes long; carries the number of pairs
       IncompleteError     (RuntimeError)   a query of a boundary whose computation a limit stopped
         UndecidedError                     a clearance too near to the largest, carries lo and hi;
                                            or round shapes too near to each other, carries error;
@@ -71,6 +72,21 @@ class FormatError(CfreeError, ValueError):
 
 class UnsupportedError(CfreeError, NotImplementedError):
     """A documented limit of the method."""
+
+
+class LaboriousSceneError(UnsupportedError):
+    """A boundary of a scene of few vertices that would take long, estimated before it is computed.
+
+    Parameters
+    ----------
+    message : str
+    pairs : int
+        Estimated number of pairs of a contact patch and a pillar near it.
+    """
+
+    def __init__(self, message: str, *, pairs: int = 0) -> None:
+        super().__init__(message)
+        self.pairs = pairs
 
 
 class IncompleteError(CfreeError, RuntimeError):

@@ -114,7 +114,7 @@ def smallest_aisle(
 
     def is_too_narrow(width: Fraction) -> bool:
         room, start, goal = _room(kind, width, known, far, ahead, extents)
-        space = free_space(boundary(Scene(scene.robot, workspace=room)))
+        space = free_space(boundary(Scene(scene.robot, workspace=room), max_seconds=math.inf))
         return space.common_cell(start, goal) is None
 
     lo, hi = bracket(is_too_narrow, far)

@@ -217,7 +217,7 @@ def reach(
     poses = tuple(to_pose(pose, f"starts[{k}]") for k, pose in enumerate(starts))
     for k, pose in enumerate(poses):
         require_free(scene, pose, f"starts[{k}]")
-    space = free_space(boundary(scene, threads=threads), threads=threads)
+    space = free_space(boundary(scene, threads=threads, max_seconds=math.inf), threads=threads)
     cells = {cell for k, pose in enumerate(poses) for cell in _cells_of(space, pose, f"starts[{k}]")}
     theta: Floats = np.linspace(0.0, math.tau, orientations, endpoint=False)
     reached, free = list[Any](), list[Any]()

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import errno
 import io
+import math
 import os
 import signal
 import sys
@@ -104,7 +105,7 @@ def _contradicts_itself(scene: Scene) -> bool:
     from cfree.forbidden.boundary import boundary
 
     try:
-        return not boundary(scene, threads=1).complex
+        return not boundary(scene, threads=1, max_seconds=math.inf).complex
     except InvariantError:
         return True
 

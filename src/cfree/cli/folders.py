@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -173,4 +174,4 @@ class FolderPlanner:
         from cfree.forbidden.boundary import boundary
         from cfree.free.space import free_space
 
-        return free_space(boundary(self.scene))
+        return free_space(boundary(self.scene, max_seconds=math.inf))

@@ -104,9 +104,14 @@ class Number:
     def __repr__(self) -> str:
         return str(self.poly)
 
+    @property
+    def key(self) -> tuple[int, ...]:
+        """Numbers of one root are equal if their keys are: the denominator and the coefficients."""
+        return int(self.poly.denom()), *map(int, self.poly.numer().coeffs())
+
     def __hash__(self) -> int:
         if self._hash is None:
-            self._hash = hash(repr(self))
+            self._hash = hash(self.key)
         return self._hash
 
     def __add__(self, other: Number | Fraction | int) -> Number:
@@ -264,6 +269,9 @@ def roots(poly: flint.fmpz_poly, lo: Fraction, hi: Fraction) -> list[tuple[Root,
 
 
 def _isolated(poly: Coefficients, lo: Fraction, hi: Fraction) -> Iterable[Root]:
+    if len(poly) == 3 and (below := sign(poly, lo)) != sign(poly, hi):  # one of two roots; the other may be before it
+        yield Root(poly, int(sign(poly, LEAST) != below), lo, hi)
+        return
     todo = [(lo, hi, variations(poly, lo), variations(poly, hi))]
     while todo:
         a, b, at_a, at_b = todo.pop()

@@ -21,6 +21,7 @@ from cfree.errors import InvariantError
 from cfree.exact.half_angle import Angle
 from cfree.forbidden.cell_complex import CellComplex, glue
 from cfree.forbidden.columns import Trapezoids
+from cfree.forbidden.labour import refuse_laborious
 from cfree.forbidden.mesh import Mesh, triangulated
 from cfree.forbidden.patch import IsolatedPart, Patches, Trapezoid
 from cfree.forbidden.record import BoundaryRecord, Stats
@@ -52,7 +53,7 @@ def boundary(
     threads : int, optional
         All cores by default. The result has the same bytes for any number.
     max_seconds : float, optional
-        Stop trimming after that many seconds: the result is then marked as incomplete.
+        Stop trimming after that many seconds: the result is then marked as incomplete. With `math.inf` it goes on.
     max_memory : float, optional
         Stop in the same way once this process has used that many bytes, checked ten times a second.
     progress : callable, optional
@@ -70,6 +71,9 @@ def boundary(
     ------
     ValueError
         If there are no threads, or a limit is negative.
+    LaboriousSceneError
+        If a scene of fewer than 2,000 vertices would take some 10 seconds of one core or more, by an estimate of
+        counts, and neither `max_seconds`, `max_memory` nor `reuse` is given.
     InvariantError
         If the computation contradicts itself: a fault of cfree. Its `state` is the scene.
     UnsupportedError
@@ -106,7 +110,9 @@ def boundary(
     for name, limit in (("max_seconds", max_seconds), ("max_memory", max_memory)):
         if limit is not None and not limit >= 0:
             raise ValueError(f"{name}: {limit}; give 0 or more")
-    return _computed(scene, False, threads or os.cpu_count() or 1, max_seconds, max_memory, progress, reuse)
+    goes_on = scene.curved or any(given is not None for given in (max_seconds, max_memory, reuse))
+    count = threads or os.cpu_count() or 1
+    return _computed(scene, False, count, max_seconds, max_memory, progress, reuse, may_refuse=not goes_on)
 
 
 def _computed(
@@ -117,11 +123,15 @@ def _computed(
     max_memory: float | None = None,
     progress: Callable[[float], object] | None = None,
     reuse: Boundary | None = None,
+    *,
+    may_refuse: bool = False,
 ) -> Boundary:
     start = time.perf_counter()
     with collection_paused():
         features = grown_features(scene)
         core_scene = features.core
+    if may_refuse:
+        refuse_laborious(scene, features)
     prepared = time.perf_counter()
 
     def go_on(share: float) -> bool:

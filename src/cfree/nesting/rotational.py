@@ -93,7 +93,7 @@ class RotationalNFP(Value):
     @cached_property
     def boundary(self) -> Boundary:
         """The boundary of the forbidden space, computed at first use."""
-        return boundary(Scene(self.moving, self.fixed))
+        return boundary(Scene(self.moving, self.fixed), max_seconds=math.inf)
 
     @checked
     def slice(self, theta: Angle) -> Slice:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Iterable
 from typing import Literal
@@ -82,7 +83,7 @@ def plan_many(
     todo, space = list(queries), scene if isinstance(scene, FreeSpace) else None
     world = scene if isinstance(scene, Scene) else scene.boundary.scene
     if space is None and not world.curved:
-        space = free_space(boundary(world))
+        space = free_space(boundary(world, max_seconds=math.inf))
     driver = vehicle_for(world, vehicle)
     planner, answers = Planner(world, space, preferences=preferences or NONE, vehicle=driver), list[Path | Proof]()
 

@@ -14,11 +14,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from hashlib import blake2b
 from typing import Any
 
 from flint import fmpz_poly
 
-from cfree.exact.algebraic import Exact, Root, at, homogeneous, ratio
+from cfree.exact.algebraic import Exact, Number, Root, at, homogeneous, ratio
 
 Vector = tuple[Exact, Exact]
 LineKey = tuple[Exact | None, Exact]  # slope, None if upright, and the place where the line meets an axis
@@ -29,6 +30,11 @@ WEIGHT = fmpz_poly([1, 0, 1])  # 1 + tau^2
 
 class Fault(Exception):
     """A statement in a file makes no sense; the message gives the reason."""
+
+
+def digest(*key: Any) -> bytes:
+    """32 bytes that stand for an exact key: different keys do not collide in practice."""
+    return blake2b(repr(key).encode(), digest_size=32).digest()
 
 
 def cross(u: Vector, v: Vector) -> Exact:
@@ -203,17 +209,24 @@ class Moving:
         inverse = ratio(1, u)
         return v * inverse, at(self.across, tau) * inverse
 
+    def line(self, angle: Root) -> tuple[int, bytes]:
+        """Axis of positions on the line at an angle, and a digest of both."""
+        slope, place = self.key(angle.value)
+        plain = [x.key if isinstance(x, Number) else x for x in (slope, place)]
+        return int(slope is None), digest(angle_key(self.chart, angle), *plain)
+
 
 class Curve:
     """Curve t = n / d on a surface in a chart, in lowest terms; `key` is made of its reference points (x : y : z)."""
 
-    __slots__ = ("_coefficients", "d", "key", "n", "point")
+    __slots__ = ("_coefficients", "_digest", "d", "key", "n", "point")
 
     def __init__(self, moving: Moving, t: tuple[Form, Form]) -> None:
         n, d = (polynomial(form, moving.chart) for form in t)
         if not (common := n.gcd(d)).is_one():
             n, d = n // common, d // common
         self.n, self.d = n, d
+        self._digest: bytes | None = None
         self._coefficients = [int(c) for c in n.coeffs()], [int(c) for c in d.coeffs()]
         x, y = (start * d + along * n for start, along in zip(moving.start, moving.along, strict=True))
         z = WEIGHT * d
@@ -221,7 +234,13 @@ class Curve:
         if z.leading_coefficient() < 0:
             common = -common
         self.point = (x, y, z) if common.is_one() else (x // common, y // common, z // common)
-        self.key = moving.chart, *map(str, self.point)
+        self.key = moving.chart, *(tuple(map(int, poly.coeffs())) for poly in self.point)
+
+    @property
+    def digest(self) -> bytes:
+        if self._digest is None:
+            self._digest = digest(self.key)
+        return self._digest
 
     def place(self, axis: int, tau: Exact) -> Exact:
         """Coordinate x or y of its reference point at an angle."""

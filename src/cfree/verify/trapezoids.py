@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from flint import fmpz_poly
 from numpy.typing import NDArray
 
 from cfree.exact.algebraic import Coefficients, Exact, Root, between, factors, part, ratio, roots
-from cfree.verify.surfaces import Curve, Fault, LineKey, Moving, Surface, Turn, Vector, angle_key, polynomial
+from cfree.verify.surfaces import Curve, Fault, LineKey, Moving, Surface, Turn, Vector, polynomial
 from cfree.verify.world import Feature, World, name_of
 from cfree.words import counted
 
@@ -254,17 +253,15 @@ class Trapezoid:
         """Counter-clockwise in (t, theta): at start, upper, at stop, lower; None for a side of no length."""
         return [
             self._upright(self.start, self.lower, self.upper),
-            (digest(self.upper.key), self.start, self.stop),
+            (self.upper.digest, self.start, self.stop),
             self._upright(self.stop, self.upper, self.lower),
-            (digest(self.lower.key), self.stop, self.start),
+            (self.lower.digest, self.stop, self.start),
         ]
 
     def _upright(self, angle: Root, first: Curve, last: Curve) -> Side | None:
-        key = self._moving.key(angle.value)
-        begin, end = (self._place(curve, int(key[0] is None), angle) for curve in (first, last))
-        if begin == end:
-            return None
-        return digest(angle_key(self.chart, angle), key), begin, end
+        axis, line = self._moving.line(angle)
+        begin, end = (self._place(curve, axis, angle) for curve in (first, last))
+        return None if begin == end else (line, begin, end)
 
 
 def _roots_between(poly: Coefficients, low: float, high: float) -> tuple[tuple[Root, bool], ...]:
@@ -276,8 +273,3 @@ def _roots_between(poly: Coefficients, low: float, high: float) -> tuple[tuple[R
 def has_root(poly: fmpz_poly, start: Root, stop: Root) -> bool:
     """True if a polynomial has a root in the closed interval."""
     return poly.degree() > 0 and any(start <= root <= stop for root, _ in roots(poly, start.lo, stop.hi))
-
-
-def digest(*key: Any) -> bytes:
-    """32 bytes that stand for an exact key: different keys do not collide in practice."""
-    return blake2b(repr(key).encode(), digest_size=32).digest()
