@@ -17,12 +17,13 @@ from cfree.exact.pose import Pose
 from cfree.paths.numbering import has_slides
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
-from cfree.planning.among import MARGIN, are_apart, check_length, plan_around
+from cfree.planning.among import MARGIN, check_length, plan_around, proof_at_ends
 from cfree.planning.atlas import LazyAtlas
 from cfree.planning.goals import refuse_far
 from cfree.planning.options import Options, to_seconds
 from cfree.planning.proof import Proof
 from cfree.planning.routes import Leg, Router, improved, is_distant, joined
+from cfree.planning.separation import Separated
 from cfree.scene.digest import Whole
 from cfree.scene.scene import Scene, vehicle_for
 from cfree.vehicles.vehicle import Vehicle
@@ -115,13 +116,15 @@ def plan_among(
     refuse_far(start, goal)
     way: Sequence[Pose] | None = None
     legs = _legs(known, start, goal, options) if is_distant(start, goal, known.radius) else None
+    if isinstance(legs, Separated):  # further obstacles do not change that
+        return replace(legs, whole=known.whole)
     if legs is not None:
         ground = StoredGround(known.work)
         if driver is None:
             legs = improved(start, legs, ground, options)
         known.read |= {tile for leg in legs for tile in ground.tiles(leg.box)}
         path, numbers = joined(start, legs, ground)
-        known.numbers |= set(numbers)
+        known.numbers = set(numbers)
         if driver is None:
             return replace(path, whole=known.whole)
         known.add_around(path, MARGIN * known.radius)
@@ -129,7 +132,7 @@ def plan_among(
     return replace(plan_around(known, start, goal, options, way), whole=known.whole)
 
 
-def _legs(known: Surroundings, start: Pose, goal: Pose, options: Options) -> list[Leg] | None:
-    """Legs along a route; None without one, or if the goal is not far."""
+def _legs(known: Surroundings, start: Pose, goal: Pose, options: Options) -> list[Leg] | Separated | None:
+    """Legs along a route, or a proof; None without either, or if the goal is not far."""
     router = Router(known.atlas, start, goal, replace(options, vehicle=None))
-    return router.legs(lambda: are_apart(Surroundings(known.work), start, goal)) if router.is_far else None
+    return router.legs(lambda: proof_at_ends(known, start, goal)) if router.is_far else None

@@ -6,7 +6,8 @@ all obstacles near it are included. So obstacles are added along the paths found
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 from cfree.errors import UndecidedError
@@ -59,10 +60,11 @@ def add_ends(known: Known, start: Pose, goal: Pose) -> None:
         known.add_around(Path(end, []), MARGIN * known.radius)
 
 
-def are_apart(known: Known, start: Pose, goal: Pose) -> bool:
-    """True if a few surfaces around the ends separate them, which is fast where obstacles close one in."""
+def proof_at_ends(known: Known, start: Pose, goal: Pose) -> Separated | None:
+    """Proof by a few surfaces around the ends, which is fast where obstacles close one in; None without one."""
     add_ends(known, start, goal)
-    return isinstance(PosePlanner(known.scene).way(start, goal, Options(), few=True), Separated)
+    found = PosePlanner(known.scene).way(start, goal, Options(), few=True)
+    return found if isinstance(found, Separated) else None
 
 
 def plan_around(
@@ -99,12 +101,30 @@ def plan_around(
             if leads_farther(planner.path(found)):
                 continue
             way = found
+        answer = _answered(planner, way, options, leads_farther)
+        if answer is not None:
+            return answer
+        way = None if planner.has_slides else way
+
+
+def _answered(
+    planner: PosePlanner, way: Sequence[Pose], options: Options, leads_farther: Callable[[Path], bool]
+) -> Path | Proof | None:
+    """Answer by a way among the known obstacles; None if it leads farther, while proofs hold among more obstacles.
+
+    A vehicle's first path comes before a better one.
+    """
+    is_twice = options.vehicle is not None and options.improve != 0
+    answer: Path | Proof | None = None
+    for own in (replace(options, improve=0.0), options) if is_twice else (options,):
         try:
-            answer = planner.answered(way, options)
+            answer = planner.answered(way, own)
         except UndecidedError as error:  # a vehicle needs too many manoeuvres on a path, if that is free among all
             if not isinstance(error.path, Path) or not leads_farther(error.path):
                 raise
-        else:
-            if not isinstance(answer, Path) or not leads_farther(answer):  # proofs hold among more obstacles
-                return answer
-        way = None if planner.has_slides else way
+            return None
+        if not isinstance(answer, Path):
+            return answer
+        if leads_farther(answer):
+            return None
+    return answer

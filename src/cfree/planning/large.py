@@ -18,12 +18,13 @@ from cfree.errors import IncompleteError
 from cfree.exact.pose import Pose
 from cfree.paths.numbering import has_slides, renumbered
 from cfree.paths.path import Path
-from cfree.planning.among import MARGIN, are_apart, check_length, plan_around
+from cfree.planning.among import MARGIN, check_length, plan_around, proof_at_ends
 from cfree.planning.atlas import LazyAtlas
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rooms import Box, Floats, Ints, divided
 from cfree.planning.routes import Router, improved, is_distant, joined
+from cfree.planning.separation import Separated
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius, with_bounds, with_obstacles
 
@@ -108,13 +109,16 @@ def path_around(ground: SceneGround, start: Pose, goal: Pose, options: Options) 
     try:
         if is_distant(start, goal, ground.radius):
             router = Router(ground.atlas, start, goal, replace(options, vehicle=None))
-            legs = router.legs(lambda: are_apart(KnownPart(ground), start, goal)) if router.is_far else None
+            legs = router.legs(lambda: proof_at_ends(known, start, goal)) if router.is_far else None
+            if isinstance(legs, Separated):
+                return None
             if legs is not None:
                 if options.vehicle is None:
                     legs = improved(start, legs, ground, options)
                 path, numbers = joined(start, legs, ground)
                 if options.vehicle is None:
                     return replace(renumbered(path, numbers), scene=ground.scene)
+                known.numbers = set(numbers)
                 known.add_around(path, MARGIN * ground.radius)
                 way = None if has_slides(path) else path.poses
         answer = plan_around(known, start, goal, options, way)

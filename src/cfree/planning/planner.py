@@ -187,8 +187,10 @@ def answer_for_one(planner: PosePlanner, start: Pose, goal: Pose, options: Optio
 
 def _path_in_parts(planner: PosePlanner, start: Pose, goal: Pose, options: Options) -> Path | None:
     """Path in a scene of many obstacles by those near it; None if another way is better, or decides."""
-    scene = planner.scene
-    if planner.has_space or options.work or scene.curved or sum(map(len, scene.obstacles)) < LARGE:
+    scene, is_limited = planner.scene, options.work is not None
+    if planner.has_space or is_limited or planner.is_among_arcs or scene.curved:
+        return None
+    if sum(map(len, scene.obstacles)) < LARGE:
         return None
     from cfree.planning.large import ground_of, path_around
 

@@ -31,6 +31,7 @@ from cfree.planning.options import Options
 from cfree.planning.portals import THETAS, Ground, Key, Portal
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rooms import Box, Ints
+from cfree.planning.separation import Separated
 from cfree.scene.frame import frame_of
 
 START, GOAL = (-1, -1, 0), (-1, -1, 1)  # ends of a route, beside the keys of portals
@@ -114,15 +115,16 @@ class Router:
         x, y, _ = self._places[GOAL]
         return not (x0 <= x <= x1 and y0 <= y <= y1)
 
-    def legs(self, is_apart: Callable[[], bool]) -> list[Leg] | None:
+    def legs(self, prove: Callable[[], Separated | None]) -> list[Leg] | Separated | None:
         """Legs of a path that are free among all obstacles; None if no route, or none of the first, gives one.
 
         Parameters
         ----------
-        is_apart : callable
-            Asked once, after a room of an end has refused a step: true if the ends are proved to be separated.
+        prove : callable
+            Called once, after a room of an end has refused a step: returns a proof that the ends are separated, which
+            is the result then, or None.
         """
-        refused, is_asked = 0, False
+        refused, is_tried = 0, False
         if len(self.atlas.ways) > KEPT:
             self.atlas.ways.clear()
         while refused <= FAILURES:
@@ -132,9 +134,9 @@ class Router:
             at_ends = [step for step in steps if START in step.ends or GOAL in step.ends]
             if self._refused(at_ends):
                 refused += 1
-                if not is_asked and is_apart():
-                    return None
-                is_asked = True
+                if not is_tried and (proof := prove()) is not None:
+                    return proof
+                is_tried = True
                 continue
             count = self._refused(steps)
             refused += count
