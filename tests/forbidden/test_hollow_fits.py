@@ -112,6 +112,14 @@ def test_a_wall_beside_the_hole_leaves_the_curve_of_an_arm_a_part() -> None:
     assert 0 < turning(found) < 180
 
 
+def test_bounds_leave_the_curve_of_a_disc_a_part() -> None:
+    """The reference point is 2 beside the disc's center, and keeps to the right."""
+    scene = Scene(disc(1, (2, 0)), [plate(round_hole(1))], bounds=(0, -9, 9, 9))
+    found = found_in(scene)
+    assert turning(found) == pytest.approx(180)
+    assert min(x for _, ends in found for x, *_ in ends) == pytest.approx(0, abs=1e-9)
+
+
 def test_a_disc_in_a_larger_hole_has_no_exact_fit() -> None:
     assert not found_in(Scene(disc(1), [plate(round_hole(F(3, 2)))]))
 
@@ -342,11 +350,35 @@ def test_a_fit_in_a_concave_arc_is_in_no_cell_and_not_in_the_regularized_boundar
 # --- plans ---
 
 
+MOVES: dict[str, tuple[Callable[[], Scene], Pose, Pose]] = {
+    "a disc in its hole": (lambda: FITS["disc"](F(0)), Pose(0, 0), Pose(0, 0, "77deg")),
+    "a bar in a hole of its length": (
+        lambda: Scene(grown(points((-4, 0), (4, 0)), 1), [plate(round_hole(5))]), Pose(0, 0), Pose(0, 0, "90deg")
+    ),
+    "a short peg along its slot": (
+        lambda: Scene(peg(1), [plate(slot_ring(2, 1), turn=TURNS[1])]),
+        Pose(F(-4, 5), F(-3, 5), {"tau": F(1, 3)}), Pose(F(4, 5), F(3, 5), {"tau": F(1, 3)}),
+    ),
+    "a peg out of a bay": (
+        lambda: Scene(grown(points((0, 0), (0, -3)), 1), [bay(2)]), Pose(0, 0), Pose(0, -8)
+    ),
+}  # fmt: skip
+
+
 @pytest.mark.slow
-def test_a_disc_turns_in_its_hole() -> None:
-    scene = FITS["disc"](F(0))
-    path = cfree.plan(scene, Pose(0, 0), Pose(0, 0, "77deg"))
-    assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+@pytest.mark.parametrize("name", MOVES)
+def test_a_path_leads_along_a_fit_in_concave_arcs(name: str) -> None:
+    made, start, goal = MOVES[name]
+    path = cfree.plan(made(), start, goal)
+    assert isinstance(path, cfree.Path) and cfree.verify.answer(made(), path).verified
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["peg", "pin"])
+def test_no_path_leaves_a_fit_in_concave_arcs(name: str) -> None:
+    scene = FITS[name](F(0))
+    answer = cfree.plan(scene, Pose(0, 0), Pose(14, 0))
+    assert isinstance(answer, cfree.Separated) and cfree.verify.answer(scene, answer).verified
 
 
 @pytest.mark.slow

@@ -198,8 +198,20 @@ def extreme(r: HollowDraw) -> Scene:
     return Scene(robot, [r.hollow(box(-25, -25, 25, 25), [first, last])])
 
 
+def both(r: HollowDraw) -> Scene:
+    """A robot with a hole around a pin, and a disc of it in a hole among the obstacles: concave arcs on both sides."""
+    (x, y), first, second = r.choice([(F(12), F(0)), (F(0), F(15)), (F(-12), F(9))]), r.parts(1, 3, 2), r.parts(1, 3, 2)
+    more = r.choice([F(0), F(0), F(1, 2)]), r.choice([F(0), F(0), F(1, 2)])
+    ring = r.hollow(box(-4, -3, 3, 4), [Circle((F(0), F(0)), first + more[0])], moves=True)  # type: ignore[list-item]
+    plate = box(x - 5, y - 4, x + 4, y + 5)
+    others = [r.still(points((0, 0)), first), r.hollow(plate, [Circle((x, y), second + more[1])])]  # type: ignore[list-item]
+    if r.random() < 0.3:
+        others.append(r.hollow(box(-30, -30, 30, 30), [box(-25, -25, 25, 25)]))
+    return Scene([ring, r.moving(points((x, y)), second)], others)
+
+
 FAMILIES: dict[str, Callable[[HollowDraw], Scene]] = {
-    f.__name__: f for f in (hole, slot, bay, room, link, pair, inscribed, extreme)
+    f.__name__: f for f in (hole, slot, bay, room, link, pair, inscribed, extreme, both)
 }
 
 
