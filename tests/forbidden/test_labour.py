@@ -69,8 +69,9 @@ def test_a_laborious_boundary_is_refused_with_its_counts(
 ) -> None:
     with pytest.raises(LaboriousSceneError) as refused:
         boundary(scene)
-    assert str(refused.value).startswith(f"{vertices}: {patches} contact patches")
-    assert "plan" in str(refused.value) and "max_seconds" in str(refused.value) and "\n" not in str(refused.value)
+    said = str(refused.value)
+    assert said.startswith(f"{vertices}: {patches} contact patches") and "\n" not in said
+    assert "cfree.plan" in said and "max_seconds=math.inf" in said
     assert least < refused.value.pairs < most
 
 
@@ -90,8 +91,10 @@ def test_plan_takes_a_scene_whose_boundary_is_refused() -> None:
 
 def test_the_command_refuses_in_one_line(tmp_path: Path) -> None:
     save(bars_among_bars(), tmp_path / "bars.json")
-    result = CliRunner().invoke(app, ["boundary", str(tmp_path / "bars.json")])
-    assert result.exit_code == 2 and result.stderr.count("\n") == 1 and "51,200 contact patches" in result.stderr
+    for command in (["boundary"], ["slice", "--theta", "0"]):
+        result = CliRunner().invoke(app, [*command, str(tmp_path / "bars.json")])
+        assert result.exit_code == 2 and result.stderr.count("\n") == 1 and "51,200 contact patches" in result.stderr
+        assert "cfree boundary --max-seconds inf" in result.stderr
     result = CliRunner().invoke(app, ["boundary", str(tmp_path / "bars.json"), "--max-seconds", "0.01"])
     assert result.exit_code == 3
 

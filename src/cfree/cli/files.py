@@ -88,12 +88,18 @@ def computed(
     source: Scene | Boundary, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
 ) -> Boundary:
     """Compute the boundary of a scene; return a boundary as it is."""
+    from cfree.errors import LaboriousSceneError
     from cfree.forbidden.boundary import Boundary, boundary
+    from cfree.forbidden.labour import GO_ON
 
     if isinstance(source, Boundary):
         return source
-    with bar("boundary") as progress:
-        return boundary(source, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
+    try:
+        with bar("boundary") as progress:
+            return boundary(source, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
+    except LaboriousSceneError as error:
+        go_on = "cfree boundary --max-seconds inf -o FILE to go on; other commands take FILE"
+        raise LaboriousSceneError(str(error).replace(GO_ON, go_on), pairs=error.pairs) from None
 
 
 def answer_for(scene: Scene, file: Path) -> Motions | Separated | AllSeparated:

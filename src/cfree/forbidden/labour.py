@@ -18,6 +18,7 @@ from cfree.words import counted
 MOST_STEPS = 70_000_000  # steps of about 0.1 microseconds: with all else, some 10 s of one core
 MANY_VERTICES, FEW_PATCHES = 2_000, 4_000  # no estimate for larger scenes, nor for fewer patches
 FIRST_LOOK, SECOND_LOOK = 32, 128  # numbers of patches
+GO_ON = "max_seconds=math.inf to go on"  # the remedy in Python
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ def refuse_laborious(scene: Scene, features: SceneFeatures) -> None:
     raise LaboriousSceneError(
         f"{counted(robot, 'vertex', 'vertices')} of the robot among {obstacles:,}: {estimate.patches:,} contact "
         f"patches, about {_rounded(estimate.pairs)} pairs with pillars beside them, {_rounded(estimate.signs)} signs "
-        f"to decide; cfree.plan needs few of them. Give simpler shapes, or max_seconds (inf: no limit) to go on",
+        f"to decide; cfree.plan needs few of them. Give simpler shapes, or {GO_ON}",
         pairs=round(estimate.pairs),
     )
 
