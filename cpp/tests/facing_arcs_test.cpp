@@ -21,7 +21,7 @@ Arc fillet(long radius, long share) {
     return {point(0, radius), point(radius, 0), point(0, 0), {radius, 1}, std::array{beyond(2 * share), beyond(share)}};
 }
 
-void probes_are_on_the_arc_and_near_each_other(const Arc& arc, const Facing& facing) {
+void probes_are_on_the_arc_and_near_each_other(const Arc& arc, const FacingArcs& facing) {
     std::vector<RatioPoint> all{arc.from};
     for (const RatioPoint& p : probes(arc, {0, 1}, facing)) all.push_back(p);
     all.push_back(arc.to);
@@ -38,7 +38,7 @@ void probes_are_on_the_arc_and_near_each_other(const Arc& arc, const Facing& fac
 int main() {
     const Arc quarter{point(4, 0), point(0, 4), point(0, 0), {4, 1}}, part{point(4, 3), point(0, 5), point(0, 0), {5, 1}};
     for (const long share : {1, 4, 64}) {
-        const Facing facing({{{0, 1}, {fillet(6, share)}}});
+        const FacingArcs facing({{{0, 1}, {fillet(6, share)}}});
         CHECK(facing.hollows == std::vector<Ratio>({{6, 1}}) && facing.arcs.empty());
         for (const Arc& arc : {quarter, part}) {
             probes_are_on_the_arc_and_near_each_other(arc, facing);
@@ -50,11 +50,11 @@ int main() {
         CHECK(probes(large, {0, 1}, facing).empty() && wedges(large, {0, 1}, facing).empty());
     }
     // more probes where there is less room beyond the concave arc: an angle e has the tangent w / (2 + w), with w = 1 / share
-    const Facing wide({{{0, 1}, {fillet(6, 1)}}}), narrow({{{0, 1}, {fillet(6, 64)}}});
+    const FacingArcs wide({{{0, 1}, {fillet(6, 1)}}}), narrow({{{0, 1}, {fillet(6, 64)}}});
     CHECK(wide.step == reduced(3, 4) && narrow.step < reduced(1, 60));
     CHECK(probes(quarter, {0, 1}, wide).size() == 1 && probes(quarter, {0, 1}, narrow).size() > 50);
     // quadrangles: whole for discs that fit, smaller by the share of the radius for arcs, grown shapes included
-    const Facing some({{{1, 1}, {quarter}}});
+    const FacingArcs some({{{1, 1}, {quarter}}});
     const auto figures = quadrangles(fillet(8, 4), {1, 1}, some);
     CHECK(figures.size() == 3 && !figures[0].is_for_arcs && !figures[1].is_for_arcs && figures[2].is_for_arcs);
     CHECK(figures[1].radius == reduced(1, 1) && figures[1].corners[1] == point(8, 0));

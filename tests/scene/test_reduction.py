@@ -37,11 +37,11 @@ def test_a_contradiction_is_reported_with_its_smallest_scene(
 ) -> None:
     original = getattr(forbidden, place)
 
-    def broken(about: Any, *arguments: Any) -> Any:
+    def broken(about: Any, *arguments: Any, **options: Any) -> Any:
         scene = about if isinstance(about, Scene) else about.scene
         if len(scene.obstacles) > 1:  # stands for a contradiction in the core
             raise InvariantError("no sample decides", state=scene)
-        return original(about, *arguments)
+        return original(about, *arguments, **options)
 
     monkeypatch.setattr(forbidden, place, broken)
     scene = scene_of(random_scene(4, "nonconvex"))

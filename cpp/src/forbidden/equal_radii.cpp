@@ -34,6 +34,9 @@ bool has_facing_arcs(const Scene& scene) {
 
 namespace {
 
+// By the correctly rounded square root, the same on every machine.
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
 Feature on_branch(Feature f, int branch) {
     f.branch = static_cast<std::int8_t>(branch);
     return f;
@@ -160,7 +163,7 @@ private:
         double reach = 0, own = 0, other = 0, size = std::abs(ax) + std::abs(ay) + std::abs(bx) + std::abs(by);
         Box box;
         for (Index x = 0; x < n; ++x) {
-            reach = std::max(reach, std::hypot(A.x[a[x]] - ax, A.y[a[x]] - ay)), own = std::max(own, std::abs(A.radius_of(a[x]).about.hi));
+            reach = std::max(reach, length_of(A.x[a[x]] - ax, A.y[a[x]] - ay)), own = std::max(own, std::abs(A.radius_of(a[x]).about.hi));
             size = std::max(size, std::abs(A.x[a[x]]) + std::abs(A.y[a[x]]));
         }
         for (Index y = 0; y < m; ++y) {
@@ -169,7 +172,7 @@ private:
         }
         const double dx = std::max({box.x0 - bx, bx - box.x1, 0.0}), dy = std::max({box.y0 - by, by - box.y1, 0.0});
         const double apart = std::abs(A.radius_of(pair.robot).about.hi) + std::abs(O.radius_of(pair.obstacle).about.hi);
-        return std::hypot(dx, dy) <= (reach + own + other + apart) * (1 + 0x1p-40) + size * 0x1p-40;
+        return length_of(dx, dy) <= (reach + own + other + apart) * (1 + 0x1p-40) + size * 0x1p-40;
     }
 
     const Scene& scene;
@@ -384,7 +387,7 @@ private:
             f.branch = static_cast<std::int8_t>(is_circle(f) && is_below_zero(of.rho(f)) ? 1 : -1);
             const Trig<Approx> form = of.tangency(pair, f, f.branch);
             const double most = form.a.m + form.b.m + form.c.m;
-            if (std::abs(std::abs(form.a.v) - std::hypot(form.b.v, form.c.v)) > 0x1p-30 * most) return;
+            if (std::abs(std::abs(form.a.v) - length_of(form.b.v, form.c.v)) > 0x1p-30 * most) return;
             if (std::abs(form.a.v) > 0x1p-40 * most) result.push_back(f);  // else they touch at every angle
         };
         for (Index j = 0; j < O.ring_vertices; ++j)
@@ -449,7 +452,7 @@ private:
         for (Index v = 0; v < s.ring_vertices; ++v) {
             if (s.layer[v] != s.layer[own] || !s.emit[v]) continue;
             const double sigma_near = s.radius_of(v).about.hi + radius_near;
-            if (may_be_one(std::hypot(s.x[v] - s.x[own], s.y[v] - s.y[own]), sigma_near < 0 ? size_near - sigma_near : sigma_near - size_near)) {
+            if (may_be_one(length_of(s.x[v] - s.x[own], s.y[v] - s.y[own]), sigma_near < 0 ? size_near - sigma_near : sigma_near - size_near)) {
                 const Int sigma = s.radius_of(v).exact + radius, between = sigma.sign() < 0 ? size - sigma : sigma - size;
                 const Vec<Int> d = difference<Int>(s, v, own);
                 const Feature circle = contact_circle_of(of_robot, v, at);
@@ -459,7 +462,7 @@ private:
             if (!s.makes_surfaces(v) || !other.convex[at]) continue;
             const Index start = s.v[v];
             const double ex = s.x[s.w[v]] - s.x[start], ey = s.y[s.w[v]] - s.y[start];
-            const double away = (ex * (s.y[own] - s.y[start]) - ey * (s.x[own] - s.x[start])) / std::hypot(ex, ey);
+            const double away = (ex * (s.y[own] - s.y[start]) - ey * (s.x[own] - s.x[start])) / length_of(ex, ey);
             if (!may_be_one(away, size_near - (s.radius_of(start).about.hi + radius_near))) continue;
             const Vec<Int> E = edge<Int>(s, v);
             const Int height = cross(E, difference<Int>(s, own, start)), wanted = size - (s.radius_of(start).exact + radius);

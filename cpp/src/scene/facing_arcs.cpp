@@ -45,7 +45,7 @@ Int size_of(const Ratio& t) {
 
 }  // namespace
 
-Facing::Facing(const std::vector<Rounding>& other) : discs{{0, 1}} {
+FacingArcs::FacingArcs(const std::vector<Rounding>& other) : discs{{0, 1}} {
     for (const Rounding& rounding : other) {
         discs.push_back(rounding.radius);
         for (const Arc& arc : rounding.arcs) {
@@ -62,7 +62,7 @@ Facing::Facing(const std::vector<Rounding>& other) : discs{{0, 1}} {
     for (auto* list : {&discs, &arcs, &hollows}) sort_once(*list);
 }
 
-std::vector<Quadrangle> quadrangles(const Arc& arc, const Ratio& grown, const Facing& other) {
+std::vector<Quadrangle> quadrangles(const Arc& arc, const Ratio& grown, const FacingArcs& other) {
     std::vector<Quadrangle> result;
     for (const bool is_for_arcs : {false, true})
         for (const Ratio& radius : is_for_arcs ? other.arcs : other.discs) {
@@ -77,7 +77,7 @@ std::vector<Quadrangle> quadrangles(const Arc& arc, const Ratio& grown, const Fa
 }
 
 // The far side is at least 7 / 10 as far from the centre as its ends.
-std::vector<Wedge> wedges(const Arc& arc, const Ratio& grown, const Facing& other) {
+std::vector<Wedge> wedges(const Arc& arc, const Ratio& grown, const FacingArcs& other) {
     std::vector<Wedge> result;
     for (const Ratio& hollow : other.hollows) {
         const Ratio room = hollow - grown - arc.radius;
@@ -89,7 +89,7 @@ std::vector<Wedge> wedges(const Arc& arc, const Ratio& grown, const Facing& othe
 }
 
 // Of the tangents of half an angle that are at most a step ahead, and at least most of it, that of the simplest point.
-std::vector<RatioPoint> probes(const Arc& arc, const Ratio& grown, const Facing& other) {
+std::vector<RatioPoint> probes(const Arc& arc, const Ratio& grown, const FacingArcs& other) {
     std::vector<RatioPoint> result;
     if (!other.has_concave() || other.hollows.back() <= grown + arc.radius) return result;
     const Vector from = arc.from - arc.centre, across{-from.y, from.x};

@@ -9,8 +9,8 @@
 namespace cfree {
 
 // Radii in one shape, for the arcs of the other one. All are in order, each once.
-struct Facing {
-    explicit Facing(const std::vector<Rounding>& other);
+struct FacingArcs {
+    explicit FacingArcs(const std::vector<Rounding>& other);
     bool has_concave() const { return !hollows.empty(); }
 
     std::vector<Ratio> discs;    // by which its parts are grown, and 0
@@ -27,21 +27,21 @@ struct Quadrangle {
     bool is_for_arcs;
     std::array<RatioPoint, 4> corners;
 };
-std::vector<Quadrangle> quadrangles(const Arc& arc, const Ratio& grown, const Facing& other);
+std::vector<Quadrangle> quadrangles(const Arc& arc, const Ratio& grown, const FacingArcs& other);
 
 // A triangle at a convex arc's centre, opposite of the arc: all directions of the arc, for places that a fillet can reach.
 struct Wedge {
     Ratio hollow;  // radius of the concave arcs for which it is meant
     std::array<RatioPoint, 3> corners;
 };
-std::vector<Wedge> wedges(const Arc& arc, const Ratio& grown, const Facing& other);
+std::vector<Wedge> wedges(const Arc& arc, const Ratio& grown, const FacingArcs& other);
 
 // Points of a convex arc between its ends: neighbours, and ends, are a step apart at most. None if no larger arc is concave.
-std::vector<RatioPoint> probes(const Arc& arc, const Ratio& grown, const Facing& other);
+std::vector<RatioPoint> probes(const Arc& arc, const Ratio& grown, const FacingArcs& other);
 
 // All of these points of a rounding's arcs.
 template <class Use>
-void for_each_point(const Rounding& rounding, const Facing& other, Use use) {
+void for_each_point(const Rounding& rounding, const FacingArcs& other, Use use) {
     const auto use_all = [&](const auto& figures) {
         for (const auto& figure : figures)
             for (const RatioPoint& p : figure.corners) use(p);

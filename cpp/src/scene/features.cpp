@@ -98,7 +98,7 @@ struct Builder {
     Index count() const { return static_cast<Index>(x.size()); }
 
     // Number the radii that occur, and those of the other shape times -1 where they meet fillets; before polygons are added.
-    void number_radii(const std::vector<Rounding>& all, const Facing& other) {
+    void number_radii(const std::vector<Rounding>& all, const FacingArcs& other) {
         bool has_fillets = false, has_arcs = false;
         for (const Rounding& rounding : all) {
             radii.push_back(scaled(rounding.radius, scale));
@@ -117,7 +117,7 @@ struct Builder {
         std::sort(radii.begin(), radii.end(), is_before);
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
     }
-    const Facing* facing = nullptr;  // radii of the other shape
+    const FacingArcs* facing = nullptr;  // radii of the other shape
     bool is_round() const { return radii.size() > 1; }
     const Int& radius(Index v) const { return radii[vertex_radius[v]]; }
     Index class_of(const Int& radius) const {
@@ -675,7 +675,7 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     if (shapes.workspace) include(shapes.workspace->denominator);
     for (const auto* all : {&shapes.robot_rounding, &shapes.obstacle_rounding})
         for (const Rounding& rounding : *all) for_each_number(rounding, [&](const Ratio& x) { include(x.d); });
-    const Facing of_obstacles(shapes.obstacle_rounding), of_robot(shapes.robot_rounding);
+    const FacingArcs of_obstacles(shapes.obstacle_rounding), of_robot(shapes.robot_rounding);
     for (const auto& [all, other] : {std::pair{&shapes.robot_rounding, &of_obstacles}, {&shapes.obstacle_rounding, &of_robot}})
         for (const Rounding& rounding : *all) for_each_point(rounding, *other, [&](const RatioPoint& p) { include(p.x.d), include(p.y.d); });
     std::vector<Int> bounds;
