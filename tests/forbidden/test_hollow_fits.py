@@ -155,6 +155,7 @@ def test_a_pin_that_leaves_a_disc_one_place_between_itself_and_the_hole() -> Non
     assert np.array([end[:2] for _, ends in found for end in ends]) == pytest.approx(np.tile([2, 0], (4, 1)))
 
 
+@pytest.mark.slow
 def test_bars_and_triangles_inscribed_in_a_round_hole_turn_in_it() -> None:
     hole = plate(round_hole(5))
     bar, triangle = grown(points((-4, 0), (4, 0)), 1), cfree.Polygon(points((5, 0), (-3, 4), (-3, -4)))
@@ -249,6 +250,7 @@ def test_a_rounded_square_in_a_hole_with_its_fillets_has_four_points(turn: Turn)
     assert sorted(t for *_, t in places(found)) == pytest.approx(sorted((theta + 90 * k) % 360 for k in range(4)))
 
 
+@pytest.mark.slow
 def test_smaller_fillets_leave_the_same_points_and_larger_ones_none() -> None:
     def fits(fillet: object) -> int:
         return len(found_in(Scene(square(), [plate(filleted(F(-3, 2), F(-3, 2), F(3, 2), F(3, 2), fillet))])))
@@ -277,6 +279,7 @@ def test_a_disc_in_a_bay_of_its_radius_has_room_below_it() -> None:
     assert not found_in(Scene(disc(1), [bay(0)]))
 
 
+@pytest.mark.slow
 def test_a_disc_in_a_deep_bay_is_between_walls_that_are_trapezoids() -> None:
     assert not found_in(Scene(disc(1), [bay(2)]))
 
@@ -336,6 +339,7 @@ def test_slices_and_pictures_have_them() -> None:
     assert len(isolated_at(boundary(FITS["disc"](F(0))), 1.0)) >= 1
 
 
+@pytest.mark.slow
 def test_threads_do_not_change_fits_in_concave_arcs() -> None:
     one, two = (boundary(FITS["square"](F(0)), threads=count).isolated for count in (1, 2))
     assert one == two
