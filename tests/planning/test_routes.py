@@ -152,20 +152,38 @@ def test_a_proof_in_a_scene_of_many_vertices_names_its_obstacles(monkeypatch: py
     assert cfree.verify.answer(scene, proof).verified
 
 
+# three feet stand on three walls: the robot leaves them by a slide
+FEET = [[(4, 8), (5, "7.5"), (5, "8.5")], [(4, 0), ("4.5", 1), ("3.5", 1)], [(0, 4), (-1, "3.5"), ("-0.5", 3)]]
+WALLS = [
+    [(-1, 6), (0, 6), (0, 10), (-1, 10)],
+    [(-2, -1), (2, -1), (2, 0), (-2, 0)],
+    [(-6, 6), (-2, 2), (-1, 3), (-5, 7)],
+]
+
+
+def touched(path: cfree.Path) -> set[int]:
+    """Obstacles that the first motion, a slide, keeps in contact."""
+    assert isinstance(path.motions[0], Slide)
+    return {touch.obstacle[0] for touch in path.motions[0].contacts}
+
+
 def test_slides_keep_the_numbers_of_their_obstacles(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Three feet stand on three walls: the robot leaves them by a slide."""
-    feet = [[(4, 8), (5, "7.5"), (5, "8.5")], [(4, 0), ("4.5", 1), ("3.5", 1)], [(0, 4), (-1, "3.5"), ("-0.5", 3)]]
-    walls = [
-        [(-1, 6), (0, 6), (0, 10), (-1, 10)],
-        [(-2, -1), (2, -1), (2, 0), (-2, 0)],
-        [(-6, 6), (-2, 2), (-1, 3), (-5, 7)],
-    ]
-    scene = cfree.Scene(feet, [[(500, 0), (501, 0), (500, 1)], *walls])
+    scene = cfree.Scene(FEET, [[(500, 0), (501, 0), (500, 1)], *WALLS])
     monkeypatch.setattr(planner_of_scenes, "LARGE", 0)
     path = cfree.plan(scene, (-4, 0, 0), (60, 60, 0), improve=0.0)
-    assert isinstance(path, cfree.Path) and isinstance(path.motions[0], Slide)
-    assert {touch.obstacle[0] for touch in path.motions[0].contacts} <= {1, 2, 3}
+    assert isinstance(path, cfree.Path) and touched(path) <= {1, 2, 3}
     assert cfree.verify.answer(scene, path).verified
+
+
+def test_slides_on_a_route_keep_the_numbers_of_their_obstacles() -> None:
+    far = [[(40 * i + x, 40 * j + y) for x, y in ((60, 0), (64, 0), (60, 4))] for i in range(5) for j in range(-2, 3)]
+    scene, start = cfree.Scene(FEET, [*far, *WALLS]), Pose(-4, 0)
+    ground = SceneGround(scene)
+    ground.atlas.rooms = divided(edges_of(scene.obstacles), ground.radius / 4, None, 9)
+    legs = Router(ground.atlas, start, Pose(240, 20), FIRST).legs(refused)
+    assert legs is not None and len(legs) > 2
+    path, numbers = joined(start, legs, ground)
+    assert {numbers[k] for k in touched(path)} <= {25, 26, 27}
 
 
 def test_ctrl_c_ends_all_threads() -> None:

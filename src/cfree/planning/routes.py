@@ -268,23 +268,35 @@ def _place(portal: Portal) -> tuple[float, float, float]:
 
 
 def improved(start: Pose, legs: Sequence[Leg], ground: Ground, options: Options) -> list[Leg]:
-    """Improve a path, some legs at a time: each among its own obstacles, and then its halves with those beside it.
+    """Improve a path, some legs at a time among their own obstacles: in groups, then across their ends, then in pairs.
 
     Ctrl-C ends it without a result, or with a result if there is a limit of time.
     """
+    done, rounds = list(legs), (_in_groups, _across, _in_pairs)
     if options.improve == 0:
-        return list(legs)
+        return done
     count = -(-len(legs) // WINDOW)
-    share = options.improve and options.improve * (os.cpu_count() or 1) / (2 * count)
-    own = replace(options, improve=share)
-    whole = [legs[k : k + WINDOW] for k in range(0, len(legs), WINDOW)]
+    share = options.improve and options.improve * (os.cpu_count() or 1) / (len(rounds) * count)
     with options.phase("shorter paths"):
-        once, is_over = _improved(start, whole, ground, own, options)
-        if is_over:
-            return once
-        halves = [half for leg in once for half in _halves(leg)]
-        pairs = [halves[:1], *(halves[k : k + 2] for k in range(1, len(halves), 2))]
-        return _improved(start, pairs, ground, own, options)[0]
+        for group in rounds:
+            done, is_over = _improved(start, group(done), ground, replace(options, improve=share), options)
+            if is_over:
+                break
+    return done
+
+
+def _in_groups(legs: Sequence[Leg]) -> list[Sequence[Leg]]:
+    return [legs[k : k + WINDOW] for k in range(0, len(legs), WINDOW)]
+
+
+def _in_pairs(legs: Sequence[Leg]) -> list[Sequence[Leg]]:
+    return [legs[k : k + 2] for k in range(0, len(legs), 2)]
+
+
+def _across(legs: Sequence[Leg]) -> list[Sequence[Leg]]:
+    """Second half of each leg with the first of the next."""
+    halves = [half for leg in legs for half in _halves(leg)]
+    return [halves[:1], *_in_pairs(halves[1:])]
 
 
 def _halves(leg: Leg) -> tuple[Leg, Leg]:
