@@ -184,7 +184,7 @@ def extreme(r: HollowDraw) -> Scene:
     """Two discs of the robot, one or both in larger holes, as far apart as these or a wall allow, or almost."""
     apart, own, second = r.randint(3, 7), r.parts(1, 3, 2), r.parts(1, 3, 2)
     room, more = r.parts(1, 3, 2), r.choice([F(0), F(0), F(1)])
-    (c, s), hair = r.choice(TURNS), r.choice([F(0), F(0), F(0), F(1, 2**20), -F(1, 2**20), F(1, 2)])
+    (c, s), hair = r.choice(TURNS), r.choice([F(0), F(0), F(0), F(1, 2**16), -F(1, 2**16), F(1, 2)])
     far = apart + r.choice([1, 1, -1]) * (room + more) + hair
     far = max(far, room + more + own + second + F(1, 2))
     robot = [r.moving(points((0, 0)), own), r.moving(points((apart, 0)), second)]

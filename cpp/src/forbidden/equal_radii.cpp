@@ -131,8 +131,8 @@ public:
         std::vector<OpenCover> result;
         for (Index k = 0; k < O.pieces(); ++k)
             for (Index p = 0; p < A.pieces(); ++p) {
-                if (A.piece_layer[p] != O.piece_layer[k] || !is_near(pair, &A.piece_vertex[A.piece[p]], A.piece[p + 1] - A.piece[p], &O.piece_vertex[O.piece[k]], O.piece[k + 1] - O.piece[k]))
-                    continue;
+                const Index *a = &A.piece_vertex[A.piece[p]], *b = &O.piece_vertex[O.piece[k]];
+                if (A.piece_layer[p] != O.piece_layer[k] || !is_near(pair, a, A.piece[p + 1] - A.piece[p], b, O.piece[k + 1] - O.piece[k])) continue;
                 const OpenPillar pillar(scene, p, k);
                 if (!pillar.is_empty()) result.push_back({pillar.surfaces(), [pillar](RoundJunction& at, const RoundSpot& place) { return pillar.has(at, place); }});
             }
