@@ -70,6 +70,14 @@ def test_random_scenes_agree_with_exact_tests_of_poses_and_with_exchanged_sides(
 
 
 @pytest.mark.slow
+def test_a_corner_of_another_obstacle_may_be_at_the_end_of_a_concave_arc() -> None:
+    """A corner of the hook is at the lowest place of the hole, where the hole's arc is cut."""
+    drop = shape(DROP, 0, -2, Fraction(1, 2))
+    found = boundary(Scene(drop, [shape(HOOK, -2, 1, 2), plate(-2, 0)]))
+    assert np.all(found.complex.euler % 2 == 0)
+
+
+@pytest.mark.slow
 def test_curvature_of_closed_surfaces_of_facing_arcs_adds_up() -> None:
     for made in (Scene(shape(HALF, by=Fraction(1, 2)), [shape(BAY)]), Scene([shape(HOOK)], [shape(DROP)])):
         found = boundary(made)

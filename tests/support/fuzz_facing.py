@@ -13,7 +13,7 @@ import time
 import traceback
 from collections import Counter
 
-from cfree import CfreeError
+from cfree import UnsupportedError
 from facing_arcs import FAMILIES, faults, scene
 
 
@@ -35,7 +35,7 @@ def main() -> int:
         start = time.perf_counter()
         try:
             found = list(faults(scene(family, seed), random.Random(seed), is_compared=not args.poses))
-        except CfreeError as error:
+        except UnsupportedError as error:
             counts[f"{family}: refused"] += 1
             print(f"{family} {seed}: refused: {error}", flush=True)
             continue

@@ -15,6 +15,7 @@ from flint import arb
 
 import cfree
 import cfree.verify
+import facing_arcs
 from arc_rings import BRACKET, CONCAVE, RINGS, plate, random_arcs, random_concave, shape
 from cfree import Curved, Polygon, Scene, boundary
 from cfree.curves import Arc
@@ -26,6 +27,7 @@ from cfree.verify.result import MEASURED, PROVED, SAMPLED, SKIPPED
 from cfree.verify.round_algebra import Turn, precision
 from cfree.verify.round_boundary import _Covering
 from cfree.verify.round_world import RoundWorld, _has_fillets_inside
+from facing_arcs import FAMILIES
 from rounded_scenes import MIXED, ONE_RADIUS, SCENES, SQUARE, TRIANGLE, disc, grown, random_scene
 from rounded_ties import SCENES as TIES
 from rounded_ties import scene_of
@@ -79,6 +81,29 @@ def test_poses_are_covered_among_concave_arcs_where_exact_tests_forbid_them(seed
             found = covering.covers_place(place, Turn.of(0, arb(tau) / 64), arb(2) ** -40)
             covered += found
             assert found != cfree.is_free(scene, pose), pose
+    assert covered
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", FAMILIES)
+def test_poses_are_covered_among_facing_arcs_where_exact_tests_forbid_them(family: str) -> None:
+    """Convex pieces, and pairs of a fillet and a vertex or an arc, at rational poses around contacts."""
+    made, rng = facing_arcs.scene(family, 7), random.Random(7)
+    cores = rounded_shapes(made)
+    assert cores is not None
+    covered = 0
+    with precision(200):
+        world = RoundWorld(made, cores)
+        assert world.arc_fillet_pairs
+        covering = _Covering(world)
+        for pose in facing_arcs.poses(made, boundary(made), rng):
+            x, y, tau = (Fraction(round((c or 0) * 2**24), 2**24) for c in (pose.x, pose.y, pose.tau))
+            pose = pose_at(x, y, tau)
+            place = arb(x.numerator) / x.denominator, arb(y.numerator) / y.denominator
+            turn = Turn.of(0, arb(tau.numerator) / tau.denominator)
+            found = covering.covers_place(place, turn, arb(2) ** -60)
+            covered += found
+            assert found != cfree.is_free(made, pose), pose
     assert covered
 
 

@@ -125,8 +125,8 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
 }
 
 // The vertices that matter are convex ones, ends of concave arcs and points of convex arcs: those of the shape without its fillets.
-// A fillet and a vertex cover nothing of their own circle, and none of that of an end of one of the two arcs, where the vertex is an
-// arc; nor of the circle of an arc of which the vertex is a point.
+// A fillet and a vertex cover nothing of their own circle, nor of that of an arc of which the vertex is a point. Two arcs cover
+// nothing of the circle of one of them and what follows the other one on its rim.
 std::vector<PatchTrimming::NearFillet> PatchTrimming::fillets_near(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     std::vector<NearFillet> result;
@@ -164,6 +164,9 @@ std::vector<PatchTrimming::NearFillet> PatchTrimming::fillets_near(const Feature
         };
         const auto is_zero = [&](Index v, Index w) { return (own.radius_of(v).exact + other.radius_of(w).exact).is_zero(); };
         const auto touches = [](const Shape& s, Index arc, Index end) { return s.stub_between(arc, end) >= 0; };
+        const auto follows = [&](const Shape& s, Index arc, Index v) {  // in the joint at its end, on one rim
+            return touches(s, arc, v) && (s.previous[v] == arc || s.previous[arc] == v);
+        };
         for (const Shape::Fillet& fillet : own.fillets) {
             const bool is_own = is_circle(contact) && is_at(own, own_vertex, fillet.arc);
             if (!fillet.is_for_arcs) {
@@ -176,8 +179,8 @@ std::vector<PatchTrimming::NearFillet> PatchTrimming::fillets_near(const Feature
             for (const Shape::Wedge& directions : other.wedges) {
                 const Index v = directions.arc;
                 if (!is_zero(fillet.vertex[0], v) || !is_zero(fillet.arc, directions.vertex[0])) continue;
-                if (is_own && (is_at(other, other_vertex, v) || touches(other, v, other_vertex))) continue;
-                if (is_circle(contact) && is_at(other, other_vertex, v) && touches(own, fillet.arc, own_vertex)) continue;
+                if (is_own && (is_at(other, other_vertex, v) || follows(other, v, other_vertex))) continue;
+                if (is_circle(contact) && is_at(other, other_vertex, v) && follows(own, fillet.arc, own_vertex)) continue;
                 add(fillet, v, &directions);
             }
         }

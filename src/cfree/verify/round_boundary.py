@@ -183,7 +183,7 @@ def _middle(piece: Piece, turn: Turn) -> tuple[arb, arb]:
         return x, y
     p = arb(s.b[0]) - turn.cos * arb(s.a[0]) + turn.sin * arb(s.a[1])
     q = arb(s.b[1]) - turn.sin * arb(s.a[0]) - turn.cos * arb(s.a[1])
-    far = abs(arb(s.radius)) / ((x - p) ** 2 + (y - q) ** 2).sqrt()
+    far = abs(arb(s.radius)) / ((x - p) * (x - p) + (y - q) * (y - q)).sqrt()  # no powers of balls around 0
     return p + far * (x - p), q + far * (y - q)
 
 

@@ -77,5 +77,5 @@ def _crossing(piece: Piece, turn: Turn, height: arb, on: tuple[Ball, Ball]) -> B
         return on[0] + (height - on[1]) * u / v
     x = arb(s.b[0]) - turn.cos * arb(s.a[0]) + turn.sin * arb(s.a[1])
     y = arb(s.b[1]) - turn.sin * arb(s.a[0]) - turn.cos * arb(s.a[1])
-    half = (arb(s.radius) ** 2 - (height - y) ** 2).sqrt()
+    half = (arb(s.radius) ** 2 - (height - y) * (height - y)).sqrt()  # no power of a ball around 0
     return x + half if (piece.quadrant in (0, 3)) == (s.radius > 0) else x - half

@@ -248,13 +248,10 @@ class FilletPair:
             x, y = turn.cos * x - turn.sin * y + place[0], turn.sin * x + turn.cos * y + place[1]
         points = [(_ball(p), _ball(q)) for p, q in self.fillet.points]
         (p, q), room = points[0], _ball(self.fillet.room(self.radius))
-        if not ((x - p) ** 2 + (y - q) ** 2).sqrt() > room + near:
+        if not _length(x - p, y - q) > room + near:
             return False
         sides = zip(points, points[1:] + points[:1], strict=True)
-        return all(
-            (c - a) * (y - b) - (d - b) * (x - a) > near * ((c - a) ** 2 + (d - b) ** 2).sqrt()
-            for (a, b), (c, d) in sides
-        )
+        return all((c - a) * (y - b) - (d - b) * (x - a) > near * _length(c - a, d - b) for (a, b), (c, d) in sides)
 
 
 @dataclass(frozen=True)
@@ -291,7 +288,7 @@ class ArcFilletPair:
         points = [(_ball(p), _ball(q)) for p, q in self.fillet.points]
         away = x - points[0][0], y - points[0][1]
         distance, room, radius = (
-            (away[0] ** 2 + away[1] ** 2).sqrt(),
+            _length(*away),
             _ball(self.fillet.room(self.radius)),
             _ball(self.radius + self.fillet.grown),
         )
@@ -302,10 +299,12 @@ class ArcFilletPair:
             return False
         x, y = x + radius * away[0] / distance, y + radius * away[1] / distance  # the place farthest from the center
         sides = zip(points, points[1:] + points[:1], strict=True)
-        return all(
-            (c - a) * (y - b) - (d - b) * (x - a) > near * ((c - a) ** 2 + (d - b) ** 2).sqrt()
-            for (a, b), (c, d) in sides
-        )
+        return all((c - a) * (y - b) - (d - b) * (x - a) > near * _length(c - a, d - b) for (a, b), (c, d) in sides)
+
+
+def _length(x: Ball, y: Ball) -> arb:
+    """Return the length of a vector; the power of a ball around 0 would be no number."""
+    return (x * x + y * y).sqrt()
 
 
 def _fillets_of(shape: Rounded) -> Iterator[Fillet]:
