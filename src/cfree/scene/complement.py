@@ -24,7 +24,7 @@ def complement(scene: Scene) -> tuple[AnyShape, ...]:
     >>> room = Scene([(0, 0), (1, 0), (0, 1)], workspace=Curved.circle((0, 0), 3))
     >>> frame, = complement(room)
     >>> [float(c) for c in frame.box]
-    [-8.0, -8.0, 8.0, 8.0]
+    [-7.0, -7.0, 7.0, 7.0]
     """
     from cfree.scene.scene import box_of, robot_radius
 

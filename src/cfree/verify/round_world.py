@@ -304,7 +304,8 @@ class ArcFilletPair:
 
 def _length(x: Ball, y: Ball) -> arb:
     """Return the length of a vector; the power of a ball around 0 would be no number."""
-    return (x * x + y * y).sqrt()
+    length: arb = (x * x + y * y).sqrt()
+    return length
 
 
 def _fillets_of(shape: Rounded) -> Iterator[Fillet]:
