@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 FINEST_CUTS = 5  # of a quarter circle in halves, for chords that meet no other side
 RadiiByPlace = Mapping[ExactPoint, set[Fraction]]
 FINEST_FILLETS = 8  # the same where some are concave
-WIDENINGS = Fraction(1, 4), Fraction(1, 64)  # how far points are beyond the tangents of concave arcs
+WIDENINGS = [Fraction(1, 2**k) for k in range(2, 7)]  # how far points are beyond the tangents of concave arcs
 
 
 @dataclass(frozen=True, slots=True)
