@@ -107,10 +107,10 @@ def _draw_slice(cut: Slice, ax: Axes) -> None:
     from matplotlib.patches import PathPatch
 
     boundary = cut.boundary
-    workspace = smooth(boundary.scene).workspace
-    inside = cut.forbidden if workspace is None else cut.forbidden.intersection(workspace.to_shapely())
+    shown = smooth(boundary.scene)
+    inside = cut.forbidden if shown.workspace is None else cut.forbidden.intersection(shown.workspace.to_shapely())
     region = path_of(rings_of_geometry(inside))
-    draw_surroundings(ax, smooth(boundary.scene), frame=False)
+    draw_surroundings(ax, shown, frame=False)
     ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", zorder=0.6, label="forbidden"))
     kinds = boundary.patch_kind[cut.patches]
     width = min(1.2, max(0.3, math.sqrt(2000 / max(1, len(kinds)))))

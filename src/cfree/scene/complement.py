@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from cfree.curves.curved import Curved
 from cfree.curves.pieces import power_of_two
+from cfree.value import kept
 
 if TYPE_CHECKING:
     from cfree.scene.scene import AnyShape, Scene
@@ -26,11 +27,14 @@ def complement(scene: Scene) -> tuple[AnyShape, ...]:
     >>> [float(c) for c in frame.box]
     [-7.0, -7.0, 7.0, 7.0]
     """
+    return kept(scene, _complement) if isinstance(scene.workspace, Curved) else ()
+
+
+def _complement(scene: Scene) -> tuple[AnyShape, ...]:
     from cfree.scene.scene import box_of, robot_radius
 
     workspace = scene.workspace
-    if not isinstance(workspace, Curved):
-        return ()
+    assert isinstance(workspace, Curved)
     boxes = [box_of(workspace), *map(box_of, scene.obstacles), *([scene.bounds] if scene.bounds else [])]
     low = [Fraction(min(box[k] for box in boxes)) for k in (0, 1)]
     high = [Fraction(max(box[k] for box in boxes)) for k in (2, 3)]

@@ -217,8 +217,7 @@ def _grown(scene: Scene) -> SceneFeatures:
 def features_of_cores(cores: Cores, scene: Scene, bounds: Bounds | None) -> SceneFeatures:
     """Number the features of grown cores in the workspace of a scene, and in bounds."""
     robot, obstacles = ([shape.handle for shape in shapes] for shapes in (cores.robot, cores.obstacles))
-    straight = None if cores.frames else scene.workspace
-    _, _, workspace, limits = core_shapes((), (), straight, bounds)
+    _, _, workspace, limits = core_shapes((), (), cores.straight(scene.workspace), bounds)
     rounding = [shape.rounding for shape in (*cores.robot, *cores.obstacles)]
     features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, limits, None, rounding, cores.frames))
     refuse_too_many(features)

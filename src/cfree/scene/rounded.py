@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise, product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import cfree._core as _core
 from cfree.curves.curved import Curved
@@ -129,6 +129,10 @@ class Cores:
     def has_concave(self) -> bool:
         """True if a side of a core is a concave arc."""
         return any(shape.has_concave for shape in (*self.robot, *self.obstacles))
+
+    def straight(self, workspace: AnyShape | None) -> Polygon | None:
+        """Return the scene's workspace if it is a polygon; a round one is among the obstacles."""
+        return None if self.frames else cast("Polygon | None", workspace)
 
     @property
     def fills_channel(self) -> bool:

@@ -56,7 +56,7 @@ def surface_of(proof: Separated, cores: Cores, scene: Scene) -> RoundSeparation 
         proof.start,
         proof.goal,
         proof.bounds,
-        None if cores.frames else scene.workspace,
+        cores.straight(scene.workspace),
         cores.frames,
     )
 

@@ -99,7 +99,7 @@ def _as_pieces(stored: Boundary, cores: Cores) -> RoundSeparation:
         ANYWHERE,
         ANYWHERE,
         scene.bounds,
-        None if cores.frames else scene.workspace,
+        cores.straight(scene.workspace),
         cores.frames,
     )
 

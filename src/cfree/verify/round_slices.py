@@ -195,13 +195,41 @@ class ArcPillar:
 
 
 @dataclass(frozen=True)
-class FilletPillar:
-    """The positions that a fillet and a vertex of the other shape forbid: a quadrangle less a disc; see `Pillar`."""
+class HollowPillar:
+    """Positions that a fillet forbids: outside of a circle. See `Pillar`."""
 
-    corners: Complexes  # the first is the circle's center
+    corners: Complexes  # of a quadrangle, the first is the circle's center
     reach: float
     robot: complex
     obstacle: complex
+
+    @property
+    def centers(self) -> Complexes:
+        return self.corners[:1]
+
+    @property
+    def radii(self) -> Floats:
+        return np.array([self.reach])
+
+    @property
+    def sides(self) -> Complexes:
+        """Directions of the quadrangle's sides."""
+        along = np.roll(self.corners, -1) - self.corners
+        return np.asarray(along / np.abs(along))
+
+    def depth(self, points: Complexes) -> Floats:
+        """Distance of points from the nearest line of a side, negative outside of the quadrangle."""
+        heights = ((points[None] - self.corners[:, None]) * self.sides[:, None].conj()).imag
+        return np.asarray(heights.min(axis=0))
+
+    def has(self, contact: Contact, near: float) -> bool:
+        """True if the contact is that of the fillet's arc and the other shape's vertex, or its arc."""
+        return _has(np.array([self.robot]), np.array([self.obstacle]), contact, near)
+
+
+@dataclass(frozen=True)
+class FilletPillar(HollowPillar):
+    """The positions that a fillet and a vertex of the other shape forbid: a quadrangle less a disc."""
 
     @classmethod
     def of(cls, pair: FilletPair, turned: complex) -> FilletPillar:
@@ -212,17 +240,8 @@ class FilletPillar:
         return cls(corners - turned * vertex, reach, turned * vertex, complex(corners[0]))
 
     @property
-    def centers(self) -> Complexes:
-        return self.corners[:1]
-
-    @property
-    def radii(self) -> Floats:
-        return np.array([self.reach])
-
-    @property
     def units(self) -> Complexes:
-        along = np.roll(self.corners, -1) - self.corners
-        return np.asarray(along / np.abs(along))
+        return self.sides
 
     @property
     def starts(self) -> Complexes:
@@ -230,27 +249,19 @@ class FilletPillar:
 
     def room(self, points: Complexes) -> Floats:
         """Numbers that are positive outside, negative inside, and at most a distance from the rim."""
-        heights = ((points[None] - self.starts[:, None]) * self.units[:, None].conj()).imag
-        return np.asarray(np.maximum(-heights.min(axis=0), self.reach - np.abs(points - self.corners[0])))
-
-    def has(self, contact: Contact, near: float) -> bool:
-        """True if the contact is that of the arc and the vertex."""
-        return _has(np.array([self.robot]), np.array([self.obstacle]), contact, near)
+        return np.asarray(np.maximum(-self.depth(points), self.reach - np.abs(points - self.corners[0])))
 
 
 @dataclass(frozen=True)
-class ArcFilletPillar:
-    """The positions at which an arc's place farthest from a fillet's center is in the fillet; see `Pillar`.
+class ArcFilletPillar(HollowPillar):
+    """The positions at which an arc's place farthest from a fillet's center is in the fillet.
 
-    The rest of the rim is inside of other pillars, and cuts nothing.
+    The quadrangle is that of the fillet, as if the arc's center were the place. The rest of the rim is inside of other
+    pillars, and cuts nothing.
     """
 
-    corners: Complexes  # of the quadrangle, the first is the circle's center; all as if the arc's center were the place
-    reach: float
     radius: float
     directions: tuple[complex, complex]  # of the arc, from the fillet's center to the place
-    robot: complex
-    obstacle: complex
     least: float  # a distance that decides
 
     @classmethod
@@ -261,17 +272,9 @@ class ArcFilletPillar:
         if pair.is_of_robot:
             moved = center - turned * corners
             own = turned * complex(corners[0]), center
-            return cls(moved, reach, radius, (-first, -last), *own, 2 * SURE * size)
+            return cls(moved, reach, *own, radius, (-first, -last), 2 * SURE * size)
         own = turned * center, complex(corners[0])
-        return cls(corners - own[0], reach, radius, (turned * first, turned * last), *own, 2 * SURE * size)
-
-    @property
-    def centers(self) -> Complexes:
-        return self.corners[:1]
-
-    @property
-    def radii(self) -> Floats:
-        return np.array([self.reach])
+        return cls(corners - own[0], reach, *own, radius, (turned * first, turned * last), 2 * SURE * size)
 
     @property
     def units(self) -> Complexes:
@@ -285,15 +288,8 @@ class ArcFilletPillar:
         distance = np.abs(away)
         first, last = ((d.conjugate() * away).imag for d in self.directions)
         farthest = points + self.radius * away / np.where(distance > 0, distance, 1)
-        sides = np.roll(self.corners, -1) - self.corners
-        sides = sides / np.abs(sides)
-        heights = ((farthest[None] - self.corners[:, None]) * sides[:, None].conj()).imag
-        beyond = np.maximum(-heights.min(axis=0), np.maximum(-first, last))
+        beyond = np.maximum(-self.depth(farthest), np.maximum(-first, last))
         return np.asarray(np.maximum(np.minimum(beyond, self.least), self.reach - distance))
-
-    def has(self, contact: Contact, near: float) -> bool:
-        """True if the contact is that of the two arcs."""
-        return _has(np.array([self.robot]), np.array([self.obstacle]), contact, near)
 
 
 AnyPillar = Pillar | ArcPillar | FilletPillar | ArcFilletPillar

@@ -250,8 +250,7 @@ class FilletPair:
         (p, q), room = points[0], _ball(self.fillet.room(self.radius))
         if not _length(x - p, y - q) > room + near:
             return False
-        sides = zip(points, points[1:] + points[:1], strict=True)
-        return all((c - a) * (y - b) - (d - b) * (x - a) > near * _length(c - a, d - b) for (a, b), (c, d) in sides)
+        return _is_deep_in(points, (x, y), near)
 
 
 @dataclass(frozen=True)
@@ -298,8 +297,14 @@ class ArcFilletPair:
         if not (p * away[1] - q * away[0] > 0 and away[0] * w - away[1] * v > 0 and p * away[0] + q * away[1] > 0):
             return False
         x, y = x + radius * away[0] / distance, y + radius * away[1] / distance  # the place farthest from the center
-        sides = zip(points, points[1:] + points[:1], strict=True)
-        return all((c - a) * (y - b) - (d - b) * (x - a) > near * _length(c - a, d - b) for (a, b), (c, d) in sides)
+        return _is_deep_in(points, (x, y), near)
+
+
+def _is_deep_in(ring: list[tuple[arb, arb]], point: tuple[Ball, Ball], near: arb) -> bool:
+    """True if a point is in a convex ring, farther than `near` from the lines of its sides."""
+    x, y = point
+    sides = zip(ring, ring[1:] + ring[:1], strict=True)
+    return all((c - a) * (y - b) - (d - b) * (x - a) > near * _length(c - a, d - b) for (a, b), (c, d) in sides)
 
 
 def _length(x: Ball, y: Ball) -> arb:
