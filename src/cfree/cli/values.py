@@ -10,9 +10,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from cfree.words import counted
 
-LARGEST = 10**150
-"""Coordinates of scenes are not larger."""
-
 if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
     from cfree.exact.pose import Pose
@@ -85,7 +82,9 @@ def read_seconds(text: str) -> float:
 
 def require_near(text: str, *numbers: Fraction) -> None:
     """Raise a `ValueError` if a number is beyond the range of coordinates."""
-    if any(abs(number) > LARGEST for number in numbers):
+    from cfree.polygons.repair import FARTHEST
+
+    if any(abs(number) > FARTHEST for number in numbers):
         raise ValueError(f"{text} is beyond 1e150, the largest coordinate; give a smaller number")
 
 

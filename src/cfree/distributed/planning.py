@@ -22,7 +22,7 @@ from cfree.planning.atlas import LazyAtlas
 from cfree.planning.goals import refuse_far
 from cfree.planning.options import Options, to_seconds
 from cfree.planning.proof import Proof
-from cfree.planning.routes import Leg, Router, improved, is_distant, joined
+from cfree.planning.routes import Leg, is_distant, joined, legs_along
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Whole
 from cfree.scene.scene import Scene, vehicle_for
@@ -115,13 +115,13 @@ def plan_among(
     options = Options(to_seconds(improve), objective=objective, preferences=preferences or NONE, vehicle=driver)
     refuse_far(start, goal)
     way: Sequence[Pose] | None = None
-    legs = _legs(known, start, goal, options) if is_distant(start, goal, known.radius) else None
+    legs: list[Leg] | Separated | None = None
+    if is_distant(start, goal, known.radius):
+        legs = legs_along(known.atlas, start, goal, options, lambda: proof_at_ends(known, start, goal))
     if isinstance(legs, Separated):  # further obstacles do not change that
         return replace(legs, whole=known.whole)
     if legs is not None:
         ground = StoredGround(known.work)
-        if driver is None:
-            legs = improved(start, legs, ground, options)
         known.read |= {tile for leg in legs for tile in ground.tiles(leg.box)}
         path, numbers = joined(start, legs, ground)
         known.numbers = set(numbers)
@@ -130,9 +130,3 @@ def plan_among(
         known.add_around(path, MARGIN * known.radius)
         way = None if has_slides(path) else path.poses
     return replace(plan_around(known, start, goal, options, way), whole=known.whole)
-
-
-def _legs(known: Surroundings, start: Pose, goal: Pose, options: Options) -> list[Leg] | Separated | None:
-    """Legs along a route, or a proof; None without either, or if the goal is not far."""
-    router = Router(known.atlas, start, goal, replace(options, vehicle=None))
-    return router.legs(lambda: proof_at_ends(known, start, goal)) if router.is_far else None

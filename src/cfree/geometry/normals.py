@@ -22,6 +22,7 @@ from cfree.errors import UnsupportedError
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.kinds import PatchKind
+from cfree.geometry.arcs import arc_geometry
 from cfree.geometry.ruled import Floats, check_scale, read_ruled
 from cfree.value import Value
 
@@ -157,9 +158,7 @@ class _Sides:
 
     def _surfaces(self, h: Ints, *, near: bool = False) -> _Surfaces:
         """Return the surfaces of coedges, near the origin of the features if wanted."""
-        boundary, patch = self.boundary, self.patch[h]
-        rows = (boundary.ruled_near if near else boundary.ruled)[patch].reshape(-1, 8)
-        return _Surfaces(rows, boundary.patch_radius[patch], boundary.contact_kind[patch] >> 4)
+        return _Surfaces(self.boundary, self.patch[h], near=near)
 
     def _starts(self) -> tuple[Floats, Floats, Floats]:
         """Theta and t of the starts of coedges on the surface of their face; and their place, NaN inside a wall."""
@@ -187,18 +186,18 @@ class _Sides:
 
 
 class _Surfaces:
-    """Surfaces S(t, theta), one in each row: ruled, or of an arc on an arc of radius `rho` other than 0."""
+    """Surfaces S(t, theta) of patches: ruled, or of an arc on an arc of radius `rho` other than 0."""
 
-    def __init__(self, rows: Floats, rho: Floats, quadrant: Ints) -> None:
-        self.rows, self.rho = rows, rho
-        self.first = math.pi / 2 * (quadrant + (rho < 0))  # psi at t = 0
-        self.arcs = rho != 0
+    def __init__(self, boundary: Boundary, patch: NDArray[Any], *, near: bool) -> None:
+        self.patch, self.rho = patch, boundary.patch_radius[patch]
+        self.rows = (boundary.ruled_near if near else boundary.ruled)[patch].reshape(-1, 8)
+        self.first = math.pi / 2 * ((boundary.contact_kind[patch] >> 4) + (self.rho < 0))  # psi at t = 0
+        self.arcs = self.rho != 0
+        self._evaluate = boundary.evaluate_near if near else boundary.evaluate
 
     def place(self, t: Floats, theta: Floats) -> Floats:
         """Positions in the plane."""
-        p, q, a, g = (self.rows[:, k : k + 2] for k in (0, 2, 4, 6))
-        around = self.rho[:, None] * np.column_stack(_direction(self._psi(t)))
-        return np.asarray(p + t[:, None] * q - np.column_stack(_turned(a + t[:, None] * g, theta)) + around)
+        return self._evaluate(self.patch, t, theta)
 
     def parameter(self, place: Floats, theta: Floats) -> Floats:
         """Parameters t of positions."""
@@ -207,8 +206,9 @@ class _Surfaces:
         lines, arcs = ~self.arcs, self.arcs
         surface = read_ruled(self.rows[lines])
         t[lines] = (along[lines] * surface.ruling(theta[lines])).sum(axis=-1) / surface.L
-        x, y = (along[arcs] / self.rho[arcs, None] + np.column_stack(_direction(self.first[arcs]))).T
-        turn = np.remainder(np.arctan2(y, x) - self.first[arcs] + math.pi, math.tau) - math.pi
+        first = self.first[arcs]
+        x, y = (along[arcs] / self.rho[arcs, None]).T + np.stack([np.cos(first), np.sin(first)])
+        turn = np.remainder(np.arctan2(y, x) - first + math.pi, math.tau) - math.pi
         t[arcs] = np.tan(np.copysign(turn / 2, turn * self.rho[arcs]))
         return t
 
@@ -219,25 +219,11 @@ class _Surfaces:
         surface = read_ruled(self.rows[lines])
         u, (s, _) = surface.ruling(theta[lines]), surface.across_and_along(t[lines], theta[lines])
         normal[lines] = np.column_stack([w * u[:, 1], -w * u[:, 0], s]) / np.hypot(w, s)[:, None]
-        x, y = _direction(self._psi(t)[arcs])
-        ax, ay = _turned(self.rows[arcs, 4:6], theta[arcs])
-        s = ax * y - ay * x  # S_theta = -J R(theta) a has the part -s along u(psi)
-        normal[arcs] = np.column_stack([w * x, w * y, s]) / np.hypot(w, s)[:, None]
+        if arcs.any():
+            psi = self.first[arcs] + 2 * np.copysign(np.arctan(t[arcs]), t[arcs] * self.rho[arcs])
+            circular = np.column_stack([self.rows[arcs, 0:2], self.rows[arcs, 4:6], self.rho[arcs]])
+            normal[arcs] = arc_geometry(circular, psi, theta[arcs], angle_scale=w).normal
         return normal
-
-    def _psi(self, t: Floats) -> Floats:
-        """Angles of normals of arcs."""
-        return np.asarray(self.first + 2 * np.copysign(np.arctan(t), t * self.rho))
-
-
-def _direction(psi: Floats) -> tuple[Floats, Floats]:
-    return np.cos(psi), np.sin(psi)
-
-
-def _turned(vectors: Floats, theta: Floats) -> tuple[Floats, Floats]:
-    """R(theta) applied to vectors (n, 2)."""
-    c, s = _direction(theta)
-    return c * vectors[:, 0] - s * vectors[:, 1], s * vectors[:, 0] + c * vectors[:, 1]
 
 
 # --- edges ---

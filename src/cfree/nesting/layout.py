@@ -18,10 +18,10 @@ from cfree.exact.half_angle import Angle, read_angle
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.lazy import registered
 from cfree.polygons.polygon import Polygon
+from cfree.polygons.repair import FARTHEST
 from cfree.scene.scene import AnyShape, Scene, largest_of, shapes_in
 from cfree.words import counted
 
-LARGEST = 10**150  # coordinate
 ROUND_SHARE = 1000  # of a shape's size: error of the polygons that stand for round shapes
 
 
@@ -232,7 +232,7 @@ def shape_box(shape: AnyShape) -> tuple[Fraction, Fraction, Fraction, Fraction]:
 
 def require_range(shapes: Iterable[AnyShape], name: str) -> None:
     """Raise a `ValueError` if a coordinate of shapes is beyond the range of scenes."""
-    if any(abs(c) > LARGEST for shape in shapes for c in shape_box(shape)):
+    if any(abs(c) > FARTHEST for shape in shapes for c in shape_box(shape)):
         raise ValueError(f"{name}: a coordinate is larger than 1e150; scale it")
 
 

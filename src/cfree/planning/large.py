@@ -23,7 +23,7 @@ from cfree.planning.atlas import LazyAtlas
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rooms import Box, Floats, Ints, divided
-from cfree.planning.routes import Router, improved, is_distant, joined
+from cfree.planning.routes import is_distant, joined, legs_along
 from cfree.planning.separation import Separated
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius, with_bounds, with_obstacles
@@ -108,13 +108,10 @@ def path_around(ground: SceneGround, start: Pose, goal: Pose, options: Options) 
     way: Sequence[Pose] | None = None
     try:
         if is_distant(start, goal, ground.radius):
-            router = Router(ground.atlas, start, goal, replace(options, vehicle=None))
-            legs = router.legs(lambda: proof_at_ends(known, start, goal)) if router.is_far else None
+            legs = legs_along(ground.atlas, start, goal, options, lambda: proof_at_ends(known, start, goal))
             if isinstance(legs, Separated):
                 return None
             if legs is not None:
-                if options.vehicle is None:
-                    legs = improved(start, legs, ground, options)
                 path, numbers = joined(start, legs, ground)
                 if options.vehicle is None:
                     return replace(renumbered(path, numbers), scene=ground.scene)

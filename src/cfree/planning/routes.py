@@ -263,6 +263,17 @@ class Router:
         return renumbered(planner.path(way), step.obstacles.tolist()).motions
 
 
+def legs_along(
+    atlas: Atlas, start: Pose, goal: Pose, options: Options, prove: Callable[[], Separated | None]
+) -> list[Leg] | Separated | None:
+    """Legs of a route, improved if there is no vehicle, or a proof; None without either, or if the goal is near."""
+    router = Router(atlas, start, goal, replace(options, vehicle=None))
+    legs = router.legs(prove) if router.is_far else None
+    if not isinstance(legs, list) or options.vehicle is not None:
+        return legs
+    return improved(start, legs, atlas.ground, options)
+
+
 def _place(portal: Portal) -> tuple[float, float, float]:
     return portal.x, portal.y, float(THETAS[portal.turn])
 
