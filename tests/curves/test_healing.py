@@ -15,6 +15,7 @@ from cfree import Curved, Pose, Scene
 from cfree.curves import Arc, Bezier
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Span
+from cfree.exact.number import rational_root
 
 
 def tangent_joints(shape: Curved) -> tuple[int, int]:
@@ -30,6 +31,10 @@ def tangent_joints(shape: Curved) -> tuple[int, int]:
                     joints += 1
                     smooth += radius[0] * along[0] + radius[1] * along[1] == 0
     return joints, smooth
+
+
+def has_rational_radius(arc: Span) -> bool:
+    return rational_root(arc.u[0] ** 2 + arc.u[1] ** 2) is not None
 
 
 def rounded_polygon(points: list[tuple[float, float]], radius: float, digits: int) -> list[Any]:
@@ -137,7 +142,10 @@ def test_arcs_that_need_more_stay_and_others_are_healed() -> None:
     ]
     healed = Curved(path).healed(1e-6)
     assert tangent_joints(healed) == (4, 2)
-    assert healed.path[2].center == (4, 1) and healed.curves[0][3] == Curved(path).curves[0][3]  # type: ignore[union-attr,index]
+    assert healed.path[2].center == (4, 1)  # type: ignore[union-attr,index]
+    other, drawn = healed.curves[0][3], Curved(path).curves[0][3]
+    assert isinstance(other, Span) and isinstance(drawn, Span)
+    assert other.end == drawn.end and not has_rational_radius(drawn) and has_rational_radius(other)
 
 
 def test_what_is_not_nearly_tangent_stays() -> None:
@@ -242,3 +250,48 @@ def test_arcs_that_are_tangent_stay() -> None:
     """Two half discs side by side, and an S of two arcs: exactly tangent already."""
     path = [(0, 0), Arc((4, 0), center=(2, 0), clockwise=True), Arc((8, 0), center=(6, 0)), (8, -3), (0, -3)]
     assert Curved(path).healed(1e-3).path == Curved(path).path
+
+
+# --- arcs between corners ---
+
+
+def with_arcs(seed: int) -> Curved:
+    """A ring of lines and arcs through doubles, with a corner at each joint; convex and concave arcs, small and large."""
+    r = random.Random(seed)
+    while True:
+        count = r.randint(2, 6)
+        far = r.choice([0, 0, 1000])
+        points = [(1 + r.random()) * cmath.exp(math.tau * 1j * (k + 0.6 * r.random()) / count) for k in range(count)]
+        points = [complex(round(z.real, 4) + far, round(z.imag, 4)) for z in points]
+        path: list[Any] = [(points[0].real, points[0].imag)]
+        for p, q in zip(points, [*points[1:], points[0]], strict=True):
+            rise = r.choice([r.uniform(-0.2, 0.45), 0.9])
+            m = (p + q) / 2 - 1j * (abs(rise) if count == 2 else rise) * (q - p)
+            end = (q.real, q.imag)
+            path.append(Arc(end, through=(m.real, m.imag)) if count == 2 or r.random() < 0.6 else end)
+        try:
+            return Curved(path)
+        except cfree.CfreeError:
+            continue
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_arcs_between_corners_get_rational_radii_and_keep_their_ends(seed: int) -> None:
+    tolerance = 10.0 ** -random.Random(seed).randint(4, 12)
+    drawn = with_arcs(seed)
+    healed = drawn.healed(tolerance)
+    for before, after in zip(drawn.curves[0], healed.curves[0], strict=True):
+        if not isinstance(before, Span):
+            assert after == before
+            continue
+        assert isinstance(after, Span) and has_rational_radius(after)
+        assert after.end == before.end and after.at(0, Fraction(0)) == before.at(0, Fraction(0))
+        middles = [_middle(arc) for arc in (before, after)]
+        assert math.dist(*middles) <= tolerance + 1e-13 * max(map(abs, middles[0]))
+    assert healed.healed(tolerance) == healed
+
+
+def _middle(arc: Span) -> tuple[float, float]:
+    c, s = math.cos(arc.sweep / 2), math.sin(arc.sweep / 2)
+    x, y = (float(o) + c * float(p) + s * float(q) for o, p, q in zip(arc.center, arc.u, arc.v, strict=True))
+    return x, y

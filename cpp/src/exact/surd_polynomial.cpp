@@ -40,6 +40,20 @@ LongPoly norm(const SurdPoly& p) {
     return primitive(product.c[0]);
 }
 
+SurdPoly primitive(SurdPoly p) {
+    const auto is_there = [](const LongPoly& part) { return !part.is_zero(); };
+    if (!p.is_rational() && std::count_if(p.c.begin(), p.c.end(), is_there) == 1)  // the polynomial times one root
+        p = SurdPoly(*std::find_if(p.c.begin(), p.c.end(), is_there));
+    Int content = 0;
+    for (const LongPoly& part : p.c)
+        for (const Int& x : part)
+            if (content = gcd(content, x); content == 1) return p;
+    if (content > 1)
+        for (LongPoly& part : p.c)
+            for (int i = 0; i < part.size(); ++i) part[i] /= content;
+    return p;
+}
+
 int degree_of(const SurdPoly& p) {
     int most = 0;
     for (const LongPoly& part : p.c) most = std::max(most, part.degree());
@@ -103,8 +117,8 @@ static bool changes_sign(SurdPoly p, const Dyadic& tau) {
     return changes;
 }
 
-std::vector<SurdRoot> roots_between(const SurdPoly& p, const Dyadic& lo, const Dyadic& hi) {
-    const LongPoly all = squarefree(norm(p));
+std::vector<SurdRoot> roots_between(const NormedPoly& f, const Dyadic& lo, const Dyadic& hi) {
+    const auto& [p, all] = f;
     std::vector<SurdRoot> roots;
     for (const auto& [from, to] : isolate(all, lo, hi)) {
         LongRoot x{all, from, to};

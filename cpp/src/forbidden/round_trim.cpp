@@ -264,7 +264,7 @@ void RoundTrimmer::cover_by(Index p, Index k, const Slices& slices, const Slices
 // Sign at a sample; one that is zero there, and not at every angle, makes it critical.
 int RoundTrimmer::sign_of(const Feature& first, const Feature& second, const Sample& at) {
     const int sign = decide.event_sign(first, second, at);
-    is_critical |= sign == 0 && !is_zero(orders.exactly(first, second));
+    is_critical |= sign == 0 && !orders.exactly(first, second)->norm.empty();
     return sign;
 }
 
@@ -736,7 +736,7 @@ bool RoundTrimmer::crosses_at(const Band& band, Index event) {
         const int sign = decide.event_sign_on(first, {}, e.lo, e.hi);
         if (sign != 0) return sign;
         if (!root) root = decide.long_root_of(e);
-        return sign_at(orders.exactly(first, {}), *root);
+        return sign_at(orders.exactly(first, {})->p, *root);
     };
     // Sign of V x U, V the edge's vector around the pillar.
     const Feature& on = surface.contact;

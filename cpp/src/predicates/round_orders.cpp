@@ -222,6 +222,10 @@ bool RoundOrders::are_proportional(const Event& x, const Event& y) const {
         [](const Approx& v) { return std::abs(v.v) > 2 * round_error * v.m + tiny ? std::optional(1) : std::nullopt; });
     if (by_doubles) return *by_doubles;
     if (const auto by_balls = answer.template operator()<Ball>([](const Ball& v) { return certain_sign(v); })) return *by_balls;
+    const auto first = exactly(x.first, x.second), second = exactly(y.first, y.second);
+    const SurdPoly &p = first->p, &q = second->p;
+    if (p.roots == q.roots && (p.c == q.c || p.c == (-q).c)) return true;
+    if (p.is_rational() && q.is_rational()) return false;
     return *answer.template operator()<RootSum>([](const RootSum& v) { return std::optional(v.sign()); });
 }
 
@@ -277,8 +281,11 @@ RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {
 Coefficients<Ball> RoundOrders::in_balls(const Feature& first, const Feature& second) const {
     return event<Ball>(first, second, AsBallPoly{kappa});
 }
-SurdPoly RoundOrders::exactly(const Feature& first, const Feature& second) const {
-    return event<RootSum>(first, second, AsSurdPoly{kappa});
+std::shared_ptr<const NormedPoly> RoundOrders::exactly(const Feature& first, const Feature& second) const {
+    constexpr std::size_t most = 1024;
+    if (const auto known = forms.find({first, second}); known != forms.end()) return known->second;
+    if (forms.size() == most) forms.clear();
+    return forms[{first, second}] = std::make_shared<const NormedPoly>(event<RootSum>(first, second, AsSurdPoly{kappa}));
 }
 
 }  // namespace cfree

@@ -3,7 +3,11 @@
 // On a line the place of a curve is t, on a quadrant of a circle a coordinate of the unit vector u. Both are of the form
 // (a + b sqrt(d)) / c, with b = 0 for a joint, for the end of a quadrant and for a line on a line.
 #pragma once
+#include <memory>
+#include <unordered_map>
+
 #include "cfree/exact/radicals.hpp"
+#include "predicates/close_angles.hpp"
 #include "predicates/round_places.hpp"
 
 namespace cfree {
@@ -58,7 +62,7 @@ public:
     // Polynomial of an event's features, times a power of 1 + tau^2.
     RoundForm form(const Feature& first, const Feature& second) const;  // in doubles
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
-    SurdPoly exactly(const Feature& first, const Feature& second) const;
+    std::shared_ptr<const NormedPoly> exactly(const Feature& first, const Feature& second) const;
 
 private:
     // Angles at a sample, and around it if that is no double.
@@ -94,6 +98,10 @@ private:
     const Scene& scene;
     Surface surface;
     double kappa;
+    struct Hash {
+        std::size_t operator()(const std::array<Feature, 2>& pair) const { return spread(mixed(pair[0]) * 3 + mixed(pair[1])); }
+    };
+    mutable std::unordered_map<std::array<Feature, 2>, std::shared_ptr<const NormedPoly>, Hash> forms;  // ties ask for them again
     mutable std::array<Kept, 8> kept;
     mutable std::size_t next = 0;
 };

@@ -16,11 +16,11 @@ const RoundOrders& Predicates::round_orders() const {
 // Roots in the interval and a little beyond it, where certain signs in balls do not suffice.
 Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, const Feature& second, double lo, double hi) {
     Candidates result;
-    const SurdPoly p = round_orders().exactly(first, second);
-    result.all_zero = is_zero(p);
+    const auto form = round_orders().exactly(first, second);
+    result.all_zero = form->norm.empty();
     if (result.all_zero) return result;
     constexpr unsigned digits = 56;  // a few more than a double has
-    for (SurdRoot& root : roots_between(p, Dyadic::from(std::nextafter(lo, -2)), Dyadic::from(std::nextafter(hi, 2)))) {
+    for (SurdRoot& root : roots_between(*form, Dyadic::from(std::nextafter(lo, -2)), Dyadic::from(std::nextafter(hi, 2)))) {
         while (!root.at.is_dyadic() && root.at.digits() < digits) root.at.narrow();
         const double below = root.at.lo.rounded_down(), above = root.at.hi.rounded_up();
         Event x{first, second, below, above, static_cast<Index>(fine.size()), !root.changes_sign};
@@ -35,7 +35,7 @@ int Predicates::event_sign(const Feature& first, const Feature& second, const Sa
         if (const int sign = round_orders().form(first, second).sign(at.tau); sign != 0) return ++counters.filter, sign;
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(coefficients<Ball>(first, second), at.ball());
-        else return cfree::sign_at(round_orders().exactly(first, second), at.exact());
+        else return cfree::sign_at(round_orders().exactly(first, second)->p, at.exact());
     });
 }
 Predicates::Roots Predicates::event_roots(const Feature& first, const Feature& second, const Event& from, const Event& to) {
@@ -60,14 +60,14 @@ int Predicates::event_sign_on(const Feature& first, const Feature& second, doubl
 LongRoot Predicates::long_root_of(const Event& x) const {
     const Dyadic lo = x.fine >= 0 ? fine[x.fine][0] : Dyadic::from(x.lo), hi = x.fine >= 0 ? fine[x.fine][1] : Dyadic::from(x.hi);
     if (cfree::compare(lo, hi) == 0) return {LongPoly{-lo.n, Int(1) << lo.k}, lo, hi};
-    auto roots = roots_between(round_orders().exactly(x.first, x.second), lo, hi);
+    auto roots = roots_between(*round_orders().exactly(x.first, x.second), lo, hi);
     if (roots.size() != 1) throw std::logic_error("an angle is not the only root in its interval");
     return roots[0].at;
 }
 
 // All roots of an event's polynomial in its interval of doubles, ends included.
 std::vector<SurdRoot> Predicates::roots_around(const Event& x) const {
-    return roots_between(round_orders().exactly(x.first, x.second), Dyadic::from(std::nextafter(x.lo, -2)),
+    return roots_between(*round_orders().exactly(x.first, x.second), Dyadic::from(std::nextafter(x.lo, -2)),
                          Dyadic::from(std::nextafter(x.hi, 2)));
 }
 

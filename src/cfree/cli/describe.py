@@ -40,7 +40,8 @@ def describe(scene: Scene) -> dict[str, Any]:
         ``robot`` and ``obstacles`` hold counts; ``removed`` holds the points of the input that are no vertices.
         ``patches`` counts the contact patches before trimming, by kind, and the sides of the bounds. ``start`` and
         ``goal`` hold poses and True for free ones. ``round`` is the number of round shapes. ``exact`` of them are
-        exact in boundaries, and counted as their cores; others are counted as polygons around them.
+        exact in boundaries, and counted as their cores; others are counted as polygons around them. ``healing`` is the
+        option that makes more of them exact, if any.
 
     Examples
     --------
@@ -85,7 +86,8 @@ def _describe_curved(scene: Scene) -> dict[str, Any]:
     """Describe the cores of rounded shapes, and polygons around others, as the boundary takes them."""
     around = Approximations(scene).scene(outward=True)
     facts = describe(around) | {key: getattr(scene, key) for key in ("note", "source")}
-    taken, _ = as_exact(scene, None)
+    taken, notes = as_exact(scene, None)
+    facts["healing"] = notes[0].remedy if notes else ""
     facts["round"], facts["exact"] = round_count(shapes_of(scene)), round_count(shapes_of(taken))
     if (cores := rounded_shapes(taken)) is not None:
         own = cores.obstacles[: len(cores.obstacles) - cores.frames]

@@ -49,6 +49,7 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
         others = facts["round"] - facts["exact"]
         parts = [f"{facts['exact']:,} exact, counted as cores"] if facts["exact"] else []
         parts += [f"{others:,} counted as polygons around them"] if others else []
+        parts += [facts["healing"]] if facts["healing"] else []
         yield f"round      {counted(facts['round'], 'shape')}: {'; '.join(parts)}"
     if facts["bounds"]:
         x0, y0, x1, y1 = facts["bounds"]

@@ -16,8 +16,9 @@ from typing import Any
 from cfree.arguments import checked
 from cfree.curves.crossings import crossing
 from cfree.curves.healing import Change, healed_ring
-from cfree.curves.hulls import FINEST, Outline, polygon_of
+from cfree.curves.hulls import FINEST, Outline, is_short, polygon_of
 from cfree.curves.pieces import Box, Frame, box_of, drawn_of, hull_points, is_proved
+from cfree.curves.rational_radii import with_rational_radii
 from cfree.curves.rings import Circle, Ellipse, GivenRing, Piece, Point, Span, exact_ring, given_ring
 from cfree.errors import InvalidPolygonError, InvariantError, UndecidedError, UnsupportedError
 from cfree.exact.half_angle import Angle
@@ -193,7 +194,7 @@ class Curved(Shown):
 
     @checked
     def healed(self, tolerance: float | None = None) -> Curved:
-        """Return the shape with arcs exactly tangent to lines and arcs where they nearly are, as decimals leave them.
+        """Return the shape with arcs exactly tangent to lines and arcs where they nearly are, and with rational radii.
 
         Parameters
         ----------
@@ -204,7 +205,9 @@ class Curved(Shown):
         Notes
         -----
         Lines at such arcs get directions that are rational unit vectors; axis-parallel ones stay as they are. Radii
-        become simple numbers, but for two in a chain of arcs. Corners of more than 0.01 radians stay.
+        become simple numbers, but for two in a chain of arcs. Corners of more than 0.01 radians stay. An arc between
+        two of them keeps its ends, and gets a rational radius. So most shapes of lines and arcs become exact for
+        `cfree.boundary`.
 
         Examples
         --------
@@ -242,6 +245,9 @@ class Curved(Shown):
         if isinstance(first, Span) and x0 <= first.center[0] <= x1 and y0 <= first.center[1] <= y1:
             x, y = first.center
         scale, zero = Fraction(2) ** math.frexp(self.size)[1], Fraction(0)
+        if not is_short((x, y)):
+            step = scale / 1024
+            x, y = round(x / step) * step, round(y / step) * step
         return Frame((x, y), (scale, zero), (zero, scale))
 
     @property
@@ -272,9 +278,11 @@ def healed_with_changes(shape: Curved, tolerance: float) -> tuple[Curved, list[C
         return shape, []
     rings, changes = [], []
     for pieces, ring in zip(shape.curves, (shape.path, *shape.holes), strict=True):
-        healed, its = healed_ring(pieces, tolerance) or (ring, [])
-        rings.append(healed)
-        changes += its
+        for heal in (healed_ring, with_rational_radii):
+            ring, its = heal(pieces, tolerance) or (ring, [])
+            pieces = _pieces(ring)
+            changes += its
+        rings.append(ring)
     try:
         return (Curved(rings[0], rings[1:]), changes) if changes else (shape, [])
     except InvalidPolygonError:  # a tolerance as large as the shape

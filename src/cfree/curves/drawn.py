@@ -63,6 +63,11 @@ class Arc:
         return abs(c * c + d * d - square) <= ROUND * square and abs(a * c + b * d) <= ROUND * square
 
     @property
+    def is_clockwise(self) -> bool:
+        """True if it turns to the right."""
+        return (self.u[0] * self.v[1] < self.u[1] * self.v[0]) == (self.last > self.first)
+
+    @property
     def closed(self) -> bool:
         """True if it is a whole ellipse."""
         return abs(self.last - self.first) >= math.tau * (1 - 1e-12)

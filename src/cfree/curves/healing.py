@@ -208,7 +208,7 @@ def _chained(
             normals.append((-line[1][1], line[1][0]))
         elif 0 < k < len(spans) or is_closed:
             x, y = (p + q for p, q in zip(_leaving(spans[k - 1]), _entering(spans[k % len(spans)]), strict=True))
-            u, v = _unit_near(Fraction(x), Fraction(y), by)
+            u, v = unit_near(Fraction(x), Fraction(y), by)
             normals.append((-v, u))
         else:
             normals.append(None)
@@ -265,8 +265,8 @@ def _changes(
         start, end = ends.get(k - 1 if k else len(pieces) - 1, before), ends.get(k, after)
         moves = [_distance(start, before), _distance(end, after)]
         if k in centers and isinstance(piece, Span):
-            middle = _middle(piece.center, before, after, cross(piece.u, piece.v) > 0)
-            moves.append(math.dist(middle, _middle(centers[k], start, end, cross(piece.u, piece.v) > 0)))
+            middle = middle_of(piece.center, before, after, cross(piece.u, piece.v) > 0)
+            moves.append(math.dist(middle, middle_of(centers[k], start, end, cross(piece.u, piece.v) > 0)))
         if k in centers or any(moves):
             # doubles hide moves of less than a rounding; that of the center is about the same
             least = _distance(centers[k], piece.center) if k in centers and isinstance(piece, Span) else 0.0
@@ -278,7 +278,7 @@ def _is_new(arc: Piece, center: ExactPoint, end: ExactPoint) -> bool:
     return isinstance(arc, Span) and (center, end) != (arc.center, arc.end)
 
 
-def _middle(center: ExactPoint, start: ExactPoint, end: ExactPoint, left: bool) -> tuple[float, float]:
+def middle_of(center: ExactPoint, start: ExactPoint, end: ExactPoint, left: bool) -> tuple[float, float]:
     """Return the middle of an arc of about half a turn or less, relative to the origin, in doubles."""
     (x, y), (p, q) = _float(minus(start, center)), _float(minus(end, center))
     sign = 1.0 if left else -1.0
@@ -301,11 +301,14 @@ def _path(
         elif isinstance(arc, Line):
             path.append(end)
         else:
-            path += map(_segment, run)
+            path += map(segment_of, run)
     return tuple(path)
 
 
-def _segment(piece: Piece) -> Segment:
+def segment_of(piece: Piece) -> Segment:
+    """Return a piece as the segment of a path that begins at its start."""
+    if isinstance(piece, Line):
+        return piece.end
     if isinstance(piece, Cubic):
         return Bezier(piece.points[1:])
     assert isinstance(piece, Span)
@@ -377,10 +380,10 @@ def _line(piece: Piece, tolerance: float) -> tuple[ExactPoint, ExactPoint]:
         return piece.start, direction
     by = Fraction(tolerance) / Fraction(math.hypot(x, y)) / CHOICE_SHARE
     (p, q), (r, s) = piece.start, piece.end
-    return ((p + r) / 2, (q + s) / 2), _unit_near(x, y, by)
+    return ((p + r) / 2, (q + s) / 2), unit_near(x, y, by)
 
 
-def _unit_near(x: Fraction, y: Fraction, by: Fraction) -> ExactPoint:
+def unit_near(x: Fraction, y: Fraction, by: Fraction) -> ExactPoint:
     """Return a rational unit vector whose half angle is that of a vector, or nearly so."""
     quarters = 0
     while not (x > 0 and -x < y <= x):

@@ -5,7 +5,8 @@ of its end tangents. If the shape is to the left of a ring, the chain of hull ve
 polygon around it. The chain follows the tangents of a piece that turns left, and the chord of one that turns right.
 Pieces are halved until their hulls are flat. Vertices of this chain that are not ends of segments then move outwards,
 by far more than the error of doubles, and become short decimals. Ends of straight segments stay fixed, if the polygon
-then contains the shape.
+then contains the shape, and their numbers are short: else those of a whole scene would be over a denominator of
+thousands of digits.
 
                 T                the arc from P to Q turns left around the shape below it;
              .     .             around: P, T, Q     inside: P, Q
@@ -48,6 +49,7 @@ NOISE = 1e-14  # bound of the rounding of doubles, per size of the drawing
 Spend = Callable[[int], object]
 TRIES = 4  # each with an eighth of the error, if rings cross
 SMALLER = 8
+LONGEST = 1 << 64  # denominator of a vertex that stays where it is
 MOST = 1 << 12  # rings with more vertices are not tried with a smaller error
 
 
@@ -151,6 +153,11 @@ def _proved(ring: Ring, curve: Curve, error: float, within: bool, spend: Spend, 
     )
 
 
+def is_short(p: ExactPoint) -> bool:
+    """True if a point's denominators have at most as many bits as those of decimals and doubles."""
+    return max(x.denominator for x in p) <= LONGEST
+
+
 def box_of(rings: Sequence[Ring]) -> tuple[float, float, float, float]:
     """Box around the control points of rings."""
     points = [p for ring in rings for segment in ring for p in _control(segment)] or [(0.0, 0.0)]
@@ -209,12 +216,12 @@ def _around(ring: Ring, error: float, keep: bool, spend: Spend) -> list[ExactPoi
         before = ring[k - 1]
         if isinstance(segment, Line):
             stays = keep or isinstance(before, Line)
-            chain.append(_Vertex(ends(segment)[0], segment.start if stays else None))
+            chain.append(_Vertex(ends(segment)[0], segment.start if stays and is_short(segment.start) else None))
             continue
         start = ends(segment)[0]
         fixed = None
         if isinstance(before, Line):
-            fixed = before.end
+            fixed = before.end if is_short(before.end) else None
         elif len(ring) > 1 and not _smooth(before, segment):
             fixed = segment.tips[0] if segment.tips else point_of(*start)
         joint = isinstance(segment, Arc) and segment.closed

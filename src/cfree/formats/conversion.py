@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from cfree.arguments import checked
+from cfree.curves.curved import Curved, healed_with_changes
 from cfree.exact.number import Number
 from cfree.formats.drawings.source import CURVE_SHARE, SCENE_ALONE
 from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, save_scene
@@ -17,6 +18,9 @@ from cfree.scene.complement import complement
 from cfree.scene.reading import Note, together
 from cfree.scene.rounded import known_cores, rounded, rounded_shapes
 from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_polygons, with_reading
+
+COARSEST_HEALING, FINEST_HEALING = 1e-6, 1e-9  # of a shape's size: lengths proposed to heal it; shorter ones make long numbers
+
 
 
 @checked
@@ -143,7 +147,19 @@ def as_exact(scene: Scene, error: float | None, *, remedy: str = "") -> tuple[Sc
     errors = [*parts, *others, error if any(around) else None]
     result = with_polygons(scene, errors, outward=True)
     replaced = round_count(shapes_of(scene)) - round_count(shapes_of(result))
-    return result, (Note("near", "polygon around a round shape", "near", replaced, size=error, remedy=remedy),)
+    remedies = ", or ".join(filter(None, (_healing(scene), remedy)))
+    return result, (Note("near", "polygon around a round shape", "near", replaced, size=error, remedy=remedies),)
+
+
+def _healing(scene: Scene) -> str:
+    """Return the option that makes round shapes of a scene exact, with their number; empty if none does."""
+    lengths = []
+    for shape in shapes_of(scene):
+        if isinstance(shape, Curved) and rounded(shape) is None:
+            healed, changes = healed_with_changes(shape, COARSEST_HEALING * shape.size)
+            if changes and rounded(healed) is not None:
+                lengths.append(max(2 * max(change.size for change in changes), FINEST_HEALING * shape.size))
+    return f"--heal 1e{math.ceil(math.log10(max(lengths)))} makes {len(lengths)} exact" if lengths else ""
 
 
 def is_without_curves(target: Path) -> bool:

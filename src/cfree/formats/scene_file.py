@@ -41,7 +41,7 @@ from cfree.vehicles.vehicle import Vehicle
 _TEXTS = ("name", "note", "units", "source")
 _LEAST, _MOST = Fraction(1, 10**300), Fraction(10**300)
 """Range of tolerances in the file's unit, so that they are doubles."""
-_HEALED = "arc made exactly tangent"
+_HEALED = "arc made exact"
 EXPORTS = (".geojson", ".svg", ".dxf")
 _SETTINGS = (*_TEXTS, "bounds", "start", "goal", "goals", "vehicle", "check", "version")
 

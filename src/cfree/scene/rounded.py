@@ -417,6 +417,9 @@ def why_not_rounded(scene: Scene) -> str:
     shape = next(shape for other, shape in shapes if other == name)
     if isinstance(shape, Curved) and all(_sides(ring, is_hole=r > 0) for r, ring in enumerate(shape.curves)):
         return f"{name}: too thin beside an arc for a polygon that leaves out the arcs; {remedy}"
+    if isinstance(shape, Curved) and rounded(shape.healed()):
+        healing = f"heal it, on the command line by --heal LENGTH, in Python by Curved.healed()"
+        return f"{name}: an arc of irrational radius, as its numbers are rounded; {healing}; or {remedy}"
     return f"{name}: not bounded by lines and arcs of rational radii, without cusps; {remedy}"
 
 

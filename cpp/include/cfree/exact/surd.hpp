@@ -53,6 +53,7 @@ struct Surds {
     friend Surds operator-(const Surds& x, const Surds& y) { return x + -y; }
     friend Surds operator*(const Surds& x, const Surds& y) {
         if (x.is_rational() && y.is_rational()) return Surds(x.c[0] * y.c[0]);
+        if ((x.is_rational() && x.c[0].is_zero()) || (y.is_rational() && y.c[0].is_zero())) return Surds();
         const std::vector<Int> all = joined(x.roots, y.roots);
         const Surds p = x.over(all), q = y.over(all);
         Surds result(all, std::vector<C>(p.c.size(), C(0)));

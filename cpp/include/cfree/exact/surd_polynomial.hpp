@@ -18,6 +18,7 @@ SurdPoly surd_polynomial(std::span<const RootSum> coefficients);  // from the co
 SurdPoly derivative(const SurdPoly& p);
 bool is_zero(const SurdPoly& p);   // at every angle
 LongPoly norm(const SurdPoly& p);  // primitive; zero only if p is
+SurdPoly primitive(SurdPoly p);    // a positive multiple, without a common factor of its coefficients
 
 int sign_at(const SurdPoly& p, const Dyadic& tau);
 // By balls if they are certain, else by squaring; narrows the root's interval.
@@ -27,8 +28,14 @@ struct SurdRoot {
     LongRoot at;        // a root of the norm
     bool changes_sign;  // false: the polynomial only touches zero there
 };
+// A polynomial without a common factor of its coefficients, and its norm without multiple roots.
+struct NormedPoly {
+    SurdPoly p;
+    LongPoly norm;
+    NormedPoly(SurdPoly f) : p(primitive(std::move(f))), norm(squarefree(cfree::norm(p))) {}
+};
 // The roots strictly between two angles, in order; the polynomial is not zero.
-std::vector<SurdRoot> roots_between(const SurdPoly& p, const Dyadic& lo, const Dyadic& hi);
+std::vector<SurdRoot> roots_between(const NormedPoly& f, const Dyadic& lo, const Dyadic& hi);
 
 // Parts of the above, for values with more roots (`radicals.hpp`).
 int degree_of(const SurdPoly& p);
