@@ -256,7 +256,7 @@ def test_arcs_that_are_tangent_stay() -> None:
 
 
 def with_arcs(seed: int) -> Curved:
-    """A ring of lines and arcs through doubles, with a corner at each joint; convex and concave arcs, small and large."""
+    """A ring of lines and arcs through doubles with a corner at each joint, convex and concave, small and large."""
     r = random.Random(seed)
     while True:
         count = r.randint(2, 6)

@@ -141,9 +141,7 @@ def run(*words: object) -> Any:
 def test_the_commands_heal(dxf: Path, tmp_path: Path) -> None:
     ends = "--start", "0,0,0", "--goal", "7,0,0"
     result = run("plan", dxf, *ends, "--heal", "1e-7", "-o", tmp_path / "way.json")
-    assert (
-        result.exit_code == 0 and "mended    4 arcs of robot made exact within 3.99e-09 at" in result.output
-    )
+    assert result.exit_code == 0 and "mended    4 arcs of robot made exact within 3.99e-09 at" in result.output
     assert " translations        1\n" in result.output
     assert run("verify", dxf, tmp_path / "way.json", "--heal", "1e-7").exit_code == 0
     assert run("verify", dxf, tmp_path / "way.json").exit_code == 1, "another scene"

@@ -22,9 +22,9 @@ SIMPLEST = 1000  # largest denominator of a proportion that is taken for the dra
 def curved_of(outline: Outline) -> Curved:
     """Return the exact round shape of an outline whose curves are in doubles.
 
-    Ends of lines stay exact. An arc of a circle that could be drawn with a rational center and radius has them: quarters
-    and halves of circles, and arcs with other simple proportions. Another one goes through the drawn point in its
-    middle. All moves are within the rounding of doubles.
+    Ends of lines stay exact. An arc of a circle that could be drawn with a rational center and radius has them:
+    quarters and halves of circles, and arcs with other simple proportions. Another one goes through the drawn point in
+    its middle. All moves are within the rounding of doubles.
 
     Raises
     ------

@@ -15,6 +15,7 @@ from cfree.curves import drawn
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Cubic, Piece, Span
 from cfree.exact.number import ExactPoint, rational_root
+from cfree.exact.vectors import minus
 from cfree.polygons.polygon import Polygon
 
 Curve = Sequence[Piece]
@@ -125,6 +126,29 @@ def quarters_of(span: Span) -> Iterator[tuple[ExactPoint, ExactPoint, ExactPoint
         if rest:
             yield span.center, u, v, rest
         u, v = v, (-u[0], -u[1])
+
+
+def start_of(piece: Piece) -> ExactPoint:
+    """Return the first point of a piece."""
+    match piece:
+        case Line(start, _):
+            return start
+        case Cubic(points):
+            return points[0]
+    return piece.at(0, Fraction(0))
+
+
+def direction_of(piece: Piece, *, at_end: bool) -> ExactPoint:
+    """Return a vector along a line, a circular arc or a cubic at its start, or at its end."""
+    match piece:
+        case Line(start, end):
+            return minus(end, start)
+        case Cubic(points):
+            ordered = points[::-1] if at_end else points
+            x, y = next((v for q in ordered[1:] if any(v := minus(q, ordered[0]))), (Fraction(0), Fraction(0)))
+            return (-x, -y) if at_end else (x, y)
+    x, y = minus(piece.end if at_end else start_of(piece), piece.center)
+    return -piece.sense * y, piece.sense * x
 
 
 def box_of(curve: Curve) -> Box:

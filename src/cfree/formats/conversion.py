@@ -19,8 +19,8 @@ from cfree.scene.reading import Note, together
 from cfree.scene.rounded import known_cores, rounded, rounded_shapes
 from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_polygons, with_reading
 
-COARSEST_HEALING, FINEST_HEALING = 1e-6, 1e-9  # of a shape's size: lengths proposed to heal it; shorter ones make long numbers
-
+COARSEST_HEALING, FINEST_HEALING = 1e-6, 1e-9
+"""Lengths proposed to heal a shape, in its size: from the one to the other, as shorter ones make long numbers."""
 
 
 @checked

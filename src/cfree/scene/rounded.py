@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, cast
 import cfree._core as _core
 from cfree.curves.curved import Curved
 from cfree.curves.drawn import Line
-from cfree.curves.pieces import quarters_of
+from cfree.curves.pieces import direction_of, quarters_of
 from cfree.curves.rings import Circle, Piece, Span
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, rational_root
@@ -205,9 +205,9 @@ def _convex(ring: Sequence[Piece]) -> Rounded | None:
     """Return a convex ring of lines and of arcs of one radius, all tangent."""
     radius, centers = None, list[ExactPoint]()
     for before, piece in zip([ring[-1], *ring[:-1]], ring, strict=True):
-        if cross(_direction(before, at_end=True), _direction(piece, at_end=False)) != 0:
+        if cross(direction_of(before, at_end=True), direction_of(piece, at_end=False)) != 0:
             return None
-        if dot(_direction(before, at_end=True), _direction(piece, at_end=False)) < 0:
+        if dot(direction_of(before, at_end=True), direction_of(piece, at_end=False)) < 0:
             return None
         if isinstance(piece, Line):
             continue
@@ -230,17 +230,6 @@ def _convex(ring: Sequence[Piece]) -> Rounded | None:
 def _turn(ring: Sequence[Piece]) -> int:
     """Return the sense of the first arc: that of a convex ring."""
     return next(piece.sense for piece in ring if isinstance(piece, Span))
-
-
-def _direction(piece: Piece, *, at_end: bool) -> ExactPoint:
-    """Return the direction of a line or an arc at one of its ends; of other curves from end to end."""
-    if isinstance(piece, Line):
-        return minus(piece.end, piece.start)
-    if not isinstance(piece, Span):
-        return Fraction(0), Fraction(0)
-    place = piece.end if at_end else piece.at(0, Fraction(0))
-    x, y = minus(place, piece.center)
-    return -piece.sense * y, piece.sense * x
 
 
 # --- arcs in place of sides ---
@@ -294,7 +283,7 @@ def _reversed(arc: Span) -> Span:
 
 def _towards(side: Side, *, at_end: bool) -> ExactPoint:
     start, end, arc = side
-    return _direction(arc or Line(start, end), at_end=at_end)
+    return direction_of(arc or Line(start, end), at_end=at_end)
 
 
 def _cut(ring: Sequence[Side], parts: int) -> Iterator[Side]:
@@ -418,7 +407,7 @@ def why_not_rounded(scene: Scene) -> str:
     if isinstance(shape, Curved) and all(_sides(ring, is_hole=r > 0) for r, ring in enumerate(shape.curves)):
         return f"{name}: too thin beside an arc for a polygon that leaves out the arcs; {remedy}"
     if isinstance(shape, Curved) and rounded(shape.healed()):
-        healing = f"heal it, on the command line by --heal LENGTH, in Python by Curved.healed()"
+        healing = "heal it, on the command line by --heal LENGTH, in Python by Curved.healed()"
         return f"{name}: an arc of irrational radius, as its numbers are rounded; {healing}; or {remedy}"
     return f"{name}: not bounded by lines and arcs of rational radii, without cusps; {remedy}"
 
