@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "cfree/exact/squaring.hpp"
 #include "predicates/isolation.hpp"
 #include "predicates/round_places.hpp"
 
@@ -99,9 +100,11 @@ int RoundOrders::order_at(const Feature& p, const Feature& q, const Sample& at) 
 }
 
 int RoundOrders::order_exactly(const Feature& p, const Feature& q, const Sample& at) const {
-    const Difference d = difference(p, q);
-    const Dyadic tau = at.exact();
-    return sign_at(d.value, tau) * sign_at(d.first, tau) * sign_at(d.second, tau);
+    const Exactly in(at.exact(), kappa);
+    const auto x = place<RootSum>(p, 0, in), y = place<RootSum>(q, 0, in);
+    const int difference = sign_by_squaring(x.a * y.c - y.a * x.c, x.b * y.c, x.d, -(y.b * x.c), RootSum(), y.d,
+                                            [](const RootSum& k) { return k.sign(); });
+    return difference * x.c.sign() * y.c.sign();
 }
 
 int RoundOrders::order_at(const Feature& p, const Feature& q, LongRoot& root) const {

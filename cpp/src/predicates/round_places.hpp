@@ -68,6 +68,17 @@ struct AsSurdPoly {
     SurdPoly operator()(const Trig<RootSum>& f) const { return surd_polynomial(quadratic(f, kappa)); }
 };
 
+// Ring of exact numbers at an angle, times powers of (1 + tau^2) 2^2k.
+struct Exactly {
+    RootSum w, c, s;
+    Exactly(const Dyadic& tau, double kappa) {
+        const Int square = tau.n * tau.n, unit = Int(1) << (2 * tau.k), turn = kappa > 0 ? 1 : -1;
+        w = RootSum(Int(unit + square)), c = RootSum(Int(turn * (unit - square))), s = RootSum(Int(turn * ((2 * tau.n) << tau.k)));
+    }
+    RootSum number(const RootSum& k) const { return k; }
+    RootSum operator()(const Trig<RootSum>& f) const { return f.a * w + f.b * c + f.c * s; }
+};
+
 // (a + b sqrt(d)) / c
 template <class V>
 struct CurvePlace {

@@ -15,6 +15,7 @@ from itertools import pairwise, product
 from typing import TYPE_CHECKING, cast
 
 import cfree._core as _core
+from cfree.curves.crossings import crossing
 from cfree.curves.curved import Curved
 from cfree.curves.drawn import Line
 from cfree.curves.pieces import direction_of, quarters_of
@@ -405,7 +406,7 @@ def why_not_rounded(scene: Scene) -> str:
         return f"robot and obstacles: {what}; make it larger or smaller, or {remedy}"
     shape = next(shape for other, shape in shapes if other == name)
     if isinstance(shape, Curved) and all(_sides(ring, is_hole=r > 0) for r, ring in enumerate(shape.curves)):
-        return f"{name}: too thin beside an arc for a polygon that leaves out the arcs; {remedy}"
+        return f"{name}: {crossing(shape.curves, (shape.path, *shape.holes))}; move them apart, or {remedy}"
     if isinstance(shape, Curved) and rounded(shape.healed()):
         healing = "heal it, on the command line by --heal LENGTH, in Python by Curved.healed()"
         return f"{name}: an arc of irrational radius, as its numbers are rounded; {healing}; or {remedy}"
