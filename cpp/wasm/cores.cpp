@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -16,8 +17,13 @@ using namespace rational;
 namespace {
 
 constexpr int finest_cuts = 5;  // of a quarter circle in halves, for chords that meet no other side
+constexpr int finest_fillets = 8, finest_widening = 6;  // the same where some are concave; points are 2^-k beyond tangents
 
 using Ring = std::vector<GivenCurve>;
+
+RatioPoint vertex(const Polygon& polygon, Index k) {
+    return {reduced(polygon.vertices.X[k], polygon.denominator), reduced(polygon.vertices.Y[k], polygon.denominator)};
+}
 
 std::optional<Ratio> radius_of(const GivenCurve& arc) {
     const RatioPoint u = arc.start - arc.center;
@@ -51,7 +57,7 @@ std::optional<RoundedShape> convex(const Ring& ring) {
 
 double sweep_of(const GivenCurve& arc) { return 0.5 * std::numbers::pi * arc.quarters + 2 * arc_tangent(near(arc.rest)); }
 
-// Lines and quarters of convex arcs, the shape on their left; nothing if there are others, or cusps.
+// Lines and quarters of arcs, the shape on their left; nothing if there are others, or cusps.
 std::optional<Ring> sides_of(const Ring& ring, bool is_hole) {
     Ring sides;
     double area = 0;  // twice
@@ -72,7 +78,7 @@ std::optional<Ring> sides_of(const Ring& ring, bool is_hole) {
     }
     for (std::size_t k = 0; k < sides.size(); ++k) {
         const RatioPoint before = direction(sides[k ? k - 1 : sides.size() - 1], true), after = direction(sides[k], false);
-        if (sides[k].turn < 0 || (cross(before, after) == zero && dot(before, after) < zero)) return {};
+        if (cross(before, after) == zero && dot(before, after) < zero) return {};
     }
     return sides;
 }
@@ -104,14 +110,11 @@ std::optional<RoundedShape> on_chords(const std::vector<Ring>& rings) try {
         for (const GivenCurve& side : ring) points.back().push_back(side.start);
     }
     auto core = std::make_shared<const Polygon>(std::move(points));
-    const auto vertex = [&](Index k) {
-        return RatioPoint{reduced(core->vertices.X[k], core->denominator), reduced(core->vertices.Y[k], core->denominator)};
-    };
     const auto key = [](const RatioPoint& p, const RatioPoint& q) { return std::array{p.x, p.y, q.x, q.y}; };
     std::set<std::array<Ratio, 4>> chords;
     for (std::size_t r = 0; r + 1 < core->offsets.size(); ++r)
         for (Index k = core->offsets[r]; k < core->offsets[r + 1]; ++k)
-            chords.insert(key(vertex(k), vertex(k + 1 < core->offsets[r + 1] ? k + 1 : core->offsets[r])));
+            chords.insert(key(vertex(*core, k), vertex(*core, k + 1 < core->offsets[r + 1] ? k + 1 : core->offsets[r])));
     Rounding rounding{zero, {}};
     for (const Ring& ring : rings)
         for (const GivenCurve& side : ring) {
@@ -124,7 +127,184 @@ std::optional<RoundedShape> on_chords(const std::vector<Ring>& rings) try {
     return {};
 }
 
-// A shape of lines and convex arcs, as the polygon of their chords; nothing if it is none.
+// A line, or an arc in a triangle with its chord; see src/cfree/scene/hull_triangles.py.
+struct HullTriangle {
+    RatioRing corners;
+    std::optional<std::array<RatioPoint, 2>> beyond = {};
+};
+
+HullTriangle hull_triangle(const GivenCurve& side, const Ratio& wider) {
+    if (side.turn == 0) return {{side.start, side.end}};
+    const RatioPoint first = side.start - side.center, last = side.end - side.center;
+    const Ratio square = dot(first, first), share = square / (square + dot(first, last)), half{1, 2};
+    const RatioPoint tangents = side.center + times(first + last, share);
+    if (side.turn > 0) return {{side.start, side.end, tangents}};
+    const auto beyond = [&](const Ratio& by) { return tangents + times(tangents - times(side.start + side.end, half), by); };
+    const RatioPoint far = beyond(wider);
+    return {{side.start, side.end, far}, std::array{beyond(wider * half), far}};
+}
+
+bool are_apart(const RatioRing& p, const RatioRing& q, const RatioPoint& at, const RatioPoint& along) {
+    const auto sides = [&](const RatioRing& points) {
+        std::vector<Ratio> all;
+        for (const RatioPoint& x : points) all.push_back(cross(along, x - at));
+        return std::pair{*std::min_element(all.begin(), all.end()), *std::max_element(all.begin(), all.end())};
+    };
+    const auto [least, most] = sides(p);
+    const auto [other_least, other_most] = sides(q);
+    return most < other_least || other_most < least;
+}
+
+// True if two convex sets have at most one corner in common, and are apart otherwise.
+bool meet_in_a_corner(const RatioRing& p, const RatioRing& q) {
+    const auto is_same = [](const RatioPoint& a, const RatioPoint& b) { return a.x == b.x && a.y == b.y; };
+    RatioRing common;
+    for (const RatioPoint& x : p)
+        if (std::any_of(q.begin(), q.end(), [&](const RatioPoint& y) { return is_same(x, y); })) common.push_back(x);
+    if (common.size() > 1) return false;
+    if (common.empty()) {
+        for (const RatioRing* ring : {&p, &q}) {
+            for (std::size_t i = 0; i < ring->size(); ++i)
+                for (std::size_t j = i + 1; j < ring->size(); ++j) {
+                    const RatioPoint along = (*ring)[j] - (*ring)[i];
+                    if (are_apart(p, q, (*ring)[i], along)) return true;
+                    if (ring->size() == 2)  // across it, at both ends
+                        for (const RatioPoint& end : *ring)
+                            if (are_apart(p, q, end, to_left(along))) return true;
+                }
+        }
+        return false;
+    }
+    const auto others = [&](const RatioRing& points) {
+        RatioRing rest;
+        for (const RatioPoint& x : points)
+            if (!is_same(x, common.front())) rest.push_back(x - common.front());
+        return rest;
+    };
+    const RatioRing rest = others(p), more = others(q);
+    for (const RatioRing* ring : {&rest, &more})
+        for (const RatioPoint& along : *ring)
+            for (const int sign : {1, -1}) {
+                const auto side = [&](const RatioPoint& x) { return sign * cross(along, x).n.sign(); };
+                int least = 1, most = -1;
+                for (const RatioPoint& x : rest) least = std::min(least, side(x));
+                for (const RatioPoint& x : more) most = std::max(most, side(x));
+                if ((least >= 0 && most < 0) || (least > 0 && most <= 0)) return true;
+            }
+    return rest.size() == 1 && more.size() == 1 && cross(rest[0], more[0]) == zero && dot(rest[0], more[0]) < zero;
+}
+
+// The numbers of those that have more in common with another one than one corner of both.
+std::set<std::size_t> meeting(const std::vector<HullTriangle>& triangles) {
+    struct Box {
+        double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL;
+    };
+    std::vector<Box> boxes;
+    for (const HullTriangle& triangle : triangles) {
+        Box& box = boxes.emplace_back();
+        double most = 0;
+        for (const RatioPoint& p : triangle.corners) {
+            const double x = near(p.x), y = near(p.y);
+            box = {std::min(box.x0, x), std::max(box.x1, x), std::min(box.y0, y), std::max(box.y1, y)};
+            most = std::max({most, std::abs(x), std::abs(y)});
+        }
+        const double slack = 0x1p-40 * most;
+        box = {box.x0 - slack, box.x1 + slack, box.y0 - slack, box.y1 + slack};
+    }
+    std::set<std::size_t> found;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (std::size_t j = i + 1; j < triangles.size(); ++j) {
+            const Box &a = boxes[i], &b = boxes[j];
+            if (a.x0 > b.x1 || b.x0 > a.x1 || a.y0 > b.y1 || b.y0 > a.y1) continue;
+            if (!meet_in_a_corner(triangles[i].corners, triangles[j].corners)) found.insert({i, j});
+        }
+    return found;
+}
+
+// The fraction nearest to a number whose denominator is not larger than some.
+Ratio with_denominator(const Ratio& x, const Int& most) {
+    if (x.d <= most) return x;
+    Int p0 = 0, q0 = 1, p1 = 1, q1 = 0, n = x.n, d = x.d;
+    for (;;) {
+        const Int a = floor_divide(n, d), q2 = q0 + a * q1;
+        if (q2 > most) break;
+        const Int p2 = p0 + a * p1, rest = n - a * d;
+        p0 = p1, q0 = q1, p1 = p2, q1 = q2, n = d, d = rest;
+    }
+    const Int k = (most - q0) / q1;
+    const Ratio one_bound = reduced(p0 + k * p1, q0 + k * q1), other = reduced(p1, q1);
+    const auto apart = [&](const Ratio& y) {
+        const Ratio difference = y - x;
+        return difference.n < 0 ? -difference : difference;
+    };
+    return apart(one_bound) < apart(other) ? one_bound : other;
+}
+
+// A part of an arc, from one of its points to another one, less than half a turn.
+GivenCurve part_of(const GivenCurve& arc, const RatioPoint& start, const RatioPoint& end) {
+    const RatioPoint u = start - arc.center, w = end - arc.center;
+    Ratio tangent = cross(u, w) / (dot(u, u) + dot(u, w));
+    if (tangent.n < 0) tangent = -tangent;
+    GivenCurve part{start, end, arc.center, arc.turn, 0, tangent};
+    if (tangent >= one) part.quarters = 1, part.rest = zero;
+    return part;
+}
+
+struct CutSide {
+    std::size_t ring;
+    int cuts;
+    GivenCurve side;
+};
+
+std::vector<CutSide> halves(const CutSide& of) {
+    const double tangent_there = tangent(sweep_of(of.side) / 4);
+    const Int most = std::max<long long>(8, static_cast<long long>(std::ceil(2 / tangent_there)));
+    const RatioPoint middle = point_of(of.side, 0, with_denominator(ratio_of(tangent_there), most));
+    return {{of.ring, of.cuts + 1, part_of(of.side, of.side.start, middle)}, {of.ring, of.cuts + 1, part_of(of.side, middle, of.side.end)}};
+}
+
+RoundedShape with_fillets(const std::vector<CutSide>& sides, const std::vector<HullTriangle>& triangles, std::size_t rings) {
+    std::vector<RatioRing> corners(rings);
+    Rounding rounding{zero, {}};
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        const GivenCurve& side = sides[k].side;
+        RatioRing& ring = corners[sides[k].ring];
+        ring.push_back(side.start);
+        if (side.turn == 0) continue;
+        if (triangles[k].beyond) ring.push_back((*triangles[k].beyond)[0]);
+        rounding.arcs.push_back({side.start, side.end, side.center, *radius_of(side), triangles[k].beyond});
+    }
+    return {std::make_shared<const Polygon>(std::move(corners)), std::move(rounding)};
+}
+
+// The polygon of chords of convex arcs, and of lines beyond concave ones. Arcs are cut in halves while their triangles meet
+// others; nothing if they are as fine as may be.
+std::optional<RoundedShape> on_hulls(const std::vector<Ring>& rings) try {
+    std::vector<CutSide> sides;
+    for (std::size_t r = 0; r < rings.size(); ++r)
+        for (const GivenCurve& side : rings[r]) sides.push_back({r, 0, side});
+    for (;;) {
+        std::set<std::size_t> found;
+        for (int k = 2; k <= finest_widening; ++k) {
+            std::vector<HullTriangle> triangles;
+            for (const CutSide& cut_side : sides) triangles.push_back(hull_triangle(cut_side.side, power_of_two(-k)));
+            found = meeting(triangles);
+            if (found.empty()) return with_fillets(sides, triangles, rings.size());
+        }
+        std::vector<CutSide> finer;
+        for (std::size_t k = 0; k < sides.size(); ++k) {
+            if (!found.contains(k) || sides[k].side.turn == 0 || sides[k].cuts >= finest_fillets) finer.push_back(sides[k]);
+            else
+                for (CutSide& half : halves(sides[k])) finer.push_back(std::move(half));
+        }
+        if (finer.size() == sides.size()) return {};
+        sides = std::move(finer);
+    }
+} catch (const InvalidPolygon&) {
+    return {};
+}
+
+// A shape of lines and arcs, as a polygon of chords, and of lines beyond concave arcs; nothing if it is none.
 std::optional<RoundedShape> with_arcs(const GivenShape& shape) {
     std::vector<Ring> rings;
     for (const Ring& ring : shape.rings) {
@@ -132,6 +312,8 @@ std::optional<RoundedShape> with_arcs(const GivenShape& shape) {
         if (!sides) return {};
         rings.push_back(std::move(*sides));
     }
+    for (const Ring& ring : rings)
+        if (std::any_of(ring.begin(), ring.end(), [](const GivenCurve& side) { return side.turn < 0; })) return on_hulls(rings);
     for (int cuts = 0; cuts <= finest_cuts; ++cuts) {
         std::vector<Ring> finer;
         for (const Ring& ring : rings) finer.push_back(cut(ring, 1 << cuts));
@@ -148,6 +330,106 @@ std::optional<RoundedShape> rounded(const GivenShape& shape) {
     if (!found) found = with_arcs(shape);
     if (found) found->rounding.radius = found->rounding.radius + shape.grown;
     return found;
+}
+
+bool has_concave(const RoundedShape& shape) {
+    return std::any_of(shape.rounding.arcs.begin(), shape.rounding.arcs.end(), [](const Arc& arc) { return arc.beyond.has_value(); });
+}
+
+namespace {
+
+// Radii of corners and of convex arcs by place, and those of concave arcs, which mostly are below 0.
+struct Radii {
+    std::map<std::pair<Ratio, Ratio>, std::set<Ratio>> convex, concave;
+};
+
+Radii radii_of(const std::vector<std::optional<RoundedShape>>& shapes) {
+    Radii result;
+    for (const auto& shape : shapes) {
+        if (!shape) continue;
+        const auto& [core, rounding] = *shape;
+        const auto key = [](const RatioPoint& p) { return std::pair{p.x, p.y}; };
+        std::set<std::pair<Ratio, Ratio>> beyond;
+        for (const Arc& arc : rounding.arcs) {
+            if (arc.beyond) {
+                beyond.insert(key((*arc.beyond)[0]));
+                result.concave[key(arc.centre)].insert(rounding.radius - arc.radius);
+            } else result.convex[key(arc.centre)].insert(rounding.radius + arc.radius);
+        }
+        for (Index k = 0; k < core->vertices.size(); ++k) {
+            const auto corner = key(vertex(*core, k));
+            if (!beyond.contains(corner)) result.convex[corner].insert(rounding.radius);
+        }
+    }
+    return result;
+}
+
+// The box of a shape, too large by a part of its arcs' circles.
+struct Extent {
+    double x0 = HUGE_VAL, y0 = HUGE_VAL, x1 = -HUGE_VAL, y1 = -HUGE_VAL, reach = 0;
+    void add(const RatioPoint& p, double r) {
+        const double x = near(p.x), y = near(p.y);
+        x0 = std::min(x0, x - r), x1 = std::max(x1, x + r), y0 = std::min(y0, y - r), y1 = std::max(y1, y + r);
+        reach = std::max(reach, std::hypot(x, y) + r);
+    }
+    void add(const GivenShape& shape) {
+        const double grown = near(shape.grown);
+        for (const auto& ring : shape.rings)
+            for (const GivenCurve& curve : ring) {
+                const RatioPoint u = curve.start - curve.center;
+                add(curve.start, grown);
+                if (curve.turn != 0) add(curve.center, std::sqrt(near(dot(u, u))) + grown);
+            }
+        if (!shape.polygon) return;
+        for (Index k = 0; k < shape.polygon->vertices.size(); ++k) add(vertex(*shape.polygon, k), grown);
+    }
+};
+
+}  // namespace
+
+bool fills_channel(const std::vector<std::optional<RoundedShape>>& robot, const std::vector<std::optional<RoundedShape>>& obstacles) {
+    const Radii all[] = {radii_of(robot), radii_of(obstacles)};
+    for (const int own : {0, 1})
+        for (const auto& [at, aways] : all[own].concave) {
+            const auto others = all[own].convex.find(at);
+            if (others == all[own].convex.end()) continue;
+            for (const auto& [place, radii] : all[1 - own].convex)
+                for (const Ratio& away : aways)
+                    for (const Ratio& other : others->second)
+                        for (const Ratio& radius : radii)
+                            for (const Ratio& rest : radii)
+                                if (radius + other + rest + away == zero) return true;
+        }
+    return false;
+}
+
+std::vector<GivenShape> complement(const GivenScene& scene) {
+    constexpr double fineness = 8;  // steps of the frame's rim in its width
+    if (!scene.workspace || !scene.workspace->has_arcs()) return {};
+    Extent box, robot;
+    box.add(*scene.workspace);
+    for (const GivenShape& obstacle : scene.obstacles) box.add(obstacle);
+    for (const GivenShape& part : scene.robot) robot.add(part);
+    if (scene.bounds) box.add({(*scene.bounds)[0], (*scene.bounds)[1]}, 0), box.add({(*scene.bounds)[2], (*scene.bounds)[3]}, 0);
+    const double thickness = 4 * robot.reach, width = std::max(box.x1 - box.x0, box.y1 - box.y0) + thickness;
+    const double step = std::exp2(std::floor(std::log2(width))) / fineness;
+    const auto below = [&](double x) { return ratio_of(std::floor((x - thickness) / step) * step); };
+    const auto above = [&](double x) { return ratio_of(std::ceil((x + thickness) / step) * step); };
+    const Ratio x0 = below(box.x0), y0 = below(box.y0), x1 = above(box.x1), y1 = above(box.y1);
+    const RatioPoint corners[] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    GivenShape frame;
+    frame.is_round = true;
+    auto& rim = frame.rings.emplace_back();
+    for (std::size_t k = 0; k < 4; ++k) rim.push_back({corners[k], corners[(k + 1) % 4]});
+    frame.rings.push_back(scene.workspace->rings.front());
+    std::vector<GivenShape> result{std::move(frame)};
+    for (std::size_t r = 1; r < scene.workspace->rings.size(); ++r) {
+        GivenShape hole;
+        hole.is_round = true;
+        hole.rings.push_back(scene.workspace->rings[r]);
+        result.push_back(std::move(hole));
+    }
+    return result;
 }
 
 }  // namespace cfree

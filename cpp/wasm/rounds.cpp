@@ -457,7 +457,7 @@ struct Rounds::Adding {
         return polygons.size();
     }
     NearShapes with_limits(bool is_outward) {
-        if (rounds.scene.workspace) {
+        if (rounds.scene.workspace && result.shapes.frames == 0) {
             const auto polygons = around(*rounds.scene.workspace, !is_outward, workspace_owner);
             if (polygons.empty()) refuse("workspace");
             result.shapes.workspace = polygons.front();
@@ -478,18 +478,36 @@ NearShapes Rounds::polygons(double share, bool is_outward) const {
 NearShapes Rounds::drawn(double share) const {
     Adding adding{*this, share};
     SceneShapes& shapes = adding.result.shapes;
-    for (std::size_t k = 0; k < scene.robot.size(); ++k) {
-        if (auto found = rounded(scene.robot[k])) {
-            adding.add_part(found->core, static_cast<Index>(k));
-            shapes.robot_rounding.push_back(std::move(found->rounding));
+    std::vector<std::optional<RoundedShape>> robot, obstacles, frames;
+    for (const GivenShape& part : scene.robot) robot.push_back(rounded(part));
+    for (const GivenShape& obstacle : scene.obstacles) obstacles.push_back(rounded(obstacle));
+    for (const GivenShape& part : complement(scene)) frames.push_back(rounded(part));
+    if (std::find(frames.begin(), frames.end(), std::nullopt) != frames.end()) frames.clear();
+    auto all = obstacles;
+    all.insert(all.end(), frames.begin(), frames.end());
+    if (fills_channel(robot, all)) {
+        for (auto* shapes_of : {&robot, &obstacles})
+            for (auto& shape : *shapes_of)
+                if (shape && has_concave(*shape)) shape.reset();
+        frames.clear();
+    }
+    for (std::size_t k = 0; k < robot.size(); ++k) {
+        if (robot[k]) {
+            adding.add_part(robot[k]->core, static_cast<Index>(k));
+            shapes.robot_rounding.push_back(std::move(robot[k]->rounding));
         } else shapes.robot_rounding.resize(shapes.robot_rounding.size() + adding.add_part_polygons(k, true));
     }
-    for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
-        if (auto found = rounded(scene.obstacles[k])) {
-            adding.add_obstacle(found->core, static_cast<Index>(k));
-            shapes.obstacle_rounding.push_back(std::move(found->rounding));
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        if (obstacles[k]) {
+            adding.add_obstacle(obstacles[k]->core, static_cast<Index>(k));
+            shapes.obstacle_rounding.push_back(std::move(obstacles[k]->rounding));
         } else shapes.obstacle_rounding.resize(shapes.obstacle_rounding.size() + adding.add_polygons(k, true));
     }
+    for (auto& frame : frames) {
+        adding.add_obstacle(frame->core, workspace_owner);
+        shapes.obstacle_rounding.push_back(std::move(frame->rounding));
+    }
+    shapes.frames = static_cast<Index>(frames.size());
     return adding.with_limits(true);
 }
 

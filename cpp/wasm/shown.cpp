@@ -151,7 +151,7 @@ Radii radii_of(const Scene& scene, const Feature& contact) {
 }
 std::uint8_t grown_of(const Scene& scene, const Feature& contact) {
     const Radii radii = radii_of(scene, contact);
-    return static_cast<std::uint8_t>((radii.robot > 0 ? 1 : 0) + (radii.obstacle > 0 ? 2 : 0));
+    return static_cast<std::uint8_t>((radii.robot != 0 ? 1 : 0) + (radii.obstacle != 0 ? 2 : 0));
 }
 
 std::uint8_t kind_of(const Feature& contact) { return is_circle(contact) ? 2 : contact.kind == Kind::vertex_edge ? 0 : 1; }

@@ -269,7 +269,7 @@ REFUSED = {
     ),
     "irrational radius": (
         Scene(Curved([(1, 0), Arc((0, 1), center=(0, 0)), Arc((1, 0), center=("1/2", "1/2"))]), [SQUARE]),
-        r"robot: an arc of irrational radius, as its numbers are rounded; heal it, .* in Python by Curved.healed\(\)",
+        r"robot: an arc of irrational radius; heal it, .* in Python by Curved.healed\(\)",
     ),
 }
 

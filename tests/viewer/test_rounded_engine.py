@@ -70,6 +70,10 @@ UNEQUAL = Curved(  # a rectangle with corners of different radii
     ]
 )
 NOTCHED = Curved([(5, 0), Arc((-5, 0), center=(0, 0)), (-1, 0), (3, 3), (1, 0)])  # whose chords are cut
+PLATE = Curved([(-3, -3), (4, -3), (4, 3), (-3, 3)], [Curved.circle(("0.5", 0), 2).path])
+BAY = Curved([(2, -2), (5, -2), (5, 2), (2, 2), (2, 1), Arc((2, -1), center=(2, 0), clockwise=True)])
+BRACKET = Curved([(-4, -3), (3, -3), (3, -2), (-2, -2), Arc((-3, -1), center=(-2, -1), clockwise=True), (-3, 3), (-4, 3)])
+HALL = Curved([(-6, -4), (4, -4), Arc((6, -2), center=(4, -2)), (6, 4), (-6, 4)], [Curved.circle((2, 1), 1).path])
 SLOT = [[(1, "0.3"), (6, "0.3"), (6, "2.5"), (1, "2.5")], [(1, "-2.5"), (6, "-2.5"), (6, "-0.3"), (1, "-0.3")]]
 SCENES = {
     "disc among polygons": Scene(disc(0, 0, "1/2"), [KITE, WALL, disc("2.2", 2, "0.4"), L]),
@@ -96,6 +100,12 @@ SCENES = {
     "polygon about a notched half disc": Scene(TRIANGLE, [NOTCHED]),
     "discs of two radii": Scene([disc(0, 0, "1/2"), disc(1, 0, "1/3")], [KITE, LENS]),
     "parts of several radii in bounds": Scene([GROWN, disc(-1, 0, "1/3"), HALF], [DOME, KITE], bounds=(-6, -6, 6, 6)),
+    "half disc in a round hole": Scene(HALF, [PLATE]),
+    "grown triangle and a bay": Scene(GROWN, [BAY, DOME]),
+    "bracket among a lens and a polygon": Scene(BRACKET, [LENS, WALL]),
+    "lens in a bracket": Scene(LENS, [BRACKET, BAY]),
+    "grown triangle in a hall": Scene(GROWN, [KITE], workspace=HALL),
+    "triangle in a round room": Scene(TRIANGLE, [LENS], workspace=disc(0, 0, 4)),
     "two discs in bounds": Scene([disc(0, 0, "1/2"), disc(1, 0, "1/2")], [KITE, disc(3, 0, 1)], bounds=(-6, -6, 6, 6)),
 }
 

@@ -44,18 +44,18 @@ export function corners_of(
 
 const CHORD = 0.05; // radians
 
-// Points of a segment, or counter-clockwise along an arc of at most half a turn.
+// Points of a segment, or along an arc of at most half a turn: counter-clockwise, or clockwise if the radius is below 0.
 export function along_arc([x0, y0, x1, y1]: [number, number, number, number], radius: number): [number, number][] {
   const [dx, dy] = [x1 - x0, y1 - y0];
-  const half = radius > 0 ? Math.asin(Math.min(1, Math.hypot(dx, dy) / (2 * radius))) : 0;
+  const half = radius ? Math.asin(Math.min(1, Math.hypot(dx, dy) / (2 * Math.abs(radius)))) : 0;
   const chords = Math.max(1, Math.ceil((2 * half) / CHORD));
   const at = (k: number): [number, number] => {
     if (k === 0 || half === 0) return k ? [x1, y1] : [x0, y0];
     if (k === chords) return [x1, y1];
-    // in the frame of the chord, to whose right the arc is
+    // in the frame of the chord, to whose right the arc is, or to its left
     const angle = half * ((2 * k) / chords - 1);
     const along = 0.5 + Math.sin(angle) / (2 * Math.sin(half));
-    const right = (Math.cos(angle) - Math.cos(half)) / (2 * Math.sin(half));
+    const right = (Math.sign(radius) * (Math.cos(angle) - Math.cos(half))) / (2 * Math.sin(half));
     return [x0 + along * dx + right * dy, y0 + along * dy - right * dx];
   };
   return Array.from({ length: chords + 1 }, (_, k) => at(k));

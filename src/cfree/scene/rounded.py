@@ -409,7 +409,7 @@ def why_not_rounded(scene: Scene) -> str:
         return f"{name}: {crossing(shape.curves, (shape.path, *shape.holes))}; move them apart, or {remedy}"
     if isinstance(shape, Curved) and rounded(shape.healed()):
         healing = "heal it, on the command line by --heal LENGTH, in Python by Curved.healed()"
-        return f"{name}: an arc of irrational radius, as its numbers are rounded; {healing}; or {remedy}"
+        return f"{name}: an arc of irrational radius; {healing}; or {remedy}"
     return f"{name}: not bounded by lines and arcs of rational radii, without cusps; {remedy}"
 
 

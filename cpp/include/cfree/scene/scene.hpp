@@ -100,8 +100,8 @@ struct Shape {
     std::vector<Index> fillet_ends;  // vertices at the ends of concave arcs
     std::vector<char> concave;       // of each vertex of a ring: true if it is a concave arc's; empty if there is none
     bool is_concave(Index vertex) const {
-        const auto v = static_cast<std::size_t>(vertex);
-        return v < concave.size() && concave[v] != 0;
+        const auto k = static_cast<std::size_t>(vertex);
+        return k < concave.size() && concave[k] != 0;
     }
     bool has_concave() const { return !concave.empty(); }
     // A bound of all radii, in doubles: that of the last class where none is below 0.
