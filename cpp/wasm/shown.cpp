@@ -64,11 +64,12 @@ Vec<double> center_of(const Scene& scene, const Feature& contact, double theta) 
     return point(scene.obstacles, contact.obstacle) - Rotation<double>{c, s, 1}(point(scene.robot, contact.robot));
 }
 
-// Position of a pose along the line of a contact; on a circle the angle psi.
+// Position of a pose along the line of a contact; on a circle the angle psi of the normal, which points to a concave arc's center.
 double t_at(const Scene& scene, const Feature& contact, double x, double y, double theta) {
     if (is_circle(contact)) {
         const Vec<double> center = center_of(scene, contact, theta);
-        return in_a_turn(arc_tangent(y - center.y, x - center.x));
+        const double side = sum_of_radii(scene, contact) < 0 ? -1 : 1;
+        return in_a_turn(arc_tangent(side * (y - center.y), side * (x - center.x)));
     }
     const auto [c, s] = cosine_sine(theta);
     const ContactLine<double> line = line_of(scene, contact);
