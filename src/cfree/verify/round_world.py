@@ -425,7 +425,8 @@ def is_apart(robot: Part, obstacle: Part, turn: Turn, place: Place, near: arb) -
     Notes
     -----
     Convex sets do not overlap exactly if a line separates them. It can be taken along an edge of one, or square to the
-    line through the centers of two of the discs or arcs of which they are the hulls.
+    line through the centers of two of the discs or arcs of which they are the hulls. Doubles choose the order in which
+    these lines are tried.
     """
 
     def turned(x: Any, y: Any) -> Place:
@@ -437,17 +438,43 @@ def is_apart(robot: Part, obstacle: Part, turn: Turn, place: Place, near: arb) -
         normals = disc.normals and (turned(*disc.normals[0]), turned(*disc.normals[1]))
         moved.append(Disc(x + place[0], y + place[1], disc.radius, normals))
     discs = moved, obstacle.discs
-    for own, part, sign in ((0, robot, 1), (1, obstacle, -1)):
-        for k in part.edges:
-            p, q = discs[own][k], discs[own][(k + 1) % len(part.points)]
-            if _is_between((sign * (q.y - p.y), sign * (p.x - q.x)), *discs, near):
-                return True
-    for a in discs[0]:
-        for b in discs[1]:
-            u = b.x - a.x, b.y - a.y
-            if a.radius + b.radius > 0 and u[0] * u[0] + u[1] * u[1] > 0 and _is_between(u, *discs, near):
-                return True
+    lines: list[tuple[Disc, Disc, int]] = []  # from the first to the second, and quarter turns from there
+    for own, part, turns in ((0, robot, -1), (1, obstacle, 1)):
+        lines += [(discs[own][k], discs[own][(k + 1) % len(part.points)], turns) for k in part.edges]
+    lines += [(a, b, 0) for a in discs[0] for b in discs[1] if a.radius or b.radius]
+    for k in np.argsort(-_gaps(lines, *discs), kind="stable"):
+        p, q, turns = lines[k]
+        x, y = q.x - p.x, q.y - p.y
+        u = (-turns * y, turns * x) if turns else (x, y)
+        if x * x + y * y > 0 and _is_between(u, *discs, near):
+            return True
     return False
+
+
+def _gaps(
+    lines: Sequence[tuple[Disc, Disc, int]], robot: Sequence[Disc], obstacle: Sequence[Disc]
+) -> NDArray[np.float64]:
+    """Estimate how far two sets of discs are apart along lines, below 0 where they overlap."""
+
+    def rough(x: Any, y: Any) -> complex:
+        return complex(float(x.mid()), float(y.mid()))
+
+    places = {id(disc): rough(disc.x, disc.y) for disc in (*robot, *obstacle)}
+    along = np.array([1j**turns * (places[id(q)] - places[id(p)]) for p, q, turns in lines])
+    along /= np.maximum(np.abs(along), 1e-300)
+
+    def tops(discs: Sequence[Disc], along: Complexes) -> NDArray[np.float64]:
+        heights = np.full(len(along), -np.inf)
+        for disc in discs:
+            height = (along.conj() * places[id(disc)]).real + float(disc.radius)
+            if disc.normals:
+                first, last = (rough(*normal) for normal in disc.normals)
+                is_there = ((first.conjugate() * along).imag >= 0) & ((along.conj() * last).imag >= 0)
+                height[~is_there] = -np.inf
+            heights = np.maximum(heights, height)
+        return heights
+
+    return -tops(obstacle, -along) - tops(robot, along)
 
 
 def _is_between(u: Place, robot: Sequence[Disc], obstacle: Sequence[Disc], near: arb) -> bool:
