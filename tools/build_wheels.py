@@ -29,6 +29,21 @@ def run(*words: str | Path, cwd: Path = ROOT) -> None:
         sys.exit(f"failed: {' '.join(map(str, words))}")
 
 
+def require(pythons: list[str]) -> None:
+    """End the program, before anything is built, if an interpreter is missing or too old."""
+    for python in pythons:
+        try:
+            asked = subprocess.run(
+                [python, "-c", "import sys, venv; print(*sys.version_info[:2])"], capture_output=True
+            )
+            version = tuple(map(int, asked.stdout.split()))
+        except OSError:
+            version = ()
+        if version < (3, 11):
+            found = f"is Python {'.'.join(map(str, version))}" if version else "does not run here"
+            sys.exit(f"{python} {found}; 3.11 or later is needed: install it, or give its path instead of {python}")
+
+
 def environment(python: str, folder: Path, *packages: str | Path) -> Path:
     """Make an environment with packages; return its folder of programs."""
     run(python, "-m", "venv", folder)
@@ -80,6 +95,7 @@ def main() -> None:
     parser.add_argument("pythons", nargs="+", metavar="PYTHON", help="interpreters to build for: 3.11 and 3.12")
     parser.add_argument("--also", action="append", default=[], metavar="PYTHON", help="try the wheel of 3.12 with it")
     options = parser.parse_args()
+    require([*options.pythons, *options.also])
     target = ROOT / "dist"
     target.mkdir(exist_ok=True)
     if any(target.iterdir()):

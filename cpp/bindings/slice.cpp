@@ -16,9 +16,11 @@ static std::pair<Made<double>, Made<int>> segments(const Slicer& s, int chart, d
     return {array_of(std::move(r.xy)), array_of(std::move(r.trapezoid))};
 }
 
-static std::tuple<Made<double>, Made<int>, Made<int>> rings(const Slicer& s, int chart, double tau) {
-    auto r = watched([&] { return s.rings(chart, tau); });
-    return {array_of(std::move(r.xy)), array_of(std::move(r.start)), array_of(std::move(r.shell))};
+using Outlines = std::tuple<Made<double>, Made<int>, Made<int>, Made<int>>;
+static Outlines rings(const Slicer& s, const Column<int>& chart, const Column<double>& tau) {
+    require(chart.shape(0) == tau.shape(0), "chart and tau differ in length");
+    auto r = watched([&] { return s.rings({chart.data(), chart.shape(0)}, {tau.data(), tau.shape(0)}); });
+    return {array_of(std::move(r.xy)), array_of(std::move(r.start)), array_of(std::move(r.shell)), array_of(std::move(r.first))};
 }
 
 static std::pair<Made<double>, Made<double>> limits(const Slicer& s, const Column<int>& trapezoid, const Column<double>& tau) {

@@ -339,7 +339,7 @@ void add_union(const RoundedShape& shape, const Ratio& radius, Outlines& into) {
     shapes.obstacles.push_back(shape.core);
     shapes.obstacle_rounding.push_back(shape.rounding);
     const Slicer slicer(compute_boundary(scene_features(shapes).scene, {1, false, [](double) { return Wish::go_on; }}));
-    const Slicer::Rings rings = slicer.rings(0, 0);
+    const Slicer::Rings rings = slicer.rings(std::array{0}, std::array{0.0});
     for (std::size_t r = 0; r + 1 < rings.start.size(); ++r) {
         for (auto k = static_cast<std::size_t>(rings.start[r]); k < static_cast<std::size_t>(rings.start[r + 1]); ++k) {
             if (rings.bend[k] == Slicer::Rings::in_arc) continue;

@@ -173,8 +173,15 @@ def _test_of(hint: Any) -> Callable[[Any], bool]:
         tests = [_test_of(part) for part in parts if part is not Ellipsis]
         return lambda value: _is_row(value, tests, parts[-1] is Ellipsis)
     if origin in _SEQUENCES:
-        test = _test_of(parts[0])
-        return lambda value: _is_many(value) and (not isinstance(value, list | tuple) or all(map(test, value)))
+        test, members = _test_of(parts[0]), get_args(parts[0]) or parts
+        by_type = all(_is_plain(one) or get_origin(one) is collections.abc.Mapping for one in members)
+
+        def is_sequence(value: Any) -> bool:
+            if not _is_many(value) or not isinstance(value, list | tuple):
+                return _is_many(value)
+            return all(map(test, {type(item): item for item in value}.values() if by_type else value))
+
+        return is_sequence
     return lambda value: not isinstance(origin, type) or isinstance(value, origin)
 
 

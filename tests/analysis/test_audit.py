@@ -68,6 +68,18 @@ def test_another_way_round_is_told_apart_from_the_door_itself() -> None:
     assert (narrow.result, wide.result) == ("around", "passes") and not narrow.proofs
 
 
+@pytest.mark.slow
+def test_the_missing_width_is_that_of_the_door_and_not_of_another_way() -> None:
+    doors = cfree.audit(plan_with(wall(6, (1, "1.7"), (3, "3.8"))), {"bed": BED}).doors
+    for door, missing in zip(doors, (0.2, 0.1), strict=True):
+        assert door.result == "blocked" and door.missing is not None
+        assert door.missing.lo <= missing <= door.missing.hi <= 1.02 * door.missing.lo
+
+
+def test_widths_in_millimetres_have_no_exponent() -> None:
+    assert "door, 1050 wide" in str(Door("door", "bot", ((0.0, 0.0), (1050.0, 0.0)), 1050.0, ("a", "b"), "passes"))
+
+
 def test_places_of_doors_are_told_apart_far_from_the_origin() -> None:
     ends = (500000.25, 5400000.0), (500000.25, 5400000.9)
     assert "0.9 wide at (500000.25, 5400000.45), a - b" in str(Door("W1", "bot", ends, 0.9, ("a", "b"), "passes"))
@@ -108,6 +120,8 @@ def test_round_machines_and_furniture_are_audited_as_they_are() -> None:
     slim, wide = cfree.audit(scene, discs).doors
     assert (slim.result, wide.result) == ("passes", "blocked")
     assert wide.missing is not None and wide.missing.lo <= 0.02 <= wide.missing.hi
+    exact = cfree.audit(scene, {"chair": box("0.6", "0.4")}).doors  # slides through
+    assert [door.result for door in exact] == ["passes"]
 
 
 @pytest.mark.parametrize(

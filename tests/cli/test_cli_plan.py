@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import random
 import signal
 import subprocess
 import sys
@@ -271,12 +272,33 @@ def test_a_scene_without_a_goal_needs_one(run: Run, tmp_path: Path) -> None:
     assert "no goal" in result.output
 
 
-def test_a_limit_has_exit_code_3(run: Run, tmp_path: Path) -> None:
-    answer = tmp_path / "way.json"
-    result = run("plan", SWIM, "--max-seconds", "0.001", "-o", answer)
-    assert result.exit_code == 3
-    assert "not enough" in result.output
-    assert not answer.exists()
+LIMITED = {
+    "plan SCENE --goal 9,0,0 -o NEW/way.json": "not enough to compute the free space; give more",
+    "cage SCENE --critical all -o NEW/cage.json --save-scene NEW/hand.json": "not enough",
+    "disassemble SCENE --part body -o NEW/steps": "not enough",
+    "nest examples/drawings/parts.svg -o NEW/layout.svg --json": "no part was placed in time; give more --max-seconds",
+}
+
+
+def star(x: float, y: float, seed: int) -> list[tuple[float, float]]:
+    draw = random.Random(seed)
+    radii = [0.5 + 0.5 * draw.random() for _ in range(8)]
+    at = [(x + r * math.cos(k * math.tau / 8), y + r * math.sin(k * math.tau / 8)) for k, r in enumerate(radii)]
+    return [(round(u, 3), round(v, 3)) for u, v in at]
+
+
+@pytest.mark.parametrize("words", LIMITED)
+def test_a_limit_has_exit_code_3_and_writes_nothing(run: Run, tmp_path: Path, words: str) -> None:
+    scene, new = tmp_path / "five.json", tmp_path / "new"
+    new.mkdir()
+    ring = [(1.75 * math.cos(k * math.tau / 5), 1.75 * math.sin(k * math.tau / 5)) for k in range(5)]
+    around = [star(x, y, k) for k, (x, y) in enumerate(ring)]  # the body cannot leave, which takes a while to prove
+    cfree.save(cfree.Scene(star(0, 0, 8), around, start=(0, 0, 0), name="body"), scene)
+    given = words.replace("SCENE", str(scene)).replace("NEW", str(new)).split()
+    result = run(*given, "--max-seconds", "0", "--picture", new / "drawn.png")
+    assert result.exit_code == 3 and LIMITED[words] in result.stderr
+    assert result.stdout == "" and result.stderr.splitlines()[-1].startswith("error: ")
+    assert not [*new.iterdir()]
 
 
 def test_a_boundary_file_stands_for_its_scene(run: Run, tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from itertools import permutations
 import pytest
 
 import cfree
+from cfree.analysis.leaving import leave
 from cfree.curves.similar import moved_shape
 from cfree.disassembly import Assembly, can_leave, missing_gap, removal_order, what_blocks
 
@@ -135,6 +136,18 @@ def test_paths_are_as_short_far_from_the_origin_as_near_it() -> None:
     near = can_leave("key", Assembly(key, fixed=["housing"]))
     assert turned.path is not None and near.path is not None and turned.verified()
     assert turned.path.length < 2 * near.path.length
+
+
+def test_a_part_for_which_time_runs_out_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    def late(scene: cfree.Scene, *_: object, **how: object) -> cfree.Path:
+        if how["max_seconds"] == 0 and len(scene.obstacles) > 1:
+            raise cfree.IncompleteError("0 seconds were not enough")
+        return leave(scene, *_, **how)  # type: ignore[arg-type, return-value]
+
+    monkeypatch.setattr("cfree.disassembly.leaving.leave", late)
+    found = removal_order(PARTS, max_seconds=0)
+    assert not found and dict(found.undecided) == dict.fromkeys(("peg", "lid"), "0 seconds were not enough")
+    assert removal_order(PARTS, max_seconds=1)
 
 
 def boxes(seed: int) -> Assembly:

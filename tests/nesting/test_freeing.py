@@ -33,3 +33,10 @@ def test_a_path_of_a_disc_out_of_a_jaw_is_free() -> None:
 def test_an_index_beyond_the_parts_is_refused() -> None:
     with pytest.raises(IndexError, match=r"^part: 1 of 1 placed part; count from 0$"):
         can_be_cut_free(Nesting([], [BAR]), 1)
+
+
+def test_parts_that_overlap_are_named() -> None:
+    with pytest.raises(
+        cfree.InvalidPoseError, match=r"^part 1 overlaps another one: bar \(part 0\) and bar \(part 1\): 1 deep"
+    ):
+        can_be_cut_free(Nesting([], [BAR, BAR]), 1)

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <unordered_map>
 
 #include "cfree/support/elementary.hpp"
 #include "cfree/support/lookout.hpp"
@@ -52,16 +51,16 @@ void Slicer::step_off_events(int& c, double& tau) const {
     }
 }
 
-// Move positions from the near frame to the user's.
-void Slicer::move(std::vector<double>& xy, const Turn& r) const {
+// Move positions, from one on, from the near frame to the user's.
+void Slicer::move(std::vector<double>& xy, std::size_t from, const Turn& r) const {
     const auto& f = scene.frame;
     const double x = f[0] - (r.c * f[2] - r.s * f[3]), y = f[1] - (r.s * f[2] + r.c * f[3]);
-    for (std::size_t k = 0; k < xy.size(); k += 2) xy[k] += x, xy[k + 1] += y;
+    for (std::size_t k = from; k < xy.size(); k += 2) xy[k] += x, xy[k + 1] += y;
 }
 
 Slicer::Segments Slicer::segments(int c, double tau) const {
     Segments result = near(c, tau);
-    move(result.xy, rotation_by(c, tau));
+    move(result.xy, 0, rotation_by(c, tau));
     return result;
 }
 
@@ -99,12 +98,16 @@ Slicer::Segments Slicer::near(int c, double tau) const {
     return result;
 }
 
-Slicer::Rings Slicer::rings(int c, double tau) const {
-    const Segments found = near(c, tau);
+Slicer::Rings Slicer::rings(std::span<const int> chart, std::span<const double> tau) const {
     Rings result;
-    const auto area = trace(found, chained(found), result);
-    nest(result, area);
-    move(result.xy, rotation_by(c, tau));
+    for (std::size_t k = 0; k < chart.size(); ++k) {
+        heed_stop();
+        const Segments found = near(chart[k], tau[k]);
+        const std::size_t from = result.xy.size();
+        nest(result, trace(found, chained(found), result));
+        move(result.xy, from, rotation_by(chart[k], tau[k]));
+        result.first.push_back(static_cast<Index>(result.shell.size()));
+    }
     return result;
 }
 
@@ -123,27 +126,31 @@ Slicer::Name Slicer::end_name(Index x, std::uint64_t curve) const {
 std::vector<Index> Slicer::chained(const Segments& s) const {
     const Trapezoids& t = boundary->trapezoids;
     const auto n = static_cast<Index>(s.trapezoid.size());
-    std::unordered_multimap<Name, Index, Hash> tails;
-    tails.reserve(static_cast<std::size_t>(2 * n));
-    for (Index k = 0; k < n; ++k) tails.emplace(end_name(s.trapezoid[k], t.lower[s.trapezoid[k]]), k);
+    using Tail = std::pair<Name, Index>;
+    std::vector<Tail> tails;  // a few, so that sorting beats hashing
+    for (Index k = 0; k < n; ++k) tails.emplace_back(end_name(s.trapezoid[k], t.lower[s.trapezoid[k]]), k);
+    std::sort(tails.begin(), tails.end());
     const auto gap = [&](Index head, Index tail) {
         return norm(s.xy[4 * head + 2] - s.xy[4 * tail], s.xy[4 * head + 3] - s.xy[4 * tail + 1]);
     };
     std::vector<Index> next(n, -1);
+    std::vector<char> taken(n, 0);
     const auto link = [&](Index k, auto begin, auto end) {
-        auto best = end;
+        Index best = -1;
         for (auto it = begin; it != end; ++it)
-            if (best == end || gap(k, it->second) < gap(k, best->second)) best = it;
-        if (best == end) return false;
-        next[k] = best->second;
-        tails.erase(best);
+            if (!taken[it->second] && (best < 0 || gap(k, it->second) < gap(k, best))) best = it->second;
+        if (best < 0) return false;
+        next[k] = best, taken[best] = 1;
         return true;
     };
     std::vector<Index> loose;
     for (Index k = 0; k < n; ++k) {
-        const auto [begin, end] = tails.equal_range(end_name(s.trapezoid[k], t.upper[s.trapezoid[k]]));
+        const Name name = end_name(s.trapezoid[k], t.upper[s.trapezoid[k]]);
+        const auto begin = std::lower_bound(tails.begin(), tails.end(), Tail{name, 0});
+        const auto end = std::find_if(begin, tails.end(), [&](const Tail& x) { return x.first != name; });
         if (!link(k, begin, end)) loose.push_back(k);
     }
+    std::erase_if(tails, [&](const Tail& x) { return taken[x.second]; });
     for (const Index k : loose) {  // several curves through one point carry several names: the nearest tail left
         heed_stop();
         if (!link(k, tails.begin(), tails.end())) break;
@@ -151,11 +158,10 @@ std::vector<Index> Slicer::chained(const Segments& s) const {
     return next;
 }
 
-// Trace chains as rings of at least three points; returns twice their areas.
+// Trace chains as more rings, of at least three points; returns twice their areas.
 std::vector<double> Slicer::trace(const Segments& s, const std::vector<Index>& next, Rings& result) {
     std::vector<char> used(next.size(), 0);
     std::vector<double> area;
-    result.start.push_back(0);
     for (std::size_t k = 0; k < next.size(); ++k) {
         if (used[k]) continue;
         const std::size_t first = result.xy.size();
@@ -189,17 +195,18 @@ std::vector<double> Slicer::trace(const Segments& s, const std::vector<Index>& n
     return area;
 }
 
-// A hole belongs to the smallest part around it.
+// Of the newest rings: a hole belongs to the smallest part around it.
 void Slicer::nest(Rings& r, const std::vector<double>& area) {
     struct Extent {
         double x0, y0, x1, y1;
         bool holds(const Extent& e) const { return x0 <= e.x0 && y0 <= e.y0 && e.x1 <= x1 && e.y1 <= y1; }
     };
-    const auto rings = static_cast<Index>(area.size());
+    const auto rings = static_cast<Index>(area.size()), base = static_cast<Index>(r.shell.size());
+    const Index* start = &r.start[base];
     std::vector<Extent> extent;
     for (Index k = 0; k < rings; ++k) {
         Extent e{1e308, 1e308, -1e308, -1e308};
-        for (Index m = r.start[k]; m < r.start[k + 1]; ++m) {
+        for (Index m = start[k]; m < start[k + 1]; ++m) {
             const double x = r.xy[2 * m], y = r.xy[2 * m + 1];
             e = {std::min(e.x0, x), std::min(e.y0, y), std::max(e.x1, x), std::max(e.y1, y)};
         }
@@ -207,7 +214,7 @@ void Slicer::nest(Rings& r, const std::vector<double>& area) {
     }
     const auto is_inside = [&](double x, double y, Index ring) {
         bool odd = false;
-        for (Index m = r.start[ring], q = r.start[ring + 1] - 1; m < r.start[ring + 1]; q = m++) {
+        for (Index m = start[ring], q = start[ring + 1] - 1; m < start[ring + 1]; q = m++) {
             const double x0 = r.xy[2 * q], y0 = r.xy[2 * q + 1], x1 = r.xy[2 * m], y1 = r.xy[2 * m + 1];
             if ((y0 > y) != (y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0)) odd = !odd;
         }
@@ -217,9 +224,9 @@ void Slicer::nest(Rings& r, const std::vector<double>& area) {
         Index shell = area[k] > 0 ? k : -1;
         for (Index m = 0; area[k] <= 0 && m < rings; ++m) {
             if (area[m] <= 0 || (shell >= 0 && area[m] >= area[shell]) || !extent[m].holds(extent[k])) continue;
-            if (is_inside(r.xy[2 * r.start[k]], r.xy[2 * r.start[k] + 1], m)) shell = m;
+            if (is_inside(r.xy[2 * start[k]], r.xy[2 * start[k] + 1], m)) shell = m;
         }
-        r.shell.push_back(shell);
+        r.shell.push_back(shell < 0 ? -1 : base + shell);
     }
 }
 

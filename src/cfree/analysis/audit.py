@@ -22,7 +22,7 @@ from cfree.analysis.margins import Interval, bisected, bracket, deepest, nearest
 from cfree.analysis.openings import Segment, bar, beside, middle_of, openings_of, to_walls
 from cfree.analysis.reach_map import free_parts, refuse_forward_only
 from cfree.arguments import checked
-from cfree.collision.motion_checker import MotionChecker
+from cfree.collision.motion_checker import is_free_motion
 from cfree.errors import UndecidedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose
@@ -64,8 +64,9 @@ class Door:
         way, and does not pass here while all other doors are shut. "no room": it has no pose wholly in one of the
         rooms.
     missing : Interval or None
-        By how much the machine is too wide, if it is blocked: some motion exists if all its sides move inwards by half
-        of `hi`, none if they do by half of `lo`. None if it is not blocked, or no smaller machine gets there.
+        By how much the machine is too wide for this door, if it is blocked: while all other doors are shut, some motion
+        exists if all its sides move inwards by half of `hi`, none if they do by half of `lo`. None if it is not
+        blocked, or no smaller machine gets there.
     start, goal : Pose or None
         A pose in each room, if it has some.
     proofs : tuple of Separated
@@ -86,7 +87,7 @@ class Door:
 
     def __str__(self) -> str:
         where = ", ".join(near(value, self.width) for value in self.middle)
-        place = f"{self.name}, {self.width:.3g} wide at ({where}), {self.rooms[0]} - {self.rooms[1]}"
+        place = f"{self.name}, {near(self.width, self.width)} wide at ({where}), {self.rooms[0]} - {self.rooms[1]}"
         missing = f", {' to '.join(ends(self.missing.lo, self.missing.hi, 3))} too wide" if self.missing else ""
         return f"{place}: {self.machine} {WORDS[self.result]}{missing}"
 
@@ -245,7 +246,7 @@ class _Auditor:
         self.space = free_space(self.open)
         part = polygons_around(scene.robot[0])[0].to_shapely().representative_point()
         self.inner = part.x, part.y  # a point of the machine, in its frame
-        self._smaller_spaces = dict[Fraction, FreeSpace]()
+        self._smaller_spaces = dict[tuple[Any, ...], FreeSpace]()
         self.least = TINY * sum(room.area for room in rooms.values())
 
     def audited(self, door: Door, k: int, tolerance: float | None) -> Door:
@@ -263,41 +264,55 @@ class _Auditor:
         answers = [plan(self.scene, start, goal) for start, goal in pairs]
         touching = [answer for answer in answers if isinstance(answer, Path)]  # they slide through exact fits
         if touching:
-            shut = MotionChecker(self.scene.with_obstacle(self.bars[k]))
-            return replace(door, result="around") if all(path.is_free(shut) for path in touching) else door
+            shut = self._with_bars([k])
+            around = all(
+                is_free_motion(shut, pose, motion)
+                for path in touching
+                for pose, motion in zip(path.poses, path.motions, strict=False)
+            )
+            return replace(door, result="around") if around else door
         proofs, too_wide = tuple(answer for answer in answers if isinstance(answer, Separated)), None
         with suppress(UndecidedError):  # among round shapes
-            too_wide = None if tolerance is None else self._missing(pairs, tolerance)
+            too_wide = None if tolerance is None else self._missing(door, k, tolerance)
         return replace(door, result="blocked", missing=too_wide, proofs=proofs)
 
-    def _missing(self, pairs: Sequence[tuple[Pose, Pose]], tolerance: float) -> Interval | None:
-        """Return twice the least inset that joins a pair."""
+    def _missing(self, door: Door, k: int, tolerance: float) -> Interval | None:
+        """Return twice the least inset with which the machine passes a door while all others are shut."""
+        others = [j for j in range(len(self.bars)) if j != k]
+        pairs = [*product(*(poses.values() for poses in self._poses(self._all_shut, door.rooms)))]
         if self.scene.curved:
-            misses = [nearest_miss(self.scene, start, goal, tolerance) for start, goal in pairs]
+            shut = self._with_bars(others)
+            misses = [nearest_miss(shut, start, goal, tolerance) for start, goal in pairs]
             known = [miss for miss in misses if miss is not None]
             return Interval(*(2 * min(getattr(miss, end) for miss in known) for end in ("lo", "hi"))) if known else None
         size = Fraction(2) ** Insets(self.scene).size
         most = deepest(self._smaller, size)
 
-        def is_apart(by: Fraction) -> bool:
-            space = self._smaller_space(min(by, most))
+        def is_apart(by: Fraction, shut: Sequence[int] = others) -> bool:
+            space = self._smaller_space(min(by, most), shut)
             return all(space.common_cell(start, goal) is None for start, goal in pairs)
 
-        if not most or is_apart(most):
+        def is_apart_anyway(by: Fraction) -> bool:
+            return is_apart(by, ())
+
+        if not most or not pairs or is_apart(most):
             return None
-        lo, hi = bracket(is_apart, size / 2**FIRST_INSET)
+        lo, hi = bracket(is_apart_anyway, size / 2**FIRST_INSET)  # other doors share these free spaces
         if lo:
-            lo, hi = bisected(is_apart, lo, hi, tolerance, None)
+            lo, hi = bisected(is_apart_anyway, lo, hi, tolerance, None)
+        if is_apart(hi):  # a smaller machine gets there by another way first
+            lo, hi = bisected(is_apart, *bracket(is_apart, hi), tolerance, None)
         return Interval(2 * float(lo), 2 * float(hi))
 
     def _smaller(self, by: Fraction) -> list[Polygon]:
         return [smaller for part in self.scene.robot for smaller in inset(part, by)]
 
-    def _smaller_space(self, by: Fraction) -> FreeSpace:
-        """Return the free space of the machine with an inset; doors ask for the same ones."""
-        if by not in self._smaller_spaces:
-            self._smaller_spaces[by] = free_space(boundary(with_robot(self.scene, self._smaller(by), None)))
-        return self._smaller_spaces[by]
+    def _smaller_space(self, by: Fraction, shut: Sequence[int]) -> FreeSpace:
+        """Return the free space of the machine with an inset, and some doors shut; doors ask for the same ones."""
+        key = by, *shut
+        if key not in self._smaller_spaces:
+            self._smaller_spaces[key] = free_space(boundary(with_robot(self._with_bars(shut), self._smaller(by), None)))
+        return self._smaller_spaces[key]
 
     def _passes_alone(self, door: Door, k: int) -> bool:
         """True if the machine passes a door while all others are shut."""
@@ -313,10 +328,14 @@ class _Auditor:
 
     def _shut(self, doors: Sequence[int]) -> FreeSpace:
         """Return the free space with some of the doors shut."""
+        return free_space(boundary(self._with_bars(doors), reuse=self.open))
+
+    def _with_bars(self, doors: Sequence[int]) -> Scene:
+        """Return the plan with some of the doors shut."""
         scene = self.scene
         for k in doors:
             scene = scene.with_obstacle(self.bars[k])
-        return free_space(boundary(scene, reuse=self.open))
+        return scene
 
     def _poses(self, space: FreeSpace, rooms: tuple[str, str]) -> tuple[dict[int, Pose], dict[int, Pose]]:
         """Return poses with the machine's inner point in each room, one for each cell: with most room around it."""

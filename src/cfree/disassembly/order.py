@@ -14,7 +14,7 @@ from typing import Any
 from cfree.arguments import checked
 from cfree.disassembly.assembly import Assembly
 from cfree.disassembly.leaving import Leaving, leaving
-from cfree.errors import UndecidedError
+from cfree.errors import IncompleteError
 from cfree.lazy import registered
 from cfree.value import Value
 
@@ -122,7 +122,7 @@ def removal_order(
                 progress((len(removed) + k / (len(left) + 1)) / (count or 1))
             try:
                 one = leaving(assembly, name, [other.part for other in removed], max_seconds=max_seconds)
-            except UndecidedError as error:
+            except IncompleteError as error:
                 undecided.append((name, str(error)))
                 continue
             if one:

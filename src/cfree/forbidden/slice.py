@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from cfree.exact.half_angle import Angle, place_of
 from cfree.forbidden.kinds import PatchKind
 from cfree.forbidden.record import BoundaryRecord
-from cfree.libraries import NDArray, np
+from cfree.libraries import Floats, NDArray, np
 from cfree.value import Shown, Value
 from cfree.words import counted
 
@@ -114,22 +115,57 @@ class Slice(Value, Shown):
         The segments are chained by the names of their end points; coordinates are doubles. Thin free
         parts (a slot as wide as the robot) are missing. Arcs are replaced by chords from inside; see `error`.
         """
-        import shapely
+        return regions(self.boundary, [self._place])[0]
 
-        xy, start, shell = self.boundary._slicer.rings(*self._place)
-        points = xy.reshape(-1, 2)
-        rings = [points[i:j] for i, j in pairwise(start)]
-        rim = self.boundary.features.rim
-        parts: dict[int, list[NDArray[np.float64]]] = {}
-        for k, around in enumerate(shell.tolist()):
-            if around < 0 and rim is None:
-                continue  # no ring encloses it: a sliver of rounding
-            holes = parts.setdefault(around, [])
-            if around != k:
-                holes.append(rings[k])
-        if rim is not None:
-            parts.setdefault(-1, [])
-        frame = None if rim is None else shapely.box(*rim).exterior.coords
-        polygons = [shapely.Polygon(frame if k < 0 else rings[k], holes) for k, holes in parts.items()]
-        region = polygons[0] if len(polygons) == 1 else shapely.MultiPolygon(polygons)
-        return region if shapely.is_valid(region) else shapely.union_all(shapely.make_valid(polygons))
+
+def regions(boundary: BoundaryRecord, places: Sequence[tuple[int, float]]) -> list[BaseGeometry]:
+    """Return the forbidden positions at many orientations, charts and coordinates; see `Slice.forbidden`."""
+    import shapely
+
+    points, start, shell, first = outlines(boundary, places)
+    rim = boundary.features.rim
+    frame = None if rim is None else len(shell)
+    order, part, number = list[int](), list[int](), [0]  # rings, the part of each, and parts so far
+    shells = shell.tolist()
+    for i, j in pairwise(first.tolist()):
+        parts: dict[int, list[int]] = {} if frame is None else {frame: [frame]}
+        for ring in range(i, j):
+            around = shells[ring] if shells[ring] >= 0 else frame
+            if around is not None:  # else no ring encloses it: a sliver of rounding
+                holes = parts.setdefault(around, [around])
+                if ring != around:
+                    holes.append(ring)
+        for k, rings in enumerate(parts.values()):
+            order += rings
+            part += [number[-1] + k] * len(rings)
+        number.append(number[-1] + len(parts))
+    if not order:
+        return [shapely.MultiPolygon()] * len(places)
+    made = shapely.linearrings(points, indices=np.repeat(np.arange(len(shell)), np.diff(start)))
+    if rim is not None:
+        made = np.append(made, shapely.box(*rim).exterior)
+    polygons = shapely.polygons(made[order], indices=part)
+    result = [polygons[i] if j == i + 1 else shapely.MultiPolygon(polygons[i:j]) for i, j in pairwise(number)]
+    for k in np.flatnonzero(~shapely.is_valid(result)).tolist():
+        result[k] = shapely.union_all(shapely.make_valid(polygons[number[k] : number[k + 1]]))
+    return result
+
+
+def outlines(
+    boundary: BoundaryRecord, places: Sequence[tuple[int, float]]
+) -> tuple[Floats, NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
+    """Rings of the forbidden positions at many orientations, forbidden on the left.
+
+    Returns
+    -------
+    points : (p, 2) float64
+    start : (r + 1,) int32
+        First point of each ring, and the end.
+    shell : (r,) int32
+        The ring around a hole, -1 if there is none; a part's own number.
+    first : (n + 1,) int32
+        First ring of each orientation, and the end.
+    """
+    charts, taus = np.array(places, np.float64).reshape(-1, 2).T
+    xy, start, shell, first = boundary._slicer.rings(charts.astype(np.int32), np.ascontiguousarray(taus))
+    return xy.reshape(-1, 2), start, shell, first

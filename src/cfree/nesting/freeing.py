@@ -6,8 +6,11 @@ import math
 from typing import Any
 
 from cfree.arguments import checked
+from cfree.collision.nearest_free import ForbiddenPoseError
+from cfree.errors import InvalidPoseError
 from cfree.exact.number import to_fraction
 from cfree.exact.pose import pose_at
+from cfree.nesting.checking import SHEET, overlaps
 from cfree.nesting.layout import Nesting, shape_box, union
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
@@ -73,4 +76,8 @@ def way_out(nesting: Nesting, part: int, *, max_seconds: float | None = None) ->
     boxes = [shape_box(shape) for shape in (*nesting.placed[index].shapes, *scene.obstacles)]
     x0, y0, x1, y1 = union(boxes)
     reach = to_fraction(math.ceil(4 * (x1 - x0 + y1 - y0)) + 1)
-    return plan(scene, pose, pose_at(pose.x + reach, pose.y, pose.tau), max_seconds=max_seconds)
+    try:
+        return plan(scene, pose, pose_at(pose.x + reach, pose.y, pose.tau), max_seconds=max_seconds)
+    except ForbiddenPoseError:
+        found = next(one for one in overlaps(nesting) if index in one.parts and SHEET not in one.parts)
+        raise InvalidPoseError(f"part {index} overlaps another one: {found}; separate them first") from None

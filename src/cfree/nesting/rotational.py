@@ -19,7 +19,7 @@ from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.critical_angle import critical_angle
 from cfree.forbidden.isolated import isolated_at
-from cfree.forbidden.slice import Slice
+from cfree.forbidden.slice import Slice, outlines, regions
 from cfree.libraries import Floats
 from cfree.nesting.nofit import NFP, nfp
 from cfree.nesting.rounded import RoundedFit
@@ -123,7 +123,7 @@ class RotationalNFP(Value):
         >>> [round(region.area, 6) for region in RotationalNFP(square, square).polygons([0, "45deg"])]
         [4.0, 4.828427]
         """
-        return regions(self.boundary, angles)
+        return regions(self.boundary, [place_of(theta)[1:] for theta in angles])
 
     @checked
     def nfp(self, theta: Angle) -> NFP | RoundedFit:
@@ -181,41 +181,6 @@ class RotationalNFP(Value):
         """Return the numbers of outer rings and holes at an orientation counter-clockwise between two others."""
         first, last = Pose(0, 0, {"tau": start}).theta, Pose(0, 0, {"tau": end}).theta
         middle = first + (last - first) % math.tau / 2
-        cut = self.boundary.slice(middle)
-        _, _, shell = self.boundary._slicer.rings(*cut._place)
+        _, _, shell, _ = outlines(self.boundary, [place_of(middle)[1:]])
         outer = sum(k == around for k, around in enumerate(shell.tolist()))
         return outer, len(shell) - outer
-
-
-def regions(boundary: Boundary, angles: Sequence[Angle]) -> list[BaseGeometry]:
-    """Return the forbidden regions of a boundary without bounds at many orientations, as `Slice.forbidden` is."""
-    import shapely
-
-    places = [place_of(theta) for theta in angles]
-    parts = [boundary._slicer.rings(chart, tau) for _, chart, tau in places]
-    counts = np.fromiter((len(shell) for _, _, shell in parts), np.int64, len(parts))
-    if not counts.sum():
-        return [shapely.MultiPolygon() for _ in parts]
-    sizes = np.delete(np.diff(np.concatenate([start for _, start, _ in parts])), np.cumsum(counts + 1)[:-1] - 1)
-    points = np.concatenate([xy for xy, _, _ in parts]).reshape(-1, 2)
-    rings = shapely.linearrings(points, indices=np.repeat(np.arange(len(sizes)), sizes))
-    first = np.repeat(np.cumsum(counts) - counts, counts)  # ring of each slice
-    around = np.concatenate([shell for _, _, shell in parts])
-    ring = np.flatnonzero(around >= 0)  # no other ring encloses the rest: slivers of rounding
-    shell = around[ring] + first[ring]
-    order = np.lexsort((ring != shell, shell))
-    shells, own = np.unique(shell[order], return_inverse=True)
-    polygons = shapely.polygons(rings[ring[order]], indices=own)
-    slices = np.repeat(np.arange(len(parts)), counts)[shells]
-    number = np.bincount(slices, minlength=len(parts))
-    result = np.array([None] * len(parts), object)
-    alone = number[slices] == 1
-    result[slices[alone]] = polygons[alone]
-    if not alone.all():
-        several, group = np.unique(slices[~alone], return_inverse=True)
-        result[several] = shapely.multipolygons(polygons[~alone], indices=group)
-    if not number.all():
-        result[number == 0] = shapely.MultiPolygon()
-    for k in np.flatnonzero(~shapely.is_valid(result)).tolist():
-        result[k] = boundary.slice(angles[k]).forbidden
-    return list(result)

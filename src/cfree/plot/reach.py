@@ -15,7 +15,7 @@ from cfree.palette import AHEAD, BACK, CATEGORIES, FORBIDDEN, GREY, INK, LOST, S
 from cfree.plot.boundary import around, new_axes, new_figure, plain, set_window
 from cfree.plot.workspace import draw_robot, draw_surroundings, path_of, rings_of_geometry
 from cfree.scene.smooth import smooth
-from cfree.words import counted
+from cfree.words import counted, near
 
 PIXELS = 700  # along the longer side
 ACROSS = 2  # panels beside each other
@@ -142,5 +142,5 @@ def _draw_machine(ax: Axes, audited: Audit, machine: str) -> None:
 
 def _label(door: Door) -> str:
     """Return the width of a door, and how much of it is missing."""
-    missing = f"\n{door.missing.hi:.2g} missing" if door.missing else ""
-    return f"{door.width:.3g}{missing}"
+    missing = f"\n{near(door.missing.hi, 10 * door.missing.hi)} missing" if door.missing else ""
+    return f"{near(door.width, door.width)}{missing}"

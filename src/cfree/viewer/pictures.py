@@ -17,7 +17,7 @@ from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.mesh import Mesh
-from cfree.forbidden.slice import Slice
+from cfree.forbidden.slice import Slice, outlines
 from cfree.free.space import Cell, FreeSpace
 from cfree.palette import paler
 from cfree.paths.path import Path
@@ -214,8 +214,7 @@ def _apart(proof: Proof | AllSeparated) -> str | None:
 
 def _draw_slice(panel: Panel, cut: Slice, colour_of: NDArray[np.int64] | None = None) -> None:
     """Draw forbidden positions and the contacts around them, coloured by kind, or by the number of each trapezoid."""
-    xy, start, shell = cut.boundary._slicer.rings(*cut._place)
-    points = xy.reshape(-1, 2)
+    points, start, shell, _ = outlines(cut.boundary, [cut._place])
     rings = [points[i:j] for i, j in pairwise(start)]
     panel.shapes(rings, FORBIDDEN, frame=bool((shell == -1).any()))
     scene = smooth(cut.boundary.scene)

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 PLACING = ("sheet", "strip", "sheets", "copies", "rotations", "gap", "kerf", "toward", "max_seconds")
 SIDES = ["left", "right", "down", "up"]
-NO_PLACE = "no part has a place on a sheet; give a larger sheet, a smaller gap, or more rotations"
-NO_TIME = "no part was placed in time; give more --max-seconds"
 
 
 @click.command(cls=drawing.Command, epilog=examples(
@@ -97,6 +95,8 @@ def nest(
             nesting, facts = _compacted(nesting, compact)
         elif not check:
             nesting = _placed(job, sheet, strip, sheets, copies, rotations, gap, kerf, toward, max_seconds)
+            if not nesting.placed and max_seconds is not None and time.monotonic() - began >= max_seconds:
+                fail("no part was placed in time; give more --max-seconds", INCOMPLETE)
         with status() as say:
             say("checking ...")
             from cfree.nesting.checking import overlaps
@@ -113,8 +113,7 @@ def nest(
         if found:
             raise click.exceptions.Exit(REFUTED)
         if not (nesting.placed or check or compact):
-            late = max_seconds is not None and time.monotonic() - began >= max_seconds
-            fail(NO_TIME if late else NO_PLACE, INCOMPLETE if late else REFUTED)
+            fail("no part has a place on a sheet; give a larger sheet, a smaller gap, or more rotations", REFUTED)
 
 
 def _refuse_other_tasks(check: bool, compact: str | None) -> None:

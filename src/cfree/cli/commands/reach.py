@@ -231,7 +231,10 @@ def audit(
             rows["doors"] = len(result.doors) // len(result.machines)
             rows["proved impassable"] = len(result.blocked)
             print_rows(scene.name or str(plan), rows, files)
-            print("\n".join(_table(result)))
+            if result.doors:
+                print("\n".join(_table(result)))
+            else:
+                print(" no door was found: none of a suitable width is between two rooms; give --widest or --opening")
             if pairs:
                 one, other = pairs[0]
                 print(printable(f" proofs   {len(pairs)} in {proofs}; check each like: cfree verify {one} {other}"))
@@ -317,7 +320,7 @@ def _table(result: Any) -> list[str]:
         where = ", ".join(near(value, door.width) for value in door.middle)
         missing = " to ".join(ends(door.missing.lo, door.missing.hi, 3)) if door.missing else ""
         rows.append([
-            printable(door.machine), printable(door.name), f"{door.width:.3g}", where,
+            printable(door.machine), printable(door.name), near(door.width, door.width), where,
             printable(" - ".join(door.rooms)), WORDS[door.result], missing,
         ])  # fmt: skip
     return columns(rows, "<<><<<<", max(terminal_width(), 100))
