@@ -174,7 +174,7 @@ def test_obstacles_are_read_as_they_were(tmp_path: Path) -> None:
     holed = cfree.Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(2, 2), (2, "10/3"), (3, 2)]])
     scene = cfree.Scene(TRIANGLE, [holed, [(20, 0), ("61/3", 0), (20, 10**40)]], bounds=(-5, -5, 99, 99))
     store = store_scene(scene, [], tmp_path / "scene")
-    assert tuple(store.polygons([0, 1])) == scene.obstacles
+    assert tuple(store.shapes([0, 1])) == scene.obstacles
     assert store.scene([1]).obstacles == scene.obstacles[1:] and store.head.bounds == scene.bounds
 
 

@@ -760,7 +760,7 @@ def _rectangle(bounds: Sequence[Number]) -> Bounds:
     return xmin, ymin, xmax, ymax
 
 
-def with_obstacles(scene: Scene, obstacles: Sequence[Polygon], names: Sequence[str] | None = None) -> Scene:
+def with_obstacles(scene: Scene, obstacles: Sequence[AnyShape], names: Sequence[str] | None = None) -> Scene:
     """Return the scene with these obstacles, and no others."""
     return Scene(
         scene.robot,
