@@ -33,8 +33,10 @@ def round_scene(family: str, seed: int) -> Scene:
 
 
 def _shape(shape: families.Shape) -> Curved | Polygon:
-    """A grown core; a segment of irrational length is replaced by its first end."""
+    """A grown core; a segment of irrational length is replaced by its first end, and what has no area by a disc."""
     points, radius = shape.core, shape.radius
+    if len(points) < 3:
+        radius = radius or Fraction(1, 8)
     if len(points) > 2:
         return Curved(points, grown=radius) if radius else Polygon(points)
     p, q = points[0], points[-1]

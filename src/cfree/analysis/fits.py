@@ -37,6 +37,7 @@ from cfree.scene.rounded import known_cores
 from cfree.scene.scene import Scene, largest_of, shapes_in
 
 SAME = 1e-6  # of the largest shape: exact places are looked for so near to rounded ones
+SIMPLE = 1 << 20  # denominators of places that are tried
 FINEST, DIRECTIONS = 48, 16  # halvings of that size, and directions, to look for a free place
 
 
@@ -194,6 +195,7 @@ class Orientations:
         fixed = [(b[0] - a[0], b[1] - a[1]) for a, b in product(moved, centers(others))]
         fixed += crossings(contact_lines(scene, turned))
         near = [p for p in dict.fromkeys(fixed) if abs(float(p[0]) - x) + abs(float(p[1]) - y) < SAME * size]
+        near.append((Fraction(x).limit_denominator(SIMPLE), Fraction(y).limit_denominator(SIMPLE)))
         around = [
             (Fraction(x + size * 2.0**-n * math.cos(turn)), Fraction(y + size * 2.0**-n * math.sin(turn)))
             for n in range(3, FINEST)
