@@ -75,6 +75,8 @@ def boundary(
     ------
     FormatError
         If a file cannot be read, or the folder holds something else.
+    UnsupportedError
+        If a shape is not rounded, as for `cfree.boundary`, or a file after the first one has round shapes.
     TaskError
         If a tile ends every worker that begins it.
     OSError
