@@ -123,8 +123,9 @@ static RootTuple root(const Boundary& boundary, std::array<int, 3> contact, int 
     const auto [kind, robot, obstacle] = contact;
     const cfree::Surface on{{static_cast<Kind>(kind), robot, obstacle}, chart};
     const cfree::CriticalAngle angle(on, {cfree::unpacked(first), cfree::unpacked(second), lo, hi}, place);
-    const cfree::RealRoot& x = angle.exact(boundary.scene->near());
-    return {integers(x.p), dyadic(x.lo), dyadic(x.hi)};
+    const auto tuple_of = [](const auto& x) { return RootTuple{integers(x.p), dyadic(x.lo), dyadic(x.hi)}; };
+    const cfree::Scene& scene = boundary.scene->near();
+    return scene.is_round ? tuple_of(angle.exact_among_grown(scene)) : tuple_of(angle.exact(scene));
 }
 
 static std::tuple<Made<int>, Made<int>, int, int> angle_ranks(const Boundary& boundary) {

@@ -26,9 +26,7 @@ static std::tuple<nb::int_, unsigned, nb::int_, unsigned> angle(const FreeSpace&
     return {integer(lo.n), lo.k, integer(hi.n), hi.k};
 }
 
-static std::tuple<std::vector<int>, std::vector<std::int8_t>, std::vector<int>, bool> nearby(
-    const FreeSpace& space, const PoseIntegers& pose, int chart) {
-    auto x = space.points().nearby(pose_of(pose, chart));
+static std::tuple<std::vector<int>, std::vector<std::int8_t>, std::vector<int>, bool> numbers_of(cfree::PointLocation::Nearby x) {
     return {std::move(x.on), std::move(x.end), std::move(x.crossed), x.generic};
 }
 
@@ -79,6 +77,20 @@ static void bind_location(nb::module_& m) {
         .def("__init__", [](PointLocation* x, const cfree::SharedBoundary& boundary) {
             new (x) PointLocation(boundary, std::vector<cfree::Index>(boundary->trapezoids.size(), 0));
         }, "boundary"_a)
+        .def("beside", [](const PointLocation& x, int trapezoid, int attempt, int closer) {
+            using Integers = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>;
+            using Answer = std::optional<std::tuple<Integers, Integers, int, bool>>;
+            const auto found = x.beside(trapezoid, attempt, closer);
+            if (!found) return Answer();
+            const auto numbers = [](const cfree::ExactPose& q) {
+                return Integers{integer(q.X), integer(q.Y), integer(q.W), integer(q.p), integer(q.r)};
+            };
+            const auto& [ray, beyond] = *found;
+            return Answer({numbers(ray.pose), numbers(beyond), ray.pose.chart, ray.is_on_left});
+        }, "trapezoid"_a, "attempt"_a, "closer"_a)
+        .def("nearby", [](const PointLocation& x, const PoseIntegers& pose, int chart) {
+            return numbers_of(x.nearby(pose_of(pose, chart)));
+        }, "pose"_a, "chart"_a)
         .def("pose_on", [](const PointLocation& x, int trapezoid, int attempt) {
             using Answer = std::optional<std::tuple<std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>, int, bool>>;
             const auto found = x.pose_on(trapezoid, attempt);
@@ -112,7 +124,9 @@ void bind_free_space(nb::module_& m) {
         })
         .def("caged", [](const FreeSpace& space, const Column<int>& owner) { return array_of(cfree::caged(space, vector_of(owner))); }, "owner"_a)
         .def("angle", &angle, "trapezoid"_a, "last"_a, "bits"_a)
-        .def("nearby", &nearby, "pose"_a, "chart"_a)
+        .def("nearby", [](const FreeSpace& space, const PoseIntegers& pose, int chart) {
+            return numbers_of(space.points().nearby(pose_of(pose, chart)));
+        }, "pose"_a, "chart"_a)
         .def("cells_at", [](const FreeSpace& space, const PoseIntegers& pose, int chart) {
             return space.cells_at(pose_of(pose, chart));
         }, "pose"_a, "chart"_a)

@@ -27,7 +27,8 @@ inline nanobind::int_ integer(const cfree::Int& n) {
     return nanobind::borrow<nanobind::int_>(n.sign() < 0 ? -value : value);
 }
 
-inline std::vector<nanobind::int_> integers(const cfree::Poly& p) {
+template <class P>  // a polynomial of any kind
+std::vector<nanobind::int_> integers(const P& p) {
     std::vector<nanobind::int_> result;
     for (const cfree::Int& c : p) result.push_back(integer(c));
     return result;

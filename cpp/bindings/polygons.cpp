@@ -1,6 +1,7 @@
 // Polygons and scenes from Python's numbers: what needs no second look is read here, all else is left to Python.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
@@ -144,6 +145,12 @@ cfree::Rounding rounding_of(const GivenRounding& given) {
     return result;
 }
 
+std::vector<cfree::Rounding> roundings_of(const std::vector<GivenRounding>& given) {
+    std::vector<cfree::Rounding> result;
+    for (const GivenRounding& one : given) result.push_back(rounding_of(one));
+    return result;
+}
+
 cfree::SceneShapes shapes_of(std::vector<std::shared_ptr<Polygon>> robot, std::vector<std::shared_ptr<Polygon>> obstacles,
                              std::shared_ptr<Polygon> workspace, std::optional<std::array<nb::object, 4>> bounds) {
     cfree::SceneShapes shapes{{robot.begin(), robot.end()}, {obstacles.begin(), obstacles.end()}, std::move(workspace), {}};
@@ -223,11 +230,40 @@ void bind_polygons(nb::module_& m) {
     column(owners, "polygon_of_end", &cfree::Owners::polygon_of_end);
     nb::class_<cfree::WholeScene>(m, "WholeScene")
         .def("__init__", [](cfree::WholeScene* w, const nb::int_& scale, const std::optional<std::array<nb::int_, 4>>& box,
-                            const nb::int_& short_part) {
+                            const nb::int_& short_part, const std::optional<std::vector<GivenRounding>>& robot,
+                            const std::optional<std::vector<GivenRounding>>& facing) {
             new (w) cfree::WholeScene{integer(scale), {}, integer(short_part)};
             if (box) w->box = std::array{integer((*box)[0]), integer((*box)[1]), integer((*box)[2]), integer((*box)[3])};
-        }, "scale"_a, "box"_a.none(), "short_part"_a)
-        .def("add", [](cfree::WholeScene& w, const Polygon& polygon) { w.add(polygon); }, "polygon"_a)
+            w->is_round = robot.has_value();
+            if (robot) w->robot = roundings_of(*robot);
+            if (facing) w->facing = roundings_of(*facing);
+        }, "scale"_a, "box"_a.none(), "short_part"_a, "robot"_a.none() = nb::none(), "facing"_a.none() = nb::none(),
+             "Without roundings of the robot, none of the shapes is rounded.",
+             nb::sig("def __init__(self, scale: int, box: Sequence[int] | None, short_part: int, "
+                     "robot: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None, "
+                     "facing: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None) -> None"))
+        .def("add", [](cfree::WholeScene& w, const Polygon& polygon, const std::optional<GivenRounding>& rounding) {
+            w.add(polygon, rounding ? rounding_of(*rounding) : cfree::Rounding());
+        }, "polygon"_a, "rounding"_a.none() = nb::none(),
+             nb::sig("def add(self, polygon: Polygon, rounding: tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]] | None = None) -> None"))
+        .def_prop_ro("facing", [](const cfree::WholeScene& w) {
+            using Numbers = std::vector<std::pair<nb::int_, nb::int_>>;
+            std::vector<std::pair<std::pair<nb::int_, nb::int_>, std::vector<Numbers>>> all;
+            const auto pair = [](const cfree::Ratio& x) { return std::pair(integer(x.n), integer(x.d)); };
+            for (const cfree::Rounding& rounding : w.facing) {
+                all.emplace_back(pair(rounding.radius), std::vector<Numbers>());
+                for (const cfree::Arc& arc : rounding.arcs) {
+                    Numbers numbers;
+                    const auto add = [&](const cfree::RatioPoint& p) { numbers.push_back(pair(p.x)), numbers.push_back(pair(p.y)); };
+                    for (const auto* p : {&arc.from, &arc.to, &arc.centre}) add(*p);
+                    numbers.push_back(pair(arc.radius));
+                    if (arc.beyond)
+                        for (const auto& p : *arc.beyond) add(p);
+                    all.back().second.push_back(std::move(numbers));
+                }
+            }
+            return all;
+        }, "Roundings by numerators and denominators.")
         .def_prop_ro("scale", [](const cfree::WholeScene& w) { return integer(w.scale); })
         .def_prop_ro("short_part", [](const cfree::WholeScene& w) { return integer(w.short_part); })
         .def_prop_ro("box", [](const cfree::WholeScene& w) {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from fractions import Fraction
 from itertools import pairwise
 
@@ -10,8 +11,9 @@ import numpy as np
 import pytest
 
 import oracles
-from cfree import Polygon, Pose, fits
+from cfree import Curved, Polygon, Pose, Scene, UnsupportedError, boundary, fits, is_free
 from cfree.analysis import Fit
+from cfree.curves import Arc
 from cfree.exact import AngleInterval
 from shapes import Point, Shape, box, l_shape, mapped
 
@@ -132,3 +134,60 @@ def test_turning_the_hole_turns_the_fits() -> None:
     shifted = ranges[0] + by
     shifted -= math.tau * (shifted[:, :1] >= math.tau)
     np.testing.assert_allclose(shifted[np.argsort(shifted[:, 0])], ranges[1], atol=1e-14)
+
+
+# --- round shapes
+
+
+def _with_ends(length: object, width: Fraction = Fraction(2)) -> Curved:
+    """A stadium along the x-axis."""
+    half, radius = Fraction(str(length)) / 2, width / 2
+    ends = [Arc((half, radius), center=(half, 0)), Arc((-half, -radius), center=(-half, 0))]
+    return Curved([(-half, -radius), (half, -radius), ends[0], (-half, radius), ends[1]])
+
+
+@pytest.mark.parametrize("room", [Fraction(1, 100), Fraction(1, 2**40)])
+def test_rounded_squares_and_stadiums_in_boxes(room: Fraction) -> None:
+    """A square of side 1 grown by 1/2 is |sin| + |cos| + 1 wide, and a stadium 2 |sin| + 2."""
+    rounded = Curved(SQUARE, grown="1/2")
+    found = fits(rounded, box(0, 0, 2 + room, 2 + room)[0])
+    assert len(found) == 4
+    for fit in found:
+        start, stop = fit.orientations.start, fit.orientations.stop
+        assert start is not None and stop is not None and fit.pose is not None
+        for end, inner in ((start, 1), (stop, 0)):
+            sizes = [abs(q.cos) + abs(q.sin) for q in (Pose(0, 0, {"tau": tau}) for tau in end.neighbours(300))]
+            assert sizes[inner] <= 1 + room <= sizes[1 - inner]
+    slot = box(0, 0, 9, 2 + room)[0]
+    assert [2 * math.sin(fit.orientations.theta[1]) for fit in fits(_with_ends(2), slot)] == pytest.approx(
+        [-room, room], rel=1e-3
+    )
+    exact = fits(rounded, box(0, 0, 2, 2)[0])
+    assert [fit.orientations.theta for fit in exact] == [(k * math.pi / 2,) * 2 for k in range(4)]
+    assert fits(rounded, box(0, 0, 2, 2 - room)[0]) == fits(_with_ends(2), box(0, 0, 9, 2 - room)[0]) == ()
+
+
+def test_what_fits_in_a_round_hole() -> None:
+    """A rectangle whose corners are on the rim, a disc of its own size, and larger ones."""
+    rectangle, hole = box("-6/5", "-8/5", "6/5", "8/5")[0], Curved.circle((5, 5), 2)
+    for part in (rectangle, Curved.circle((1, 0), 2), Curved(SQUARE, grown="1/2")):
+        (fit,) = fits(part, hole)
+        assert fit.orientations == ALL and fit.pose is not None
+        assert is_free(Scene(part, workspace=hole), fit.pose)
+    assert fits(box("-6/5", "-8/5", "6/5", 1.7)[0], hole) == fits(Curved.circle((0, 0), "2.0000001"), hole) == ()
+    with pytest.raises(UnsupportedError, match=r"concave arcs .*scene.outer\(error\)"):
+        fits(_with_ends(1), _with_ends(1))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_random_round_parts_fit_at_the_orientations_of_slices(seed: int) -> None:
+    """Free positions at 60 orientations, by the boundary of the scene with chords: a little larger, or smaller."""
+    rng = random.Random(seed)
+    part = [Curved.circle((rng.randint(-4, 4) / 4, 0), "1/2"), _with_ends(rng.randint(1, 4))]
+    hole = box(0, 0, 3 + rng.randint(0, 8) / 4, 2 + rng.randint(1, 6) / 8)[0]
+    found, scene = fits(part, hole), Scene(part, workspace=hole)
+    outer, inner = boundary(scene.outer(1e-4)), boundary(scene.inner(1e-4))
+    for theta in np.arange(60) * 0.1047:
+        is_fit = any(fit.orientations.contains(float(theta)) for fit in found)
+        assert bool(len(outer.slice(theta).segments)) <= is_fit <= bool(len(inner.slice(theta).segments))
+    assert all(is_free(scene, fit.pose) for fit in found if fit.pose is not None)

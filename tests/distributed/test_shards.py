@@ -12,12 +12,14 @@ import pytest
 
 import cfree
 import cfree._core as _core
+from cfree.curves import Circle
 from cfree.distributed import Sharded, boundary
 from cfree.distributed.part import Part
 from cfree.distributed.store import SceneStore, store_scene
 from cfree.distributed.trim import digest, trim_tile
 from compared import scene_of
 from examples import POLYGONS
+from round_tiles import round_scene, tile_faults
 from shapes import KINDS, random_scene
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
@@ -151,6 +153,39 @@ def test_edges_and_polygons_lead_over_many_tiles(tmp_path: Path) -> None:
     check_tiles(cfree.Scene(TRIANGLE, [comb, *stones, floor], bounds=(-4, -8, 39, 2)), tmp_path, (1, 5, 40))
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("family", "seed"), [("chain", 1), ("stadiums", 1), ("fits", 1)])
+def test_rounded_shapes_are_the_same_in_any_tiles(family: str, seed: int, tmp_path: Path) -> None:
+    """Tangent chains, corridors as wide as the robot, and concave arcs; shards are verified."""
+    is_verified = family == "chain"
+    assert [*tile_faults(round_scene(family, seed), tmp_path, (1, 4), is_verified=is_verified)] == []
+
+
+def test_a_round_workspace_and_its_holes_are_in_tiles(tmp_path: Path) -> None:
+    """A disc in a ring, cut by a wall: two cells, of one volume by symmetry; a path around, and a proof."""
+    ring = cfree.Curved(Circle((0, 0), 4), [Circle((0, 0), 2)])
+    walls = [[(2, -1), (4, -1), (4, 1), (2, 1)], [(-4, -1), (-2, -1), (-2, 1), (-4, 1)]]
+    scene = cfree.Scene(cfree.Curved.circle((0, 0), "1/2"), walls, workspace=ring)
+    assert [*tile_faults(scene, tmp_path, (1, 3))] == []
+    found = boundary(scene, folder=tmp_path / "3", tiles=3)
+    assert len(found.cells) == 2 and found.cells.volume[0] == pytest.approx(found.cells.volume[1], rel=1e-9)
+    poses = [cfree.Pose(*place) for place in [(0, 3), ("-3/2", "5/2"), (0, -3)]]
+    path, proof = found.plan(*poses[:2]), found.plan(poses[0], poses[2])
+    assert isinstance(path, cfree.Path) and isinstance(proof, cfree.Separated)
+    for answer in (path, proof):
+        assert cfree.verify.answer(*found.scene_for(answer)).verified
+
+
+def test_round_shapes_of_other_kinds_are_refused_by_number(tmp_path: Path) -> None:
+    shapes = [cfree.Curved.circle((9, 0), 1), cfree.Curved.ellipse((0, 9), (1, 2))]
+    with pytest.raises(cfree.UnsupportedError, match=r"obstacle 1: not bounded by lines and arcs .*scene.outer"):
+        boundary(cfree.Scene(TRIANGLE, shapes), folder=tmp_path / "ellipse")
+    channel = cfree.Curved(Circle((0, 0), 3), [Circle((0, 0), 2)])
+    core = cfree.Curved.circle((0, 0), 1)
+    with pytest.raises(cfree.UnsupportedError, match="between two arcs about one center"):
+        boundary(cfree.Scene(cfree.Curved.circle((0, 0), "1/2"), [channel, core]), folder=tmp_path / "channel")
+
+
 def test_trapezoids_are_those_of_the_whole(tmp_path: Path) -> None:
     """Column for column, the core asked at once and with its own constants."""
     scene = cfree.load_scene(SCENES / "comb_hook.json")
@@ -174,7 +209,7 @@ def test_obstacles_are_read_as_they_were(tmp_path: Path) -> None:
     holed = cfree.Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(2, 2), (2, "10/3"), (3, 2)]])
     scene = cfree.Scene(TRIANGLE, [holed, [(20, 0), ("61/3", 0), (20, 10**40)]], bounds=(-5, -5, 99, 99))
     store = store_scene(scene, [], tmp_path / "scene")
-    assert tuple(store.polygons([0, 1])) == scene.obstacles
+    assert tuple(store.shapes([0, 1])) == scene.obstacles
     assert store.scene([1]).obstacles == scene.obstacles[1:] and store.head.bounds == scene.bounds
 
 

@@ -282,10 +282,12 @@ def test_other_round_scenes_are_refused_with_the_shape_and_a_remedy(name: str) -
     assert "scene.outer(error)" in str(refused.value)
 
 
-def test_what_is_not_made_of_round_boundaries_is_refused() -> None:
-    for refused in (lambda: boundary(DISCS).checker, lambda: cfree.fits(disc(0, 0, 1), SQUARE)):
-        with pytest.raises(UnsupportedError, match="polygons"):
-            refused()
+def test_the_checker_of_a_round_boundary_is_that_of_its_scene() -> None:
+    checker = boundary(DISCS).checker
+    poses = [cfree.Pose(x, 0, "30deg") for x in range(-3, 12)] + [cfree.Pose("1/2", 0), cfree.Pose("1/2", "-1e-30")]
+    assert [checker.is_free(pose) for pose in poses] == cfree.is_free(DISCS, poses).tolist()
+    table = np.array([[float(pose.x), float(pose.y), pose.theta] for pose in poses])
+    assert cfree.is_free(checker, table).tolist() == cfree.is_free(DISCS, table).tolist()
 
 
 def test_kinds_of_patches_have_colours() -> None:

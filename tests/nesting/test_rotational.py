@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
+import numpy as np
 import pytest
 import shapely
 
 import cfree
 from cfree import Curved, Polygon
+from cfree.curves import Arc
 from cfree.nesting import NFP, RotationalNFP, nfp
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -70,11 +73,22 @@ def test_exact_fits_are_events_of_the_topology() -> None:
     assert not turning.exact_fits(0.1)
 
 
-def test_round_parts_have_slices_and_no_exact_events() -> None:
-    turning = RotationalNFP(Curved.circle((0, 0), 2), SQUARE)
+def test_rings_of_round_parts_change_at_events_alone() -> None:
+    """By polygons near two discs and a stadium, 4 degrees apart: gaps open and close four times in a turn."""
+    ends = [Arc((2, "1/2"), center=(2, 0)), Arc((0, "-1/2"), center=(0, 0))]
+    stadium = Curved([(0, "-1/2"), (2, "-1/2"), ends[0], (0, "1/2"), ends[1]])
+    turning = RotationalNFP([Curved.circle((0, 0), 1), Curved.circle(("7/2", 0), 1)], stadium)
     assert turning.slice(0.3).error < 1e-3
-    with pytest.raises(cfree.UnsupportedError, match="exact events: of boundaries among polygons only"):
-        turning.events  # noqa: B018
+    changes = turning.topology_changes
+    assert {change.angle.theta for change in changes} <= {event.theta for event in turning.events}
+    rough = cfree.boundary(turning.boundary.scene.outer(1e-4))
+    degrees = np.arange(1, 364, 4)
+    rings = [rough.slice(math.radians(k)).forbidden for k in degrees]
+    counts = [len(getattr(region, "geoms", [region])) for region in rings]
+    assert len(changes) == sum(a != b for a, b in pairwise(counts)) == 4
+    for change, k in zip(changes, np.flatnonzero(np.diff(counts)), strict=True):
+        assert math.radians(degrees[k]) < change.angle.theta < math.radians(degrees[k + 1])
+        assert (change.before[0], change.after[0]) == (counts[k], counts[k + 1])
 
 
 def test_two_discs_have_no_events() -> None:

@@ -1,5 +1,6 @@
 // Rays from poses among grown shapes; theory, "Rounded shapes".
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -88,49 +89,49 @@ PointLocation::Nearby PointLocation::nearby_among_grown(const ExactPose& q) cons
     return seen;
 }
 
-// A pose just left of a trapezoid and one just right of it, with nothing between: the lines from both cross the same others.
+std::optional<std::pair<PointLocation::Ray, ExactPose>> PointLocation::beside(Index k, int attempt, int closer) const {
+    const Surface surface = surface_of(patches, trapezoids, k);
+    Predicates predicates(scene, surface);
+    const Event from = angle_from(patches, trapezoids, k).event(predicates), to = angle_to(patches, trapezoids, k).event(predicates);
+    const Dyadic tau = predicates.between(from, to, attempt).exact();
+    const RoundPoints points(scene, surface.chart);
+    const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
+    const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
+    const Ball rise = high.y - low.y, y = low.y + Ball(0.5 + (attempt % 5 - 2) * 0.125) * rise;
+    if (rise.hi == 0) return {};
+    const Ball x = points.crossing(surface.contact, low, high, y, tau);
+    const auto pose_at = [&](double by) {
+        return exact_pose(x + Ball(by), y, scene.shift, surface.chart, tau);
+    };
+    double step = (std::abs((high.x - low.x).hi) + std::abs(rise.hi)) * std::ldexp(0.25, -2 * closer);
+    for (int smaller = closer; smaller < 50; ++smaller, step *= 0.25) {
+        const ExactPose before = pose_at(-step), beyond = pose_at(step);
+        const Nearby left = look_among_grown(before), right = look_among_grown(beyond);
+        if (!left.generic || !left.on.empty() || !right.generic || !right.on.empty()) continue;
+        std::vector<Index> same = left.crossed, more = right.crossed, passed;
+        std::sort(same.begin(), same.end()), std::sort(more.begin(), more.end());
+        std::set_difference(more.begin(), more.end(), same.begin(), same.end(), std::back_inserter(passed));
+        if (same.size() + passed.size() != more.size()) continue;
+        if (passed == std::vector{k}) return std::pair(Ray{before, k, rise.hi > 0, std::move(same)}, beyond);
+    }
+    return {};
+}
+
 std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
     const auto n = static_cast<Index>(component.size());
     const Index components = n ? *std::max_element(component.begin(), component.end()) + 1 : 0;
     std::vector<std::vector<Index>> of_component(static_cast<std::size_t>(components));
     for (Index k = 0; k < n; ++k) of_component[component[k]].push_back(k);
     const auto width = [&](Index k) { return trapezoids.to_lo[k] - trapezoids.from_hi[k]; };
-    const auto try_one = [&](Index k, int attempt) -> std::optional<Ray> {
-        const Surface surface = surface_of(patches, trapezoids, k);
-        Predicates predicates(scene, surface);
-        const Event from = angle_from(patches, trapezoids, k).event(predicates), to = angle_to(patches, trapezoids, k).event(predicates);
-        const Dyadic tau = predicates.between(from, to, attempt).exact();
-        const RoundPoints points(scene, surface.chart);
-        const auto low = points.near({surface.contact, unpacked(trapezoids.lower[k])}, tau);
-        const auto high = points.near({surface.contact, unpacked(trapezoids.upper[k])}, tau);
-        const Ball rise = high.y - low.y, y = low.y + Ball(0.5 + (attempt % 5 - 2) * 0.125) * rise;
-        if (rise.hi == 0) return {};
-        const Ball x = points.crossing(surface.contact, low, high, y, tau);
-        const auto pose_at = [&](double by) {
-            return exact_pose(x + Ball(by), y, scene.shift, surface.chart, tau);
-        };
-        double step = (std::abs((high.x - low.x).hi) + std::abs(rise.hi)) * 0.25;
-        for (int smaller = 0; smaller < 50; ++smaller, step *= 0.25) {
-            const ExactPose q = pose_at(-step);
-            const Nearby left = look_among_grown(q), right = look_among_grown(pose_at(step));
-            if (!left.generic || !left.on.empty() || !right.generic || !right.on.empty()) continue;
-            std::vector<Index> before = left.crossed, after = right.crossed, passed;
-            std::sort(before.begin(), before.end()), std::sort(after.begin(), after.end());
-            std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(passed));
-            if (before.size() + passed.size() != after.size()) continue;
-            if (passed == std::vector{k}) return Ray{q, k, rise.hi > 0, std::move(before)};
-        }
-        return {};
-    };
     std::vector<Ray> result;
     for (auto& faces : of_component) {
         heed_stop();
         std::stable_sort(faces.begin(), faces.end(), [&](Index p, Index q) { return width(p) > width(q); });
-        std::optional<Ray> ray;
-        for (int attempt = 0; attempt < Predicates::most_attempts && !ray; ++attempt)
-            for (std::size_t k = 0; k < faces.size() && !ray; ++k) ray = try_one(faces[k], attempt);
-        if (!ray) throw std::logic_error("no ray in general position");
-        result.push_back(std::move(*ray));
+        std::optional<std::pair<Ray, ExactPose>> found;
+        for (int attempt = 0; attempt < Predicates::most_attempts && !found; ++attempt)
+            for (std::size_t k = 0; k < faces.size() && !found; ++k) found = beside(faces[k], attempt, 0);
+        if (!found) throw std::logic_error("no ray in general position");
+        result.push_back(std::move(found->first));
     }
     return result;
 }

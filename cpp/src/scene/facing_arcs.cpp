@@ -15,9 +15,12 @@ RatioPoint moved(const RatioPoint& p, const Ratio& factor, const Vector& v) { re
 Ratio cross(const Vector& v, const Vector& w) { return v.x * w.y - v.y * w.x; }
 Ratio dot(const Vector& v, const Vector& w) { return v.x * w.x + v.y * w.y; }
 
-void sort_once(std::vector<Ratio>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+// Enter a number where it belongs in order; false if it is there.
+bool enter(std::vector<Ratio>& list, const Ratio& x) {
+    const auto at = std::lower_bound(list.begin(), list.end(), x);
+    if (at != list.end() && !(x < *at)) return false;
+    list.insert(at, x);
+    return true;
 }
 
 Int ceiling(const Ratio& x) { return -floor_divide(-x.n, x.d); }
@@ -46,20 +49,26 @@ Int size_of(const Ratio& t) {
 }  // namespace
 
 FacingArcs::FacingArcs(const std::vector<Rounding>& other) : discs{{0, 1}} {
-    for (const Rounding& rounding : other) {
-        discs.push_back(rounding.radius);
-        for (const Arc& arc : rounding.arcs) {
-            if (!arc.beyond) {
-                arcs.push_back(rounding.radius + arc.radius);
-                continue;
-            }
-            if (rounding.radius < arc.radius) hollows.push_back(arc.radius - rounding.radius);
-            step = std::min(step, step_for(arc));
-            const auto [x, y] = (*arc.beyond)[1] - arc.centre;
-            farthest = std::max(farthest, (std::max(x, -x) + std::max(y, -y)) / arc.radius);
+    for (const Rounding& rounding : other) add(rounding);
+}
+
+bool FacingArcs::add(const Rounding& rounding) {
+    bool is_new = enter(discs, rounding.radius);
+    const auto set = [&](Ratio& most, const Ratio& value) {
+        is_new = true;
+        most = value;
+    };
+    for (const Arc& arc : rounding.arcs) {
+        if (!arc.beyond) {
+            is_new |= enter(arcs, rounding.radius + arc.radius);
+            continue;
         }
+        if (rounding.radius < arc.radius) is_new |= enter(hollows, arc.radius - rounding.radius);
+        if (const Ratio most = step_for(arc); most < step) set(step, most);
+        const auto [x, y] = (*arc.beyond)[1] - arc.centre;
+        if (const Ratio away = (std::max(x, -x) + std::max(y, -y)) / arc.radius; farthest < away) set(farthest, away);
     }
-    for (auto* list : {&discs, &arcs, &hollows}) sort_once(*list);
+    return is_new;
 }
 
 std::vector<Quadrangle> quadrangles(const Arc& arc, const Ratio& grown, const FacingArcs& other) {

@@ -11,6 +11,8 @@ namespace cfree {
 // Radii in one shape, for the arcs of the other one. All are in order, each once.
 struct FacingArcs {
     explicit FacingArcs(const std::vector<Rounding>& other);
+    // Add another rounding of that shape; false if this changes nothing.
+    bool add(const Rounding& rounding);
     bool has_concave() const { return !hollows.empty(); }
 
     std::vector<Ratio> discs;    // by which its parts are grown, and 0

@@ -641,17 +641,23 @@ Int floor_divide(const Int& n, const Int& d) {
 }
 
 void WholeScene::add(const Polygon& polygon, const Rounding& rounding) {
-    include_short(short_part, polygon.denominator);
-    std::vector<const Int*> denominators{&polygon.denominator};
-    for_each_number(rounding, [&](const Ratio& x) { denominators.push_back(&x.d); });
-    for (const Int* denominator : denominators) {
-        if (scale % *denominator == 0) continue;
-        const Int more = lcm(scale, *denominator) / scale;
+    std::vector<Int> denominators{polygon.denominator};
+    const auto use = [&](const Ratio& x) { denominators.push_back(x.d); };
+    if (is_rounded(rounding)) {
+        if (!of_obstacles) of_robot = std::make_shared<FacingArcs>(robot), of_obstacles = std::make_shared<FacingArcs>(facing);
+        if (of_obstacles->add(rounding)) facing.push_back(rounding);
+        for_each_number(rounding, use);
+        for_each_point(rounding, *of_robot, [&](const RatioPoint& p) { use(p.x), use(p.y); });
+        is_round = true;
+    }
+    for (const Int& denominator : denominators) {
+        include_short(short_part, denominator);
+        if (scale % denominator == 0) continue;
+        const Int more = lcm(scale, denominator) / scale;
         scale *= more;
         if (box)
             for (Int& c : *box) c *= more;
     }
-    is_round |= is_rounded(rounding);
     const Int factor = scale / polygon.denominator, reach = scaled(reach_beyond_corners(rounding), scale);
     for (Index k = 0; k < polygon.offsets[1]; ++k) {
         const Int x = polygon.vertices.X[k] * factor, y = polygon.vertices.Y[k] * factor;
@@ -675,7 +681,9 @@ SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole)
     if (shapes.workspace) include(shapes.workspace->denominator);
     for (const auto* all : {&shapes.robot_rounding, &shapes.obstacle_rounding})
         for (const Rounding& rounding : *all) for_each_number(rounding, [&](const Ratio& x) { include(x.d); });
-    const FacingArcs of_obstacles(shapes.obstacle_rounding), of_robot(shapes.robot_rounding);
+    std::vector<Rounding> facing = shapes.obstacle_rounding;
+    facing.insert(facing.end(), whole.facing.begin(), whole.facing.end());
+    const FacingArcs of_obstacles(facing), of_robot(shapes.robot_rounding);
     for (const auto& [all, other] : {std::pair{&shapes.robot_rounding, &of_obstacles}, {&shapes.obstacle_rounding, &of_robot}})
         for (const Rounding& rounding : *all) for_each_point(rounding, *other, [&](const RatioPoint& p) { include(p.x.d), include(p.y.d); });
     std::vector<Int> bounds;

@@ -3,25 +3,42 @@
 The part is a robot whose workspace is the hole. At an orientation at which it fits, the free positions are a closed and
 bounded set. A pose on the rim of this set is on a trapezoid of the boundary or on an isolated part. So the orientations
 are those of all trapezoids and isolated parts: closed intervals, united by the exact order of their ends.
+
+In concave arcs not all fits at single orientations are isolated parts. Then the orientations are those of all fits only
+if there is no single one: a disc that fits can turn about its center, and whatever fits a round hole turns in it.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 import cfree._core as _core
+from cfree.collision.nearest_free import centers
+from cfree.contact.contact_lines import contact_lines, crossings
+from cfree.curves.curved import Curved
+from cfree.curves.rings import Circle
+from cfree.errors import UnsupportedError
 from cfree.exact.algebraic import between, part
 from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
-from cfree.exact.half_angle import normalize_angles
-from cfree.exact.pose import Pose
+from cfree.exact.half_angle import normalize_angles, tau_in_chart, theta_in
+from cfree.exact.pose import Pose, pose_at
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import Trapezoids
 from cfree.forbidden.critical_angle import critical_angle
 from cfree.planning.core_ways import from_numbers
-from cfree.scene.scene import Scene, shapes_in
+from cfree.polygons.polygon import Polygon
+from cfree.scene.rounded import known_cores
+from cfree.scene.scene import Scene, largest_of, shapes_in
+
+SAME = 1e-6  # of the largest shape: exact places are looked for so near to rounded ones
+SIMPLE = 1 << 20  # denominators of places that are tried
+FINEST, DIRECTIONS = 48, 16  # halvings of that size, and directions, to look for a free place
 
 
 @dataclass(frozen=True)
@@ -35,6 +52,7 @@ class Fit:
         A position at one of them, rounded.
     pose : Pose or None
         The same position as an exact free pose; None at a single orientation with an irrational half-angle tangent.
+        Among round shapes also None of an exact fit whose position has no rational coordinates.
     """
 
     orientations: AngleInterval
@@ -50,7 +68,7 @@ def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
     part : shape or sequence of shapes
         Like the robot of a `Scene`: it is turned about the origin, then moved.
     hole : shape
-        One polygon that must contain the part. Holes in this polygon are forbidden.
+        One shape that must contain the part. Holes in this shape are forbidden.
 
     Returns
     -------
@@ -60,7 +78,10 @@ def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
     Raises
     ------
     InvalidPolygonError
-        If a shape is not a polygon.
+        If a shape is invalid.
+    UnsupportedError
+        If a shape is not rounded, as for `boundary`. Also if the part, or the hole's complement, has concave arcs,
+        unless the part is a disc, or the hole is one and the part has no other arcs.
 
     Notes
     -----
@@ -99,7 +120,9 @@ class Orientations:
 
     def __init__(self, boundary: Boundary) -> None:
         boundary.require_complete()
-        boundary.require_polygons("exact fits")
+        if boundary.scene.curved and not _lists_all_fits(boundary.scene):
+            remedy = "give boundary(scene.outer(error)) for intervals of orientations at which it surely fits"
+            raise UnsupportedError(f"exact fits: in concave arcs some at single orientations are not found; {remedy}")
         self.boundary = boundary
         self._from, self._to, _, self._last = boundary._handle.angle_ranks()
 
@@ -142,7 +165,7 @@ class Orientations:
     def _place(self, k: int) -> tuple[tuple[float, float, float], Pose | None]:
         """Return a position at an angle of a trapezoid or isolated part: the middle of the slice if that is free."""
         table, row = self._row(k)
-        exact = self._pose(table, row, k)
+        exact = (self._round_pose if self.boundary.scene.curved else self._pose)(table, row, k)
         if exact is None:
             x, y, theta = self.boundary.isolated_part(row).ends[0]
             return (x, y, float(normalize_angles(theta))), None
@@ -154,6 +177,47 @@ class Orientations:
         pose = middle if self.boundary.checker.is_free(middle) else exact
         return (float(pose.x), float(pose.y), pose.theta), pose
 
+    def _round_pose(self, table: Trapezoids, row: int, k: int) -> Pose | None:
+        """Return a free pose on a trapezoid or isolated part, or near it; None if none is known that is rational."""
+        ends = [critical_angle(self.boundary, table, row, last) for last in (False, True)]
+        if self._from[k] == self._to[k]:
+            tau = ends[0].value
+            if not isinstance(tau, Fraction):
+                return None
+        else:
+            part(*ends)
+            tau = between(ends[0].hi, ends[1].lo)
+        turned = pose_at(Fraction(0), Fraction(0), tau_in_chart(int(table.chart[row]), tau))
+        x, y = self._near(table, row, k, float(tau))
+        scene, size = self.boundary.scene, largest_of(self.boundary.scene)
+        others = (*scene.obstacles, *([scene.workspace] if scene.workspace is not None else []))
+        moved = turned.apply_exact(centers(scene.robot))
+        fixed = [(b[0] - a[0], b[1] - a[1]) for a, b in product(moved, centers(others))]
+        fixed += crossings(contact_lines(scene, turned))
+        near = [p for p in dict.fromkeys(fixed) if abs(float(p[0]) - x) + abs(float(p[1]) - y) < SAME * size]
+        near.append((Fraction(x).limit_denominator(SIMPLE), Fraction(y).limit_denominator(SIMPLE)))
+        around = [
+            (Fraction(x + size * 2.0**-n * math.cos(turn)), Fraction(y + size * 2.0**-n * math.sin(turn)))
+            for n in range(3, FINEST)
+            for turn in np.arange(DIRECTIONS) * (math.tau / DIRECTIONS)
+        ]
+        poses = (pose_at(*place, turned.tau) for place in [(Fraction(x), Fraction(y)), *near, *around])
+        return next(filter(self.boundary.checker.is_free, poses), None)
+
+    def _near(self, table: Trapezoids, row: int, k: int, tau: float) -> tuple[float, float]:
+        """Return the middle of a trapezoid or isolated part at an orientation, rounded."""
+        boundary, theta = self.boundary, theta_in(int(table.chart[row]), tau)
+        if table is boundary.isolated:
+            if self._from[k] == self._to[k]:
+                x, y, _ = boundary.isolated_part(row).ends[0]
+                return x, y
+            t = boundary._slicer.isolated_curve(row, np.array([tau]))
+            place = boundary.evaluate([boundary.isolated.lower_patch[row]], t, [theta])[0]
+        else:
+            lower, upper = boundary.limits([row], [theta])
+            place = boundary.evaluate([table.patch[row]], (lower + upper) / 2, [theta])[0]
+        return float(place[0]), float(place[1])
+
     def _pose(self, table: Trapezoids, row: int, k: int) -> Pose | None:
         """Return a pose on a trapezoid or isolated part; None if its only orientation has an irrational tangent."""
         core, is_isolated = self.boundary._handle, table is self.boundary.isolated
@@ -164,3 +228,19 @@ class Orientations:
         part(*ends)
         tau = between(ends[0].hi, ends[1].lo)
         return from_numbers(_core.middle_of(core, is_isolated, row, tau.denominator, tau.numerator))
+
+
+def _lists_all_fits(scene: Scene) -> bool:
+    """True if all exact fits at single orientations are isolated parts of the boundary of a scene with round shapes."""
+    cores = known_cores(scene)
+    if not cores.has_concave:
+        return True
+    sides = cores.robot, cores.obstacles
+    if any(
+        any(shape.has_concave for shape in one) and any(arc.is_convex for shape in other for arc in shape.arcs)
+        for one, other in (sides, sides[::-1])
+    ):
+        return False
+    hole = scene.workspace
+    is_disc = len(cores.robot) == 1 and not isinstance(cores.robot[0].core, Polygon) and len(cores.robot[0].core) == 1
+    return is_disc or (isinstance(hole, Curved) and isinstance(hole.path, Circle) and not hole.holes)

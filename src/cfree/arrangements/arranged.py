@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.arrangements.statistics import ArrangementStatistics, DepthCell, counted, vertex_bounds
+from cfree.curves.curved import REFUSED
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.exact.half_angle import Angle
 from cfree.exact.pose import PoseLike, to_pose
@@ -67,7 +68,8 @@ def arrangement(scene: Scene, *, threads: int | None = None, max_memory: float |
     ------
     UnsupportedError
         If there are more than 2 million vertices, or memory does not suffice: pieces of surfaces are counted before
-        anything is computed from them. Also if surfaces meet in an undecided way; the message names the pairs.
+        anything is computed from them. If surfaces meet in an undecided way; the message names the pairs. If a shape
+        is round; the message names the remedy.
     InvariantError
         If the computation contradicts itself: a bug in cfree.
 
@@ -99,6 +101,8 @@ def arrangement(scene: Scene, *, threads: int | None = None, max_memory: float |
         raise ValueError(f"threads: {threads}; give at least 1")
     if max_memory is not None and not max_memory >= 0:
         raise ValueError(f"max_memory: {max_memory}; give 0 or more")
+    if scene.curved:
+        raise UnsupportedError(f"the arrangement: {REFUSED}")
     features = scene_features(scene)
     most = 8 * MOST_VERTICES
     if max_memory is not None:

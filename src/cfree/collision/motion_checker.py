@@ -15,7 +15,7 @@ from typing import Any
 
 import cfree._core as _core
 from cfree.arguments import checked
-from cfree.collision.arcs import arcs_of
+from cfree.collision.arcs import ArcScene, arcs_of
 from cfree.collision.entered import entered_contact
 from cfree.collision.motion import Motion, Rotation, Translation, joining
 from cfree.collision.slide import Slide
@@ -69,6 +69,12 @@ class MotionChecker(Value):
     Parameters
     ----------
     scene : Scene
+        Polygons, and shapes of segments and circular arcs.
+
+    Raises
+    ------
+    UnsupportedError
+        If a shape has other curves.
 
     Notes
     -----
@@ -91,12 +97,18 @@ class MotionChecker(Value):
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
-        self.features: SceneFeatures = scene_features(scene)
-        self._handle = kept(scene, _prepared)
+        self._arcs = arcs_of(scene) if scene.curved else None
+        if self._arcs is None:
+            self._handle = kept(scene, _prepared)
 
     @property
     def _content(self) -> tuple[Scene]:
         return (self._scene,)
+
+    @cached_property
+    def features(self) -> SceneFeatures:
+        """The polygons in the core's form."""
+        return scene_features(self._scene)
 
     @cached_property
     def _rim(self) -> tuple[Fraction, Fraction, Fraction, Fraction] | None:
@@ -121,7 +133,7 @@ class MotionChecker(Value):
         >>> checker.is_free(Pose(0, 0), Rotation((0, "1e-30"), "90deg"))
         False
         """
-        if is_plain(pose) and type(motion) in PLAIN_MOTIONS:
+        if self._arcs is None and is_plain(pose) and type(motion) in PLAIN_MOTIONS:
             free = _of_one(self._handle, pose, motion)
             if free is not None:
                 return free
@@ -132,6 +144,8 @@ class MotionChecker(Value):
         return self._decided(to_pose(pose, "pose"), motion)
 
     def _decided(self, pose: Pose, motion: Motion) -> bool:
+        if self._arcs is not None:
+            return self._arcs.is_motion_free(pose, motion)
         if isinstance(motion, Slide):
             return self._outside(pose) is None and self._handle.is_slide_free(self._slide_integers(pose, motion))
         return bool(self._handle.is_free(pose, motion, motion.kind == "rotation"))
@@ -158,6 +172,8 @@ class MotionChecker(Value):
         return self._first_contact(to_pose(pose, "pose"), motion)
 
     def _first_contact(self, pose: Pose, motion: Motion) -> FirstContact | None:
+        if self._arcs is not None:
+            return _first_among_arcs(self._scene, self._arcs, pose, motion)
         if isinstance(motion, Slide):
             raise UnsupportedError("a slide has no first contact; call is_free for parts of it, from Slide.between")
         if (outside := self._outside(pose)) is not None:
@@ -236,8 +252,6 @@ def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
 
 @checked
 def _is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
-    if scene.curved and (arcs := arcs_of(scene)) is not None:
-        return arcs.is_motion_free(to_pose(pose, "pose"), motion)
     return MotionChecker(scene)._decided(to_pose(pose, "pose"), motion)
 
 
@@ -264,16 +278,17 @@ def first_contact(scene: Scene, pose: PoseLike, motion: Motion) -> FirstContact 
     >>> print(found.at, found.contact)
     1/3 VertexEdge(i=2, j=0)
     """
-    if scene.curved and (arcs := arcs_of(scene)) is not None:
-        first = to_pose(pose, "pose")
-        contact = arcs.first_contact(first, motion)
-        if contact is None:
-            return None
-        low, high, part, obstacle = contact
-        is_entered = low > 0 or arcs.is_free(first)
-        entered = entered_contact(scene, part, obstacle, motion.at(first, low), motion) if is_entered else None
-        return FirstContact(Surd(low), part, obstacle, entered, high - low)
     return MotionChecker(scene)._first_contact(to_pose(pose, "pose"), motion)
+
+
+def _first_among_arcs(scene: Scene, arcs: ArcScene, first: Pose, motion: Motion) -> FirstContact | None:
+    contact = arcs.first_contact(first, motion)
+    if contact is None:
+        return None
+    low, high, part, obstacle = contact
+    is_entered = low > 0 or arcs.is_free(first)
+    entered = entered_contact(scene, part, obstacle, motion.at(first, low), motion) if is_entered else None
+    return FirstContact(Surd(low), part, obstacle, entered, high - low)
 
 
 def _crossing(polynomial: list[int]) -> Surd:

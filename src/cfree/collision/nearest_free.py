@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
-from cfree.collision.arcs import ArcScene, arcs_of
+from cfree.collision.arcs import arcs_of
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.pose_checker import PoseChecker, are_free, is_free, is_free_at
@@ -60,9 +60,7 @@ class Room:
 
 def room_of(scene: Scene | PoseChecker) -> Room:
     """Return the free poses of a scene; polygons around other curves than segments and arcs forbid a little more."""
-    if isinstance(scene, Scene) and scene.curved:
-        if arcs := arcs_of(scene):
-            return Room(scene, arcs.is_free, arcs.are_free)
+    if isinstance(scene, Scene) and scene.curved and arcs_of(scene) is None:
         scene = scene.outer(ROUND * max(map(size_of, scene.robot)))
     checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
     return Room(checker.scene, lambda pose: is_free_at(checker, pose), lambda table: are_free(checker, table))
@@ -95,11 +93,7 @@ def require_free(scene: Scene | PoseChecker, pose: PoseLike, name: str = "pose")
     cfree.collision.nearest_free.ForbiddenPoseError: start (1.25, 2, 0 deg) is forbidden: \
 robot part 0 overlaps obstacle 0, 1 x 9 at (2.5, 4.5); (0.96, 2, 0 deg) is free and near by
     """
-    pose = to_pose(pose, "pose")
-    if isinstance(scene, Scene) and scene.curved and (arcs := arcs_of(scene)):
-        refuse_overlap(scene, arcs, pose, name)
-    else:
-        refuse_forbidden(scene if isinstance(scene, PoseChecker) else PoseChecker(scene), pose, name)
+    refuse_forbidden(scene if isinstance(scene, PoseChecker) else PoseChecker(scene), to_pose(pose, "pose"), name)
 
 
 def refuse_forbidden(checker: PoseChecker, pose: Pose, name: str) -> None:
@@ -109,17 +103,6 @@ def refuse_forbidden(checker: PoseChecker, pose: Pose, name: str) -> None:
     free = _on_circles(room_of(checker), pose, FARTHEST)
     advice = "no free pose was found near by; give another" if free is None else f"{_shown(free)} is free and near by"
     fault = _overlap(checker.scene, pose)
-    raise ForbiddenPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
-
-
-def refuse_overlap(scene: Scene, arcs: ArcScene, pose: Pose, name: str) -> None:
-    """Raise the error of `require_free` if a pose is forbidden among segments and arcs."""
-    if arcs.is_free(pose):
-        return
-    free = _on_circles(room_of(scene), pose, FARTHEST)
-    advice = "no free pose was found near by; give another" if free is None else f"{_shown(free)} is free and near by"
-    contact = arcs.first_contact(pose, STILL)
-    fault = _fault(scene, contact[2], contact[3]) if contact else "the reference point is outside the bounds"
     raise ForbiddenPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
 
 
@@ -344,16 +327,11 @@ def _circle(radius: float, length: float) -> Floats:
 
 def _overlap(scene: Scene, pose: Pose) -> str:
     contact = MotionChecker(scene)._first_contact(pose, STILL)
-    assert contact is not None  # both are exact
-    return _fault(scene, contact.robot, contact.obstacle)
-
-
-def _fault(scene: Scene, part: int, obstacle: int) -> str:
-    if obstacle == BOUNDS:
+    if contact is None or contact.obstacle == BOUNDS:  # round shapes keep no bounds
         return "the reference point is outside the bounds"
-    if obstacle == WORKSPACE:
-        return f"robot part {part} is not inside the workspace"
-    return f"robot part {part} overlaps {placed(scene, obstacle)}"
+    if contact.obstacle == WORKSPACE:
+        return f"robot part {contact.robot} is not inside the workspace"
+    return f"robot part {contact.robot} overlaps {placed(scene, contact.obstacle)}"
 
 
 def _shown(pose: Pose) -> str:

@@ -21,12 +21,13 @@ from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, for_core, is_plain, one_pose, to_pose
 from cfree.libraries import ArrayLike, Floats, NDArray, is_array, np
 from cfree.scene.features import SceneFeatures, scene_features
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, robot_radius
 from cfree.value import Value, kept
 
 FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
 BLOCK = 1 << 22  # poses between two checks for Ctrl-C
 FARTHEST = 1e300  # coordinates beyond are as far as this
+ROUNDING, DEEPEST = 2.0**-44, 20  # of sums of a few doubles; halvings of a sweep
 
 Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | float]
 
@@ -86,7 +87,7 @@ def is_free(
     Examples
     --------
     >>> from cfree.curves.curved import Curved
-    >>> from cfree.scene.scene import Scene
+    >>> from cfree.scene.scene import Scene, robot_radius
     >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     >>> scene = Scene(robot=square, obstacles=square, bounds=(-2, -2, 2, 2))
     >>> is_free(scene, Pose(1, 0)), is_free(scene, Pose("0.999", 0)), is_free(scene, Pose(3, 0))
@@ -191,6 +192,12 @@ class PoseChecker(Value):
     Parameters
     ----------
     scene : Scene
+        Polygons, and shapes of segments and circular arcs.
+
+    Raises
+    ------
+    UnsupportedError
+        If a shape has other curves.
 
     Examples
     --------
@@ -202,7 +209,9 @@ class PoseChecker(Value):
 
     def __init__(self, scene: Scene, features: SceneFeatures | None = None) -> None:
         self.scene = scene
-        self._handle, self.limits = kept(scene, _prepared) if features is None else _prepared_with(scene, features)
+        self._arcs = arcs_of(scene) if scene.curved else None
+        if self._arcs is None:
+            self._handle, self.limits = kept(scene, _prepared) if features is None else _prepared_with(scene, features)
 
     @property
     def _content(self) -> tuple[Scene]:
@@ -218,7 +227,7 @@ class PoseChecker(Value):
         self, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
     ) -> bool | NDArray[np.bool_]:
         """See `cfree.is_free`."""
-        if is_plain(poses) and _is_count(threads):
+        if self._arcs is None and is_plain(poses) and _is_count(threads):
             free = _of_one(self._handle, poses)
             if free is not None:
                 return free
@@ -267,11 +276,15 @@ class PoseChecker(Value):
         (True, False)
         """
         first, change = (np.asarray(each, float).tolist() for each in (start, by))
+        if self._arcs is not None:
+            return _is_sweep_free(self.scene, self._arcs, first, change)
         return self._handle.sweep_is_free(first, change)
 
 
 def is_free_at(checker: PoseChecker, pose: Pose) -> bool:
     """True if a pose is free, decided exactly; it is not checked."""
+    if checker._arcs is not None:
+        return checker._arcs.is_free(pose)
     free: Any = checker._handle.is_free(pose)
     if free is None:  # on a limit, or nearly so
         x0, y0, x1, y1 = checker.limits
@@ -282,6 +295,8 @@ def is_free_at(checker: PoseChecker, pose: Pose) -> bool:
 
 def are_free(checker: PoseChecker, table: Floats, threads: int | None = None) -> NDArray[np.bool_]:
     """True for each free pose, decided exactly: rows x, y and theta in [0, 2 pi), which are not checked."""
+    if checker._arcs is not None:
+        return checker._arcs.are_free(table, threads)
     verdicts = _verdicts(checker, table, threads)
     for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
         verdicts[k] = FREE if checker._handle.is_free(table[k].tolist()) else FORBIDDEN
@@ -291,10 +306,35 @@ def are_free(checker: PoseChecker, table: Floats, threads: int | None = None) ->
 
 def _verdicts(checker: PoseChecker, table: Floats, threads: int | None) -> NDArray[np.uint8]:
     verdicts = np.empty(len(table), np.uint8)
+    core = checker._handle if checker._arcs is None else checker._arcs.poses
     for k in range(0, len(table), BLOCK):
         rows = slice(k, k + BLOCK)
-        checker._handle.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+        core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
     return verdicts
+
+
+def _is_sweep_free(scene: Scene, arcs: ArcScene, start: list[float], by: list[float]) -> bool:
+    """See `PoseChecker.sweep_is_free`; distances are those of segments and arcs."""
+    x0, y0, x1, y1 = scene.bounds or (-math.inf, -math.inf, math.inf, math.inf)
+    if not all(x0 <= start[0] + u * by[0] <= x1 and y0 <= start[1] + u * by[1] <= y1 for u in (0, 1)):
+        return False
+    if not arcs.is_free(Pose(*start)):
+        return False
+    radius = robot_radius(scene)
+    moved = (math.hypot(*by[:2]) + radius * abs(by[2])) * (1 + ROUNDING)
+    slack = ROUNDING * (math.hypot(*start[:2]) + moved + radius * (1 + abs(start[2])))
+    parts = [(0.5, 1)]  # middle, and how often halved
+    while parts:
+        middle, depth = parts.pop()
+        half = math.ldexp(1, -depth)
+        reach = half * moved + slack
+        low, high = arcs.distance(Pose(*(c + middle * d for c, d in zip(start, by, strict=True))), 2 * reach)
+        if low > reach:
+            continue
+        if high <= slack or depth == DEEPEST:
+            return False
+        parts += [(middle - half / 2, depth + 1), (middle + half / 2, depth + 1)]
+    return True
 
 
 def _prepared(scene: Scene) -> tuple[_core.PoseChecker, Limits]:

@@ -18,6 +18,7 @@ from cfree.distributed.joining import JoinedSurfaces, join
 from cfree.distributed.nesting import Answer, Nesting, Question, nest
 from cfree.distributed.portals import groups_of, portals_task, write_rooms
 from cfree.distributed.reading import read_source, source_key
+from cfree.distributed.round_nesting import nest_round
 from cfree.distributed.running import check_client, run
 from cfree.distributed.shard import VERSION, key_of, read_json, read_shard, write_json, write_shard
 from cfree.distributed.sharded import Sharded
@@ -74,6 +75,8 @@ def boundary(
     ------
     FormatError
         If a file cannot be read, or the folder holds something else.
+    UnsupportedError
+        If a shape is not rounded, as for `cfree.boundary`, or a file after the first one has round shapes.
     TaskError
         If a tile ends every worker that begins it.
     OSError
@@ -120,7 +123,8 @@ class _Build:
         components = self._glue(division)
         if not self._is_finished(counts):
             self._finish(store, counts, *self._cells(store, division, components))
-        self._open_portals()
+        if not store.is_round:
+            self._open_portals()
         return Sharded(self.folder)
 
     def _claim(self) -> None:
@@ -232,14 +236,21 @@ class _Build:
         joined = join(len(division), lambda tile: work.shard(tasks.GLUED, tile))
         present = {tile: np.unique(tasks.surfaces_in(joined, tile)) for tile, count in components.items() if count}
 
-        def ask(questions: Mapping[int, list[Question]]) -> Iterable[Answer]:
+        def ask(questions: Mapping[int, list[Any]]) -> Iterator[tuple[int, Any]]:
             self.progress("nest", 0, 1)
             asked = {tile: (tasks.surfaces_in(joined, tile), lines) for tile, lines in sorted(questions.items())}
-            for _, answers in self._run(tasks.nest_task, asked):
-                yield from answers
+            for tile, answers in self._run(tasks.nest_round_task if store.is_round else tasks.nest_task, asked):
+                yield from ((tile, answer) for answer in answers)
 
-        features = work.store.rest
-        nesting = nest(joined, present, division.boxes, ask, features.rim is not None, float(features.scale))
+        def ask_for_lines(questions: Mapping[int, list[Question]]) -> Iterable[Answer]:
+            return (answer for _, answer in ask(questions))
+
+        rest = work.store.rest
+        is_bounded, scale = rest.rim is not None, float(rest.scale)
+        if store.is_round:
+            nesting = nest_round(len(joined), present, division.boxes, ask, is_bounded, scale)
+        else:
+            nesting = nest(joined, present, division.boxes, ask_for_lines, is_bounded, scale)
         return joined, nesting, self._measure(store, joined, present, len(joined))
 
     def _open_portals(self) -> None:

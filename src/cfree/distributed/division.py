@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from cfree.distributed.shard import check_sums, file_sums, read_shard, write_shard
 from cfree.distributed.store import SceneStore
 from cfree.distributed.tiles import divide, grown_by, merged, near_each
+from cfree.scene.features import SceneFeatures
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -73,10 +74,13 @@ class Features:
         rest = store.rest.obstacles
         self._rings, self._emit = len(rest.previous), np.flatnonzero(rest.core.emit)
         self._count = store.vertices
+        after = np.empty(self._rings, np.int64)
+        after[rest.previous] = np.arange(self._rings)
         self._parts = (
             (store.column("xy"), store.column("next")),
-            (rest.xy[: self._rings], rest.w[: self._rings] + self._count),
+            (rest.xy[: self._rings], after + self._count),
         )
+        self._radii = (store.column("radius"), _reach(store.rest, self._rings)) if store.is_round else None
 
     @property
     def numbers(self) -> Ints:
@@ -91,12 +95,29 @@ class Features:
         return xy
 
     def boxes(self, numbers: Ints) -> Floats:
-        """Boxes around the edges that start at vertices, (n, 4)."""
+        """Boxes around the edges that start at vertices, (n, 4), and around their discs."""
         own = numbers < self._count
         after = np.empty(len(numbers), np.int64)
         after[own], after[~own] = self._parts[0][1][numbers[own]], self._parts[1][1][numbers[~own] - self._count]
         a, b = self.points(numbers), self.points(after)
-        return np.concatenate([np.minimum(a, b), np.maximum(a, b)], axis=1)
+        low, high = np.minimum(a, b), np.maximum(a, b)
+        if self._radii is not None:
+            reach = np.maximum(self._reach_of(numbers), self._reach_of(after))[:, None]
+            low, high = low - reach, high + reach
+        return np.concatenate([low, high], axis=1)
+
+    def _reach_of(self, numbers: Ints) -> Floats:
+        assert self._radii is not None
+        own = numbers < self._count
+        reach = np.empty(len(numbers))
+        reach[own], reach[~own] = self._radii[0][numbers[own]], self._radii[1][numbers[~own] - self._count]
+        return reach
+
+
+def _reach(rest: SceneFeatures, rings: int) -> Floats:
+    """Bounds of the distances of contacts from the vertices of workspace and bounds, which are grown by nothing."""
+    reach: Floats = np.nextafter(np.abs(rest.obstacles.radius[:rings]), np.inf)
+    return reach
 
 
 def divide_scene(store: SceneStore, tiles: int, folder: Path, key: str) -> Division:

@@ -40,7 +40,11 @@ class TileFaces:
         rows = work.rows(tile, work.surfaces, around=False)
         self._boundary = rows.core
         self._component = work.shard(GLUED, tile)["component"][rows.row]
-        self._lines = _core.PointLocation(rows.core)
+        self._is_round = work.store.is_round
+
+    @cached_property
+    def _lines(self) -> _core.PointLocation:
+        return _core.PointLocation(self._boundary)
 
     @cached_property
     def _faces(self) -> _core.FreeSpace:
@@ -49,7 +53,12 @@ class TileFaces:
         return _core.FreeSpace(self._boundary, _core.Surfaces(each, -one, one.astype(np.uint8), one, each))
 
     def crossings(self, pose: InChart, surface: Ints) -> list[Crossing] | None:
-        """Crossings of the line from a pose; None if it is not in general position, or the pose on a face."""
+        """Crossings of the line from a pose; None if it is not in general position, or the pose on a face.
+
+        Among round shapes also None: their places are irrational.
+        """
+        if self._is_round:
+            return None
         passages = self._lines.passages(*pose, NONE)
         if passages is None:
             return None

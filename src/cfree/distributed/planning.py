@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +17,11 @@ from cfree.exact.pose import Pose
 from cfree.paths.numbering import has_slides
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
-from cfree.planning.among import MARGIN, check_length, plan_around, proof_at_ends
+from cfree.planning.among import MARGIN, WIDER, add_ends, check_length, plan_around, proof_at_ends
 from cfree.planning.atlas import LazyAtlas
 from cfree.planning.goals import refuse_far
 from cfree.planning.options import Options, to_seconds
+from cfree.planning.plan import plan
 from cfree.planning.proof import Proof
 from cfree.planning.routes import Leg, is_distant, joined, legs_along
 from cfree.planning.separation import Separated
@@ -111,6 +112,8 @@ def plan_among(
 
     If the goal is far, a route from room to room is tried first. Else obstacles near the paths found decide.
     """
+    if known.work.store.is_round:
+        return _plan_among_round(known, start, goal, improve, objective, preferences, vehicle)
     driver = vehicle_for(known.work.store.head, vehicle)
     options = Options(to_seconds(improve), objective=objective, preferences=preferences or NONE, vehicle=driver)
     refuse_far(start, goal)
@@ -130,3 +133,24 @@ def plan_among(
         known.add_around(path, MARGIN * known.radius)
         way = None if has_slides(path) else path.poses
     return replace(plan_around(known, start, goal, options, way), whole=known.whole)
+
+
+def _plan_among_round(
+    known: Surroundings,
+    start: Pose,
+    goal: Pose,
+    improve: float | None,
+    objective: Objective,
+    preferences: Preferences | None,
+    vehicle: Vehicle | Literal["any"] | None,
+) -> Path | Proof:
+    """Answer of `cfree.plan` among the obstacles near the paths found; others are added until none is missing."""
+    margin = MARGIN * known.radius
+    wishes: dict[str, Any] = {"improve": improve, "objective": objective, "preferences": preferences}
+    add_ends(known, start, goal)
+    while True:
+        answer: Path | Proof = plan(known.scene, start, goal, vehicle=vehicle, **wishes)
+        # proofs hold among more obstacles
+        if not isinstance(answer, Path) or not known.add_around(answer, margin):
+            return replace(answer, whole=known.whole)
+        margin *= WIDER

@@ -48,7 +48,7 @@ def gathered(
 
     Curves have the names of all on their line, as in a boundary that is computed whole. These names depend on the
     obstacles taken, and so do the last digits of doubles at the curves. Names that are not shared are those of the
-    shards, which do not.
+    shards, which do not. Among round shapes none are shared.
     """
     tables = [_table(tile, shard, chosen) for tile, shard, chosen in shards]
     starts = np.cumsum([0, *(len(shard["keys"]) for _, shard, _ in shards)])
@@ -69,7 +69,7 @@ def gathered(
     part = Part(store, numbers if obstacles is None else np.union1d(numbers, obstacles))
     codes = np.zeros(len(keys), np.uint64)
     own = part.codes(named)
-    codes[used] = part.features.core.named(own) if share_names else own
+    codes[used] = part.features.core.named(own) if share_names and not store.is_round else own
     contacts = np.stack([part.local(columns["feature"]), columns["kind"], columns["robot"]], axis=1)
     # rows of one patch come one after the other
     is_first = np.append(True, np.any(contacts[1:] != contacts[:-1], axis=1))[: len(contacts)]
@@ -102,8 +102,13 @@ def _table(tile: int, shard: Shard, chosen: NDArray[np.bool_]) -> Shard:
 
 def _obstacles_of(store: SceneStore, vertices: Ints) -> Ints:
     """Obstacles that have some vertices; those of workspace and bounds are in every part."""
-    own = vertices[vertices < store.vertices]
-    return np.unique(np.searchsorted(store.column("first"), own, side="right") - 1).astype(np.int64)
+    found = np.searchsorted(store.column("first"), vertices[vertices < store.vertices], side="right")
+    if store.is_round:
+        rest = store.rest.obstacles
+        ends = vertices - (store.vertices + len(rest.core.point) - len(rest.owner_of_end))
+        own = ends[(ends >= 0) & (ends < store.facts["ends"])]
+        found = np.append(found, np.searchsorted(store.column("end"), own, side="right"))
+    return np.unique(found - 1).astype(np.int64)
 
 
 def _no_parts() -> _core.IsolatedParts:

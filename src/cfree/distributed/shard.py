@@ -19,7 +19,7 @@ from cfree.formats.boundaries.header import FAULTS, signed
 from cfree.formats.text.atomic import replacing
 
 Shard = dict[str, NDArray[Any]]
-VERSION = 3
+VERSION = 4
 REMEDY = "compute the boundary into this folder again, which mends it: cfree boundary SCENE --folder FOLDER"
 
 

@@ -384,7 +384,8 @@ class Sharded(Value):
             if progress is not None:
                 progress("verify", len(checks), self.tiles)
         wrong = cells_findings(self.folder, self.manifest["key"])
-        return summary([checks[k] for k in sorted(checks)], wrong, self.digest, begin)
+        found, is_round = [checks[k] for k in sorted(checks)], self.work.store.is_round
+        return summary(found, wrong, self.digest, begin, is_round=is_round)
 
     @checked
     def tile(self, number: int) -> dict[str, NDArray[Any]]:

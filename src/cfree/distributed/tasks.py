@@ -22,6 +22,7 @@ from cfree.distributed.glue import glue_tile
 from cfree.distributed.joining import JoinedSurfaces
 from cfree.distributed.nesting import Answer, Question, TileLines, answered
 from cfree.distributed.part import Part
+from cfree.distributed.round_nesting import RoundAnswer, RoundQuestion, RoundTileLines
 from cfree.distributed.rows import Rows, gathered
 from cfree.distributed.shard import Shard, changed, key_of, read_json, read_shard, write_shard
 from cfree.distributed.store import STORED, SceneStore
@@ -159,6 +160,17 @@ def nest_task(folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any],
     lines = TileLines(work.rows(tile, work.surfaces, around=False).core, surface[component])
     scale = float(work.store.rest.scale)
     return [answered(lines, tile, question, work.division.boxes, scale) for question in asked]
+
+
+def nest_round_task(
+    folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any], asked: list[RoundQuestion]
+) -> list[RoundAnswer]:
+    """Answer queries for the surfaces around poses among round shapes in a tile; `surface` is that of components."""
+    work = opened(folder, stamp)
+    component = work.shard(GLUED, tile)["component"]
+    rows = work.rows(tile, work.surfaces, around=False)
+    lines = RoundTileLines(rows.core, surface[component[rows.row]])
+    return [lines.answered(question) for question in asked]
 
 
 def measure_task(

@@ -9,14 +9,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cfree.collector import collection_paused
+from cfree.distributed.rows import Rows
 from cfree.distributed.shard import read_shard
 from cfree.distributed.tasks import GLUED, TRIMMED, Work, opened
 from cfree.distributed.trim import MODULUS, digest
 from cfree.errors import FormatError
-from cfree.forbidden.boundary import boundary_of
+from cfree.forbidden.boundary import Boundary, boundary_of
 from cfree.verify.driver import BLOCK, CLOSED, refuted, trapezoid_checks, trapezoid_findings
 from cfree.verify.matching import matched
 from cfree.verify.result import PROVED, SKIPPED, Check, Finding, Verification
+from cfree.verify.round_boundary import checks_of_rows, findings_of_rows
 from cfree.verify.trapezoids import Reader, Side
 from cfree.words import counted
 
@@ -66,6 +68,9 @@ def _findings(work: Work, tile: int, chosen: set[int], is_all: bool) -> Iterator
     rows = work.rows(tile, TRIMMED, around=is_all, obstacles=work.division.listed("obstacles", tile))
     scene = work.store.scene(rows.part.numbers)
     stored = boundary_of(scene, rows.part.features, rows.core)
+    if work.store.is_round:
+        yield from _round_findings(work, rows, stored, tile, chosen, is_all)
+        return
     contacts = stored.contact_kind, stored.contact_robot, stored.contact_obstacle
     reader = Reader(scene, contacts, stored.trapezoids, stored.isolated)
     loops: dict[int, list[Side | None]] = {}
@@ -83,6 +88,16 @@ def _findings(work: Work, tile: int, chosen: set[int], is_all: bool) -> Iterator
                 yield Finding(CLOSED, f"rows {mine}", f"{counted(number, 'edge')} of their sides without a partner")
 
 
+def _round_findings(
+    work: Work, rows: Rows, stored: Boundary, tile: int, chosen: set[int], is_all: bool
+) -> Iterator[Finding]:
+    """The same among round shapes."""
+    own = {k for k in range(len(rows.row)) if rows.tile[k] == tile and int(rows.row[k]) in chosen}
+    looked_at = range(len(rows.row)) if is_all else sorted(own)
+    cores = work.store.cores(stored.scene.obstacles)
+    yield from findings_of_rows(stored, cores, work.store.complement, looked_at, own)
+
+
 def cells_findings(folder: Path, key: str) -> list[Finding]:
     """Findings for damage to the file of closed surfaces and cells."""
     try:
@@ -92,7 +107,9 @@ def cells_findings(folder: Path, key: str) -> list[Finding]:
     return []
 
 
-def summary(checks: Sequence[TileCheck], wrong: Sequence[Finding], expected: str, begin: float) -> Verification:
+def summary(
+    checks: Sequence[TileCheck], wrong: Sequence[Finding], expected: str, begin: float, *, is_round: bool
+) -> Verification:
     """Join results of all tiles and findings about other files; the digest of the whole must be the expected one."""
     findings = [*wrong, *(finding for check in checks for finding in check.findings)]
     total = f"{sum(check.digest for check in checks) % MODULUS:064x}"
@@ -103,5 +120,6 @@ def summary(checks: Sequence[TileCheck], wrong: Sequence[Finding], expected: str
     if looked_at == count:
         closed = Check(CLOSED, PROVED, "all sides have partners")
     shards = f"those of {counted(len(checks), 'tile')} are as they were written; their digest is that of the manifest"
-    lines = (Check(SHARDS, PROVED, shards), *trapezoid_checks(looked_at, count), closed)
+    of_rows = checks_of_rows if is_round else trapezoid_checks
+    lines = (Check(SHARDS, PROVED, shards), *of_rows(looked_at, count), closed)
     return Verification(refuted(lines, findings), tuple(findings), (), time.perf_counter() - begin)

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.film.camera import AZIMUTHS
 from cfree.film.contact_motions import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
@@ -124,7 +125,9 @@ def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBO
     >>> sum(len(shot.moments) for shot in shots), any(shot.cut for shot in shots)
     (60, False)
     """
-    boundary.require_polygons("films")
+    if boundary.scene.curved:
+        remedy = "give the storyboard turntable, or boundary(scene.outer(error)), or what cfree convert --outer writes"
+        raise UnsupportedError(f"films of contacts: among polygons only; {remedy}")
     director = _Director(boundary)
     shots = director.shots(frames, kinds)
     if shots and sum(len(shot.moments) for shot in shots) < frames:

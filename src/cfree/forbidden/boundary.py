@@ -228,8 +228,7 @@ class Boundary(BoundaryRecord, Shown):
 
     @cached_property
     def checker(self) -> PoseChecker:
-        """The scene of polygons prepared for `cfree.is_free`; computed at first use."""
-        self.require_polygons("checker")
+        """The scene prepared for `cfree.is_free`; computed at first use."""
         return PoseChecker(self.scene, self.features)
 
     @cached_property

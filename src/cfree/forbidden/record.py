@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Self
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.contact.kind import Kind
-from cfree.errors import IncompleteError, InvariantError, UnsupportedError
+from cfree.errors import IncompleteError, InvariantError
 from cfree.exact.half_angle import tau_in
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, Ints, IsolatedParts, Trapezoids
 from cfree.forbidden.kinds import PatchKind
@@ -298,13 +298,6 @@ class BoundaryRecord(Value):
             psi = turns + np.where(rho < 0, -2, 2) * np.arctan(t)
             x, y = x + rho * np.cos(psi), y + rho * np.sin(psi)
         return np.stack([x, y], axis=-1)
-
-    @checked
-    def require_polygons(self, name: str) -> None:
-        """Raise `UnsupportedError` if the scene has round shapes; `name` says what does not take them."""
-        if self.scene.curved:
-            remedy = "give boundary(scene.outer(error)), on the command line what cfree convert --outer writes"
-            raise UnsupportedError(f"{name}: of boundaries among polygons only; {remedy}")
 
     @checked
     def limits(self, trapezoid: ArrayLike, theta: ArrayLike) -> tuple[Floats, Floats]:

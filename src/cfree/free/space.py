@@ -314,14 +314,10 @@ class FreeSpace(Value, Shown):
             cell = self._handle.locate(xy[possible], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
             for m in np.flatnonzero(cell == FORBIDDEN).tolist():
                 x, y = xy[possible[m]].tolist()
-                if self._is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
+                if self.boundary.checker.is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
                     cell[m] = NO_CELL
             cells[k + possible] = cell
         return cells
-
-    def _is_free(self, pose: Pose) -> bool:
-        scene = self.boundary.scene
-        return is_free(scene, pose) if scene.curved else self.boundary.checker.is_free(pose)
 
     def _verdicts(self, table: Floats, threads: int | None) -> NDArray[np.uint8]:
         """Return `CERTAINLY_FORBIDDEN` where a pose is; rows x, y and theta in [0, 2 pi)."""
@@ -332,7 +328,7 @@ class FreeSpace(Value, Shown):
         return np.where(free, MAY_BE_FREE, CERTAINLY_FORBIDDEN).astype(np.uint8)
 
     def _locate(self, pose: Pose) -> int:
-        if not self._is_free(pose):
+        if not self.boundary.checker.is_free(pose):
             return FORBIDDEN
         cell = self._handle.locate_exactly(*self.boundary.features.in_chart(pose))
         return NO_CELL if cell == FORBIDDEN else cell
@@ -351,7 +347,7 @@ class FreeSpace(Value, Shown):
 
     def _cells_at(self, pose: Pose) -> set[int]:
         """Return the cells whose closure contains a pose."""
-        if not self._is_free(pose):
+        if not self.boundary.checker.is_free(pose):
             return set()
         return set(self._handle.cells_at(*self.boundary.features.in_chart(pose))) - {FORBIDDEN}
 
@@ -386,8 +382,7 @@ class FreeSpace(Value, Shown):
         start = to_pose(start, "start")
         from cfree.collision.nearest_free import require_free
 
-        scene = self.boundary.scene
-        require_free(scene if scene.curved else self.boundary.checker, start, "start")
+        require_free(self.boundary.checker, start, "start")
         cell = self.locate(start)
         if cell == NO_CELL:
             raise InvalidPoseError("start is free, but an exact fit, in the closure of no cell; see Boundary.isolated")

@@ -139,12 +139,9 @@ class RotationalNFP(Value):
     def events(self) -> tuple[AlgebraicAngle, ...]:
         """The exact angles in [0, 2 pi) at which edges of the no-fit polygon appear, vanish or change partners.
 
-        Raises
-        ------
-        UnsupportedError
-            If a shape is round.
+        Among them may be 90 and 270 degrees, and, where edges are arcs, angles at which an end of one is just above,
+        below or beside its center. Exact fits of no width are those of `Boundary.isolated`.
         """
-        self.boundary.require_polygons("exact events")
         named: dict[int, AlgebraicAngle] = {}
         faces, (first, last, _, whole) = len(self.boundary.trapezoids), self.boundary._handle.angle_ranks()
         for is_last, ranks in ((False, first), (True, last)):

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 from cfree.arguments import checked
 from cfree.collision.nearest_free import centers
 from cfree.collision.pose_checker import is_free
+from cfree.contact.contact_lines import ContactLine, contact_lines, crossings, facing, is_between
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, pose_at
 from cfree.forbidden.boundary import boundary
 from cfree.forbidden.kinds import PatchKind
 from cfree.forbidden.slice import Slice
 from cfree.lazy import registered
-from cfree.nesting.contact_lines import ContactLine, contact_lines, crossings, facing, is_between
 from cfree.scene.scene import Scene, largest_of
 from cfree.words import counted
 

@@ -20,7 +20,8 @@ from typing import Any
 from cfree.arguments import checked
 from cfree.collision.approximations import Approximations
 from cfree.collision.arcs import arcs_of
-from cfree.collision.nearest_free import ForbiddenPoseError, refuse_overlap
+from cfree.collision.nearest_free import ForbiddenPoseError, refuse_forbidden
+from cfree.collision.pose_checker import PoseChecker
 from cfree.errors import IncompleteError, InvalidPoseError, UndecidedError
 from cfree.exact.number import Number
 from cfree.exact.pose import Pose, PoseLike, pose_at, to_pose
@@ -265,8 +266,7 @@ class CurvedQuery:
                 if is_free_place(self._true.grown, end, self.options.tolerance) is False:
                     raise no_orientation(name, end, self.options.clearance)
                 continue
-            if not arcs.is_free(end):
-                refuse_overlap(self.near.exact, arcs, end, name)
+            refuse_forbidden(PoseChecker(self.near.exact), end, name)
             if not self._true.arcs.is_free(end):
                 least, most = arcs.distance(end)
                 away = f"{least:.6g}" if f"{least:.6g}" == f"{most:.6g}" else f"between {least:.6g} and {most:.6g}"

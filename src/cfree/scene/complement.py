@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -31,11 +32,18 @@ def complement(scene: Scene) -> tuple[AnyShape, ...]:
 
 
 def _complement(scene: Scene) -> tuple[AnyShape, ...]:
+    from cfree.scene.scene import box_of
+
+    return complement_among(scene, list(map(box_of, scene.obstacles)))
+
+
+def complement_among(scene: Scene, obstacles: Sequence[Sequence[float]]) -> tuple[AnyShape, ...]:
+    """Return the same of a scene with other obstacles, which are in these boxes."""
     from cfree.scene.scene import box_of, robot_radius
 
     workspace = scene.workspace
     assert isinstance(workspace, Curved)
-    boxes = [box_of(workspace), *map(box_of, scene.obstacles), *([scene.bounds] if scene.bounds else [])]
+    boxes = [box_of(workspace), *obstacles, *([scene.bounds] if scene.bounds else [])]
     low = [Fraction(min(box[k] for box in boxes)) for k in (0, 1)]
     high = [Fraction(max(box[k] for box in boxes)) for k in (2, 3)]
     thickness = 4 * Fraction(robot_radius(scene))

@@ -214,12 +214,14 @@ def _grown(scene: Scene) -> SceneFeatures:
     return features_of_cores(shapes, scene, scene.bounds)
 
 
-def features_of_cores(cores: Cores, scene: Scene, bounds: Bounds | None) -> SceneFeatures:
-    """Number the features of grown cores in the workspace of a scene, and in bounds."""
+def features_of_cores(
+    cores: Cores, scene: Scene, bounds: Bounds | None, whole: _core.WholeScene | None = None
+) -> SceneFeatures:
+    """Number the features of grown cores in the workspace of a scene, and in bounds; of a part, as in the whole."""
     robot, obstacles = ([shape.handle for shape in shapes] for shapes in (cores.robot, cores.obstacles))
     _, _, workspace, limits = core_shapes((), (), cores.straight(scene.workspace), bounds)
     rounding = [shape.rounding for shape in (*cores.robot, *cores.obstacles)]
-    features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, limits, None, rounding, cores.frames))
+    features = SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, limits, whole, rounding, cores.frames))
     refuse_too_many(features)
     return features
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise, product
@@ -138,15 +138,7 @@ class Cores:
     @property
     def fills_channel(self) -> bool:
         """True if a disc of one shape fits exactly between a convex and a concave arc of the other about one center."""
-        convex, concave = zip(*(_radii_by_place(shapes) for shapes in (self.robot, self.obstacles)), strict=True)
-        return any(
-            radius + other + rest + away == 0
-            for own in (0, 1)
-            for at, aways in concave[own].items()
-            for radii in convex[1 - own].values()
-            for away, other in product(aways, convex[own].get(at, ()))
-            for radius, rest in product(radii, radii)
-        )
+        return fills_channel(self.robot, self.obstacles)
 
     @property
     def is_refused(self) -> bool:
@@ -159,7 +151,20 @@ class Cores:
         return any(shape.arcs or shape.radius for shape in (*self.robot, *self.obstacles))
 
 
-def _radii_by_place(shapes: Sequence[Rounded]) -> tuple[RadiiByPlace, RadiiByPlace]:
+def fills_channel(robot: Iterable[Rounded], obstacles: Iterable[Rounded]) -> bool:
+    """True if a disc of one shape fits exactly between a convex and a concave arc of the other about one center."""
+    convex, concave = zip(*(_radii_by_place(shapes) for shapes in (robot, obstacles)), strict=True)
+    return any(
+        radius + other + rest + away == 0
+        for own in (0, 1)
+        for at, aways in concave[own].items()
+        for radii in convex[1 - own].values()
+        for away, other in product(aways, convex[own].get(at, ()))
+        for radius, rest in product(radii, radii)
+    )
+
+
+def _radii_by_place(shapes: Iterable[Rounded]) -> tuple[RadiiByPlace, RadiiByPlace]:
     """Return radii of corners and of convex arcs by place, and those of concave arcs, which mostly are below 0."""
     convex, concave = defaultdict[ExactPoint, set[Fraction]](set), defaultdict[ExactPoint, set[Fraction]](set)
     for shape in shapes:

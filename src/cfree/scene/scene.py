@@ -92,8 +92,9 @@ class Scene(Shown, Keeping):
     Notes
     -----
     `plan`, `max_scale`, `max_margin`, `nearest_miss`, `blockers`, `nearest_free`, `is_free`, `verify.answer` and
-    pictures accept round shapes; `is_free_motion` and `first_contact` those of segments and circular arcs. Everything
-    else accepts polygons only: use the scenes of `outer` or `inner`.
+    pictures accept round shapes; `is_free_motion` and `first_contact` those of segments and circular arcs; `boundary`,
+    what is made of it, and folders of tiles rounded ones. Everything else accepts polygons only: use the scenes of
+    `outer` or `inner`.
 
     Examples
     --------
@@ -760,7 +761,7 @@ def _rectangle(bounds: Sequence[Number]) -> Bounds:
     return xmin, ymin, xmax, ymax
 
 
-def with_obstacles(scene: Scene, obstacles: Sequence[Polygon], names: Sequence[str] | None = None) -> Scene:
+def with_obstacles(scene: Scene, obstacles: Sequence[AnyShape], names: Sequence[str] | None = None) -> Scene:
     """Return the scene with these obstacles, and no others."""
     return Scene(
         scene.robot,

@@ -22,6 +22,7 @@ from cfree.scene.scene import AnyShape, Scene
 from cfree.verify.degrees import DEGREE, by_degrees
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.round_algebra import Turn, precision
+from cfree.verify.round_closure import loose
 from cfree.verify.round_inside import is_same
 from cfree.verify.round_isolated import IsolatedParts
 from cfree.verify.round_pieces import Piece, Reader, Scale
@@ -48,7 +49,7 @@ def round_boundary(
     count = len(stored.trapezoids)
     chosen = range(count) if sample is None else sorted(random.Random(seed).sample(range(count), min(sample, count)))
     proof, world = _as_pieces(stored, cores), RoundWorld(stored.scene, cores)
-    findings = list(_findings_of_cores(cores, stored.scene, world))
+    findings = list(_findings_of_cores(cores, stored.scene, complement(stored.scene), world))
     scale, bits = scale_of(size_of(proof) * NEAREST, size_of(proof), max(1, count))
     number, pieces = 0, list[Piece]()
     with precision(bits):
@@ -84,6 +85,66 @@ def round_boundary(
     return Verification(checks, tuple(findings), (), time.perf_counter() - begin, reading=stored.scene.reading)
 
 
+def findings_of_rows(
+    stored: Boundary, cores: Cores, around: Sequence[AnyShape], chosen: Sequence[int], own: set[int]
+) -> Iterator[Finding]:
+    """Findings about some rows of a part of a boundary, and about the sides of its own if all of these are chosen.
+
+    Parameters
+    ----------
+    stored : Boundary
+        Its scene has some obstacles of the whole, and its trapezoids are some of the whole's.
+    cores : Cores
+        Those of the scene, and of the complement of the whole scene's workspace.
+    around : sequence of shapes
+        This complement.
+    chosen : sequence of int
+        Rows that are looked at, in order.
+    own : set of int
+        Those of them that are the part's own.
+    """
+    proof, world = _as_pieces(stored, cores), RoundWorld(stored.scene, cores)
+    yield from _findings_of_cores(cores, stored.scene, around, world)
+    size, pieces, rows = size_of(proof), list[Piece](), list[int]()
+    scale, bits = scale_of(size * NEAREST, size, max(1, len(proof)))
+    with precision(bits):
+        reader, covering = Reader(proof, scale), _Covering(world)
+        for k in chosen:
+            where, piece = _place_of(proof, k), reader.piece_or_fault(k)
+            if isinstance(piece, Piece):
+                rows.append(k)
+                pieces.append(piece)
+                if k in own and covering.covers(piece, scale):
+                    yield Finding(FREE, where, "forbidden in the middle")
+            elif k in own:
+                yield Finding(TRAPEZOIDS, where, piece)
+        if len(chosen) < len(proof):
+            return
+        for text, owners in loose(pieces, scale):
+            if mine := [rows[k] for k in owners if rows[k] in own]:
+                yield Finding(CLOSED, f"rows {mine}", text)
+
+
+def checks_of_rows(count: int, total: int) -> tuple[Check, ...]:
+    """Checks that `findings_of_rows` makes, if nothing is wrong with so many trapezoids."""
+    every = counted(total, "trapezoid") if count == total else f"{count:,} of {counted(total, 'trapezoid')}"
+    near = f"up to {float(NEAREST):.1g} of the size"
+    return (
+        Check(PIECES, PROVED, "those of the cores tile them"),
+        Check(
+            TRAPEZOIDS,
+            PROVED if count == total else SAMPLED,
+            f"{every}: angles in order, curves within patches, {near}",
+        ),
+        Check(FREE, SAMPLED, f"{every}: nothing covers the middle at one angle each"),
+    )
+
+
+def _place_of(proof: RoundSeparation, k: int) -> str:
+    table = proof.table
+    return f"trapezoid {k} (patch {table.patch[k]}, theta {table.theta_from[k]:.6g} to {table.theta_to[k]:.6g})"
+
+
 def _as_pieces(stored: Boundary, cores: Cores) -> RoundSeparation:
     """Return the trapezoids in the form of the pieces of a separation, whose poses have no meaning here."""
     features, patch, scene = stored.features, stored.trapezoids.patch, stored.scene
@@ -104,9 +165,8 @@ def _as_pieces(stored: Boundary, cores: Cores) -> RoundSeparation:
     )
 
 
-def _findings_of_cores(cores: Cores, scene: Scene, world: RoundWorld) -> Iterator[Finding]:
+def _findings_of_cores(cores: Cores, scene: Scene, around: Sequence[AnyShape], world: RoundWorld) -> Iterator[Finding]:
     names = [f"robot[{k}]" for k in range(len(scene.robot))] + [f"obstacle {k}" for k in range(len(scene.obstacles))]
-    around = complement(scene)
     names += ["workspace"] * len(around)
     shapes: list[AnyShape] = [*scene.robot, *scene.obstacles, *around]
     for name, core, shape in zip(names, [*cores.robot, *cores.obstacles], shapes, strict=True):
@@ -124,11 +184,10 @@ def _findings_of_trapezoids(
     report: Callable[[float], object],
 ) -> Iterator[Finding]:
     """Findings about trapezoids; those that are sound go into `pieces`."""
-    table = reader.proof.table
     for done, k in enumerate(chosen):
         if done % BLOCK == 0:
             report(done / (2 * len(chosen)))
-        where = f"trapezoid {k} (patch {table.patch[k]}, theta {table.theta_from[k]:.6g} to {table.theta_to[k]:.6g})"
+        where = _place_of(reader.proof, k)
         piece = reader.piece_or_fault(k)
         if not isinstance(piece, Piece):
             yield Finding(TRAPEZOIDS, where, piece)
@@ -207,19 +266,12 @@ def _checks(
 ) -> tuple[Check, ...]:
     """Checks made, if nothing is wrong."""
     total = len(proof)
-    every = counted(total, "trapezoid") if count == total else f"{count:,} of {counted(total, 'trapezoid')}"
     robot, obstacles = world.layers[0]
     near = f"up to {float(NEAREST):.1g} of the size"
     closed = f"every side of {counted(total, 'trapezoid')} has a partner, {near}"
-    free = f"{every}: nothing covers the middle at one angle each"
     return (
         Check(PIECES, PROVED, f"{len(robot)} of the robot, {len(obstacles)} of the obstacles tile the cores"),
-        Check(
-            TRAPEZOIDS,
-            PROVED if count == total else SAMPLED,
-            f"{every}: angles in order, curves within patches, {near}",
-        ),
-        Check(FREE, SAMPLED, free),
+        *checks_of_rows(count, total)[1:],
         Check(CLOSED, PROVED, closed) if whole else Check(CLOSED, SKIPPED, "needs every trapezoid"),
         _of_fits(*fits),
         Check(MISSING, MEASURED, f"{counted(slices, 'slice')}, {counted(number, 'part')} of contacts, in doubles")

@@ -37,6 +37,9 @@ public:
         std::vector<Index> crossed;
     };
     std::vector<Ray> rays() const;
+    // Among grown shapes, a ray from just left of a trapezoid, and a pose just right of it, from which a ray crosses the same
+    // trapezoids and this one; each attempt gives others, or nothing, and poses are closer by powers of four.
+    std::optional<std::pair<Ray, ExactPose>> beside(Index trapezoid, int attempt, int closer) const;
     // Trapezoids that a ray from a pose crosses, just after its orientation or at it, in the order of crossing; and whether it
     // arrives at their left sides.
     struct Crossing {

@@ -50,14 +50,20 @@ struct SceneShapes {
     Ratio robot_radius() const;
 };
 
+struct FacingArcs;
+
 // Data of the whole scene that the features of its parts need, so that all parts have the numbers of the whole.
 struct WholeScene {
     Int scale = 1;                          // the common denominator
     std::optional<std::array<Int, 4>> box;  // box of its obstacles, grown, times the denominator: xmin, ymin, xmax, ymax
     Int short_part = 1;                     // see Scene; of its obstacles
     bool is_round = false;                  // true if a radius is above 0
+    std::vector<Rounding> robot = {};       // of the robot's polygons: obstacles with arcs have points for them
+    // Of some obstacles: the robot's arcs have all the points for these that they have for all.
+    std::vector<Rounding> facing = {};
     // Add an obstacle.
     void add(const Polygon& polygon, const Rounding& rounding = {});
+    std::shared_ptr<FacingArcs> of_robot = {}, of_obstacles = {};  // made by the first obstacle that is rounded
 };
 
 inline constexpr Index body_layer = 0, reference_layer = 1;

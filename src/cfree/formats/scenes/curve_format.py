@@ -160,6 +160,11 @@ class CurvedModel(Strict):
         return self._shape
 
 
+def curved_of(data: Any) -> Curved:
+    """Return a round shape from its plain value; raise ValueError if it is none."""
+    return CurvedModel.model_validate(data).polygon
+
+
 _MODELS: dict[str, type[Strict]] = {
     "circle": CircleModel, "ellipse": EllipseModel, "arc": ArcModel, "path": SegmentModel, "holes": RingModel
 }  # fmt: skip
