@@ -19,6 +19,7 @@ from cfree.scene.reading import Note, together
 from cfree.scene.rounded import known_cores, rounded, rounded_shapes
 from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_polygons, with_reading
 
+MOST_HEALED = 100  # shapes that are healed to tell if that makes them exact
 COARSEST_HEALING, FINEST_HEALING = 1e-6, 1e-9
 """Lengths proposed to heal a shape, in its size: from the one to the other, as shorter ones make long numbers."""
 
@@ -154,12 +155,15 @@ def as_exact(scene: Scene, error: float | None, *, remedy: str = "") -> tuple[Sc
 def _healing(scene: Scene) -> str:
     """Return the option that makes round shapes of a scene exact, with their number; empty if none does."""
     lengths = []
-    for shape in shapes_of(scene):
-        if isinstance(shape, Curved) and rounded(shape) is None:
-            healed, changes = healed_with_changes(shape, COARSEST_HEALING * shape.size)
-            if changes and rounded(healed) is not None:
-                lengths.append(max(2 * max(change.size for change in changes), FINEST_HEALING * shape.size))
-    return f"--heal 1e{math.ceil(math.log10(max(lengths)))} makes {len(lengths)} exact" if lengths else ""
+    others = [shape for shape in shapes_of(scene) if isinstance(shape, Curved) and rounded(shape) is None]
+    for shape in others[:MOST_HEALED]:
+        healed, changes = healed_with_changes(shape, COARSEST_HEALING * shape.size)
+        if changes and rounded(healed) is not None:
+            lengths.append(max(2 * max(change.size for change in changes), FINEST_HEALING * shape.size))
+    if not lengths:
+        return ""
+    of_some = f" of the first {MOST_HEALED}" if len(others) > MOST_HEALED else ""
+    return f"--heal 1e{math.ceil(math.log10(max(lengths)))} makes {len(lengths)}{of_some} exact"
 
 
 def is_without_curves(target: Path) -> bool:
