@@ -1,6 +1,8 @@
 """Shapes of segments and circular arcs, decided on themselves: poses beside 32-gons, and questions of exact touch.
 
 Poses: a car with rounded corners among 100 discs, beside the same with 32-gons; the processor's time, in turns.
+Boundaries on one thread: a rounded triangle among triangles, beside the same with 28 and 100 directions in place of its
+disc; half discs and lenses among themselves, in milliseconds.
 Questions: touches, exact fits, and gaps that are just wide enough; each has an answer. Then the shipped scenes: their
 first paths, or proofs.
 
@@ -12,6 +14,7 @@ from __future__ import annotations
 
 import gc
 import math
+import random
 import statistics
 import time
 from collections.abc import Iterator
@@ -20,12 +23,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 
 import cfree
 from cfree import Curved
 from cfree.curves import Arc, Circle
 
 ROUNDS, POSES, EDGES = 5, 20_000, 32
+CORE = [("-0.5", "-0.5"), ("1", "-0.2"), ("-0.2", "0.8")]
+RADIUS = 0.2
+GONS = {28: 0.7, 100: 0.1}
+TURNS = [
+    (Fraction(x, z), Fraction(y, z)) for x, y, z in ((1, 0, 1), (3, 4, 5), (-20, 21, 29), (-5, -12, 13), (8, -15, 17))
+]
 SCENES = Path(__file__).parents[1] / "examples" / "scenes"
 
 
@@ -35,10 +45,77 @@ def run(quick: bool) -> Any:
     report = Report("Segments and arcs", ("question", "answer", "ms"), notes=["ms of the processor"])
     count = POSES // 20 if quick else POSES
     report.figure("poses among discs, to 32-gons", f"{count} poses", poses_ratio(count), "<=", 1)
+    for sides, target in GONS.items():
+        ratio = boundary_ratio(12, sides, 3 if quick else 15)
+        report.figure("boundary of a rounded robot, to that of polygons", f"{sides} directions", ratio, "<=", target)
+    for name, scene in (
+        ("boundary, rounded robot among 60", cfree.Scene(Curved(CORE, grown=str(RADIUS)), triangles(60))),
+        (
+            "boundary, half disc among 12 arcs",
+            cfree.Scene(half_disc(Fraction(0), Fraction(0), Fraction(3, 5)), arcs(12)),
+        ),
+    ):
+        found = [boundary_seconds(scene) for _ in range(1 if quick else ROUNDS)]
+        report.rows.append((name, "", f"{1e3 * statistics.median(found):.0f}"))
     for name, query in questions():
         seconds, answer = planned(query)
         report.rows.append((name, answer, f"{1e3 * seconds:.0f}"))
     return report
+
+
+def boundary_ratio(count: int, sides: int, rounds: int) -> float:
+    """Time of a rounded robot's boundary to that of a polygon with `sides` directions for its disc: median of pairs."""
+    gon = shapely.Polygon([(RADIUS * c, RADIUS * s) for c, s in around(sides)])
+    corners = shapely.MultiPoint([(float(x) + u, float(y) + v) for x, y in CORE for u, v in gon.exterior.coords[1:]])
+    polygon = [(round(x, 9), round(y, 9)) for x, y in shapely.orient_polygons(corners.convex_hull).exterior.coords[1:]]
+    scenes = [cfree.Scene(robot, triangles(count)) for robot in (Curved(CORE, grown=str(RADIUS)), polygon)]
+    pairs = [[boundary_seconds(scene) for scene in scenes] for _ in range(rounds + 1)][1:]
+    return statistics.median(first / second for first, second in pairs)
+
+
+def boundary_seconds(scene: cfree.Scene) -> float:
+    fresh = cfree.Scene(scene.robot, scene.obstacles)
+    gc.collect()
+    begin = time.process_time()
+    cfree.boundary(fresh, threads=1)
+    return time.process_time() - begin
+
+
+def triangles(count: int) -> list[list[tuple[float, float]]]:
+    rng, side, found = random.Random(0), 3 * math.sqrt(count), list[list[tuple[float, float]]]()
+    while len(found) < count:
+        x, y, size = rng.uniform(0, side), rng.uniform(0, side), rng.uniform(0.6, 1.4)
+        angles = sorted(rng.uniform(0, math.tau) for _ in range(3))
+        ring = [(round(x + size * math.cos(a), 3), round(y + size * math.sin(a), 3)) for a in angles]
+        if shapely.Polygon(ring).area > 0.3:
+            found.append(ring)
+    return found
+
+
+def half_disc(x: Fraction, y: Fraction, r: Fraction, turn: tuple[Fraction, Fraction] = TURNS[0]) -> Curved:
+    c, s = turn
+    return Curved([(x - r * s, y + r * c), Arc((x + r * s, y - r * c), center=(x, y))])
+
+
+def lens(x: Fraction, y: Fraction, size: Fraction, turn: tuple[Fraction, Fraction]) -> Curved:
+    """Two arcs over one chord."""
+
+    def at(a: int, b: int) -> tuple[Fraction, Fraction]:
+        return x + size * (turn[0] * a - turn[1] * b), y + size * (turn[1] * a + turn[0] * b)
+
+    return Curved([at(-4, 0), Arc(at(4, 0), center=at(0, 3)), Arc(at(-4, 0), center=at(0, -3))])
+
+
+def arcs(count: int) -> list[Curved]:
+    rng, side, found = random.Random(0), 3 * math.sqrt(count), list[Curved]()
+    for k in range(count):
+        x, y = (Fraction(round(1000 * rng.uniform(0, side)), 1000) for _ in range(2))
+        turn = rng.choice(TURNS)
+        if k % 2:
+            found.append(half_disc(x, y, Fraction(rng.randint(5, 11), 10), turn))
+        else:
+            found.append(lens(x, y, Fraction(rng.randint(12, 25), 100), turn))
+    return found
 
 
 def poses_ratio(count: int) -> float:
@@ -66,8 +143,8 @@ def poses_ratio(count: int) -> float:
     return statistics.median(ratios)
 
 
-def around() -> list[tuple[float, float]]:
-    return [(math.cos(math.tau * k / EDGES), math.sin(math.tau * k / EDGES)) for k in range(EDGES)]
+def around(edges: int = EDGES) -> list[tuple[float, float]]:
+    return [(math.cos(math.tau * k / edges), math.sin(math.tau * k / edges)) for k in range(edges)]
 
 
 def ring(vertices: Any) -> list[tuple[float, float]]:

@@ -171,7 +171,7 @@ static void certain_signs_in_doubles_are_exact() {
         const auto bare = [&](const Feature& f) { return code(s, {f.kind, f.robot, f.obstacle}); };
         if (bare(p) == bare(q) || bare(p) == bare(on.contact) || bare(q) == bare(on.contact)) continue;
         const RoundForm form = orders.form(p, q);
-        const SurdPoly exact = orders.exactly(p, q)->p;
+        const SurdPoly exact = orders.exactly(p, q).p;
         const double lo = std::ldexp(double(random_between(-1024, 1000)), -10), width = std::ldexp(1.0, -static_cast<int>(random_between(2, 40)));
         const double hi = std::min(1.0, lo + width);
         int signs[7];  // of the coefficients of Bernstein's basis
@@ -187,7 +187,7 @@ static void certain_signs_in_doubles_are_exact() {
         const Feature circle = neighbour(s, p);
         if (is_line(p) && is_smooth(s, p, circle) && !is_smooth(s, on.contact, circle)) {
             const int quick = orders.joint_sign(p, circle, lo);
-            if (quick != 0) CHECK(quick == sign_at(orders.exactly(p, circle)->p, Dyadic::from(lo)));
+            if (quick != 0) CHECK(quick == sign_at(orders.exactly(p, circle).p, Dyadic::from(lo)));
             joints += quick != 0;
         }
         if (!is_line(p)) continue;

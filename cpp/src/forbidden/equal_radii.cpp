@@ -191,7 +191,7 @@ public:
     // True if a surface touches this one at an angle.
     bool vanishes(const Feature& surface, const Event& at) const {
         LongRoot root = decide.long_root_of(at);
-        return sign_at(RoundOrders(scene, on).exactly(surface, {})->p, root) == 0;
+        return sign_at(RoundOrders(scene, on).exactly(surface, {}).p, root) == 0;
     }
     // Free closed ranges between two angles, and single angles; `meets` is true where the arcs touch, which changes at these events.
     template <class Meets>

@@ -123,7 +123,7 @@ private:
         other.branch = 1;
         const Surface helix{own, rows.chart[row]};
         if (Predicates(scene, helix).event_sign_on(other, {}, rows.from_lo[row], rows.to_hi[row]) != 0) return false;
-        return RoundOrders(scene, helix).exactly(other, {})->norm.empty();
+        return RoundOrders(scene, helix).exactly(other, {}).norm.empty();
     }
 
     std::vector<RoundRidge> ridges_of(Index row) const {

@@ -10,7 +10,7 @@
 namespace cfree {
 
 RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from, const Event& to, const std::vector<Index>& edges)
-    : Trimmer(s, on), orders(s, on), edges_at_centre(edges), has_arcs(s.robot.has_arcs() || s.obstacles.has_arcs()),
+    : Trimmer(s, on), orders(decide.round_orders()), edges_at_centre(edges), has_arcs(s.robot.has_arcs() || s.obstacles.has_arcs()),
       has_concave(s.robot.has_concave() || s.obstacles.has_concave()), is_concave(cfree::is_concave(s, on.contact)) {
     events = {from, to};
     if (is_circle(on.contact)) {
@@ -264,7 +264,7 @@ void RoundTrimmer::cover_by(Index p, Index k, const Slices& slices, const Slices
 // Sign at a sample; one that is zero there, and not at every angle, makes it critical.
 int RoundTrimmer::sign_of(const Feature& first, const Feature& second, const Sample& at) {
     const int sign = decide.event_sign(first, second, at);
-    is_critical |= sign == 0 && !orders.exactly(first, second)->norm.empty();
+    is_critical |= sign == 0 && !orders.exactly(first, second).norm.empty();
     return sign;
 }
 
@@ -419,9 +419,8 @@ int RoundTrimmer::cross_with_line(const Feature& line, const Sample& at) {
     return on_edge ? sign : -sign;
 }
 
-std::vector<int> RoundTrimmer::joint_signs(const Pillar& pillar, const Sample& at) {
-    std::vector<int> signs;
-    signs.reserve(static_cast<std::size_t>(2 * pillar.count()));
+const std::vector<int>& RoundTrimmer::joint_signs(const Pillar& pillar, const Sample& at) {
+    signs.clear();
     for (int k = 0; k < 2 * pillar.count(); ++k) signs.push_back(joint_sign(pillar, k, at));
     return signs;
 }
@@ -453,7 +452,7 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
     Cover out;
     out.watched.reserve(16);
     const Feature& x = surface.contact;
-    const std::vector<int> sign = joint_signs(pillar, at);
+    const std::vector<int>& sign = joint_signs(pillar, at);
     if (const auto curves_of_band = crossed_once(pillar, sign, 1, out)) {
         out.bands.push_back(*curves_of_band);
         return out;
@@ -520,7 +519,7 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
             clip({{with_branch(pillar.edge(k).line, 0), true}, {with_branch(pillar.edge(k - 1).line, 0), false}}, at, out);
             return out;
         }
-    const std::vector<int> sign = joint_signs(pillar, at);
+    const std::vector<int>& sign = joint_signs(pillar, at);
     if (orders.compare_radius(pillar.circle(0)) != 0) return on_any_circle(pillar, sign, at);
     if (const auto curves_of_band = crossed_once(pillar, sign, -1, out)) {
         clip({{(*curves_of_band)[0], true}, {(*curves_of_band)[1], false}}, at, out);
@@ -736,7 +735,7 @@ bool RoundTrimmer::crosses_at(const Band& band, Index event) {
         const int sign = decide.event_sign_on(first, {}, e.lo, e.hi);
         if (sign != 0) return sign;
         if (!root) root = decide.long_root_of(e);
-        return sign_at(orders.exactly(first, {})->p, *root);
+        return sign_at(orders.exactly(first, {}).p, *root);
     };
     // Sign of V x U, V the edge's vector around the pillar.
     const Feature& on = surface.contact;

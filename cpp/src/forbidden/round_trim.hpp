@@ -81,7 +81,7 @@ private:
     void watch_arc(const Pillar& pillar, int k, Cover& out) const;
     void watch_direction(const Feature& line, int sign, Cover& out) const;
     Feature feature_after(const Pillar& pillar, int joint, int branch) const;
-    std::vector<int> joint_signs(const Pillar& pillar, const Sample& at);
+    const std::vector<int>& joint_signs(const Pillar& pillar, const Sample& at);
     std::optional<std::array<Feature, 2>> crossed_once(const Pillar& pillar, const std::vector<int>& sign, int before, Cover& out) const;
     Cover on_line(const Pillar& pillar, const Sample& at);
     Cover on_circle(const Pillar& pillar, const Sample& at);
@@ -104,12 +104,13 @@ private:
 
     int sign_of(const Feature& first, const Feature& second, const Sample& at);
 
-    RoundOrders orders;
+    const RoundOrders& orders;
     const std::vector<Index>& edges_at_centre;
     const bool has_arcs;       // true if a shape has
     const bool has_concave;    // true if a shape has concave ones
     const bool is_concave;     // true if the surface is of one: its circle is free inside
     bool is_critical = false;  // true if the sample is itself a critical angle
+    std::vector<int> signs;    // of joint_signs
 };
 
 }  // namespace cfree

@@ -300,10 +300,10 @@ int Predicates::decided_order(const Event& x, const Event& y) {
     const auto alone = [&](const Event& z) {
         return changes_sign(z, std::min(x.lo, y.lo), std::max(x.hi, y.hi)) || is_touch_of_quadratic(z);
     };
-    const bool are_narrow = x.fine < 0 && y.fine < 0;  // else there may be other roots between them
-    if (are_narrow && same_polynomial(x, y) && alone(x)) return ++counters.identity, 0;
     if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge)
         return settled(counters, [&]<class T>() { return parallel_order<T>(scene, x.first, y.first); });
+    const bool are_narrow = x.fine < 0 && y.fine < 0;  // else there may be other roots between them
+    if (are_narrow && same_polynomial(x, y) && alone(x)) return ++counters.identity, 0;
     if (x.first.kind == Kind::none) return -order(y, Sample{x.lo, {}});
     if (y.first.kind == Kind::none) return order(x, Sample{y.lo, {}});
     return settled(counters, [&]<class T>() -> std::optional<int> {

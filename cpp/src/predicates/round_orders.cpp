@@ -2,6 +2,7 @@
 #include "predicates/round_orders.hpp"
 
 #include <limits>
+#include <stdexcept>
 
 #include "cfree/exact/squaring.hpp"
 #include "predicates/isolation.hpp"
@@ -38,6 +39,13 @@ struct AsBallPoly {
     }
 };
 
+// Entry for a number in a table of 2^bits.
+template <class Kept>
+Kept& entry(std::vector<Kept>& table, int bits, std::uint64_t number) {
+    if (table.empty()) table.resize(std::size_t(1) << bits);
+    return table[number * 0x9e3779b97f4a7c15u >> (64 - bits)];
+}
+
 }  // namespace
 
 int RoundOrders::compare_radius(const Feature& circle) const {
@@ -55,22 +63,33 @@ int RoundOrders::compare_radius(const Feature& circle) const {
 
 std::array<double, 2> RoundOrders::range(const Feature& f, double lo, double hi) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto found = range_of(place<Approx>(f, 0, Between{lo, hi, kappa}));
+    const auto found = kept_range(f, 0, {lo, hi, kappa});
     return found ? std::array{found->lo, found->hi} : std::array{-infinity, infinity};
 }
 
-const std::optional<Bounds>& RoundOrders::kept_range(const Feature& f, int axis, const Between& in) const {
-    for (const Kept& k : kept)
-        if (k.axis == axis && k.lo == in.lo && k.hi == in.hi && k.curve == f) return k.range;
-    Kept& result = kept[next++ % kept.size()];
-    result = {f, axis, in.lo, in.hi, range_of(place<Approx>(f, axis, in))};
-    return result.range;
+RoundOrders::KeptPlace& RoundOrders::kept_place(const Feature& f, int axis) const {
+    const Name curve = name(f);
+    KeptPlace& here = entry(places, 5, 2 * curve + static_cast<Name>(axis));
+    if (here.curve == curve && here.axis == axis) return here;
+    const PlaceParts<Trig<Approx>> parts = parts_of_place<Approx>(scene, surface.contact, f, axis);
+    here = {curve, axis, {static_cast<PlaceParts<Filtered>::Form>(parts.form), {}}, 1, 0, {}};
+    for (std::size_t k = 0; k < parts.f.size(); ++k) here.parts.f[k] = filtered_round(parts.f[k], kappa);
+    return here;
+}
+
+std::optional<Bounds> RoundOrders::kept_range(const Feature& f, int axis, const Between& in) const {
+    KeptPlace& here = kept_place(f, axis);
+    if (here.lo != in.lo || here.hi != in.hi) {
+        here.range = range_of(place_of_parts<Approx>(here.parts, f.branch, in));
+        here.lo = in.lo, here.hi = in.hi;
+    }
+    return here.range;
 }
 
 int RoundOrders::order_on(const Feature& p, const Feature& q, double lo, double hi) const {
     const Between in{lo, hi, kappa};
     for (int axis = 0; axis < (is_line(surface.contact) ? 1 : 2); ++axis) {
-        const auto &first = kept_range(p, axis, in), &second = kept_range(q, axis, in);
+        const auto first = kept_range(p, axis, in), second = kept_range(q, axis, in);
         if (first && second && first->hi < second->lo) return -1;
         if (first && second && second->hi < first->lo) return 1;
     }
@@ -142,7 +161,7 @@ int RoundOrders::turn(const Direction& d, const Direction& e, const Sample& at) 
 }
 
 int RoundOrders::coordinate_sign(const Feature& curve, int axis, const Sample& at) const {
-    if (const auto range = range_of(place<Approx>(curve, axis, around(at))))
+    if (const auto range = kept_range(curve, axis, around(at)))
         if (range->lo > 0 || range->hi < 0) return range->lo > 0 ? 1 : -1;
     const Ball zero = 0.0, one = 1.0;
     if (const auto sign = certain_order(place<Ball>(curve, axis, InBalls(at.ball(), kappa)), {zero, zero, zero, one, false})) return *sign;
@@ -157,7 +176,7 @@ bool RoundOrders::do_meet(const Feature& p, const Feature& q, double lo, double 
         return branch && are_on(*branch, p, q);
     }
     for (const Feature* f : {&p, &q}) {
-        const auto x = place<Approx>(*f, 0, Between{lo, hi, kappa});
+        const auto x = place(*f, 0, Between{lo, hi, kappa});
         if (!(x.c.lo > 0 || x.c.hi < 0) || (x.has_root && !(x.d.lo > 0))) return false;
     }
     const auto order = [&](double tau) {
@@ -199,19 +218,18 @@ std::optional<Trig<K>> RoundOrders::quadratic(const Feature& first, const Featur
         return cross(of.between(first, surface.contact), of.between(second, surface.contact));
     }
     if (second.kind == Kind::seam) return of.end_of_quadrant(surface.contact, second.branch, first);
+    if (first.kind == Kind::seam) return of.end_of_quadrant(surface.contact, first.branch, second);
     return joint_of_three(of, scene, surface.contact, first, second);
-}
-
-template <class K, class Ring>
-auto RoundOrders::event(const Feature& first, const Feature& second, const Ring& in) const {
-    if (const auto trig = quadratic<K>(first, second)) return in(*trig);
-    return sum_of(meeting(RoundSurfaces<K>(scene), surface.contact, first, second), in);
 }
 
 bool RoundOrders::are_proportional(const Event& x, const Event& y) const {
     // true if all minors are zero; nothing if that is not certain
     const auto answer = [&]<class K>(const auto& sign) -> std::optional<bool> {
-        const auto f = quadratic<K>(x.first, x.second), g = quadratic<K>(y.first, y.second);
+        const auto of = [&](const Event& e) {
+            if constexpr (std::is_same_v<K, RootSum>) return kept_exactly(e.first, e.second).quadratic;
+            else return quadratic<K>(e.first, e.second);
+        };
+        const auto f = of(x), g = of(y);
         if (!f || !g) return false;
         bool is_certain = true;
         for (const K& minor : {f->a * g->b - f->b * g->a, f->a * g->c - f->c * g->a, f->b * g->c - f->c * g->b}) {
@@ -225,8 +243,7 @@ bool RoundOrders::are_proportional(const Event& x, const Event& y) const {
         [](const Approx& v) { return std::abs(v.v) > 2 * round_error * v.m + tiny ? std::optional(1) : std::nullopt; });
     if (by_doubles) return *by_doubles;
     if (const auto by_balls = answer.template operator()<Ball>([](const Ball& v) { return certain_sign(v); })) return *by_balls;
-    const auto first = exactly(x.first, x.second), second = exactly(y.first, y.second);
-    const SurdPoly &p = first->p, &q = second->p;
+    const SurdPoly p = exactly(x.first, x.second).p, &q = exactly(y.first, y.second).p;
     if (p.roots == q.roots && (p.c == q.c || p.c == (-q).c)) return true;
     if (p.is_rational() && q.is_rational()) return false;
     return *answer.template operator()<RootSum>([](const RootSum& v) { return std::optional(v.sign()); });
@@ -236,7 +253,11 @@ bool RoundOrders::are_proportional(const Event& x, const Event& y) const {
 int RoundOrders::joint_sign(const Feature& line, const Feature& circle, double tau) const {
     const Feature& x = surface.contact;
     const RoundSurfaces<Approx> of(scene);
-    const double w = 1 + tau * tau, cosine = kappa * (1 - tau * tau) / w, sine = kappa * 2 * tau / w;
+    if (tau != turned_last.tau) {
+        const double w = 1 + tau * tau;
+        turned_last = {tau, kappa * (1 - tau * tau) / w, kappa * 2 * tau / w};
+    }
+    const double cosine = turned_last.cosine, sine = turned_last.sine;
     struct Vector {
         double x, y, m;
     };
@@ -268,10 +289,38 @@ int RoundOrders::joint_sign(const Feature& line, const Feature& circle, double t
     return value > err ? 1 : value < -err ? -1 : 0;
 }
 
+const Filtered* RoundOrders::kept_quadratic(const Feature& first, const Feature& second) const {
+    const Name first_name = name(first), second_name = name(second);
+    KeptQuadratic& here = entry(quadratics, 6, first_name + 7 * second_name);
+    if (here.first != first_name || here.second != second_name) {
+        const auto f = quadratic<Approx>(first, second);
+        here = {first_name, second_name, f.has_value(), f ? filtered_round(*f, kappa) : Filtered{}};
+    }
+    return here.is_quadratic ? &here.p : nullptr;
+}
+
+int RoundOrders::sign(const Feature& first, const Feature& second, double tau) const {
+    const Filtered* p = kept_quadratic(first, second);
+    if (!p) return form(first, second).sign(tau);
+    const double value = p->polar(tau, tau);
+    return value > p->err ? 1 : value < -p->err ? -1 : 0;
+}
+int RoundOrders::signs(const Feature& first, const Feature& second, double lo, double hi, int* sign) const {
+    const Filtered* p = kept_quadratic(first, second);
+    if (!p) {
+        const RoundForm all = form(first, second);
+        all.signs(lo, hi, sign);
+        return all.degree;
+    }
+    const double value[] = {p->polar(lo, lo), p->polar(lo, hi), p->polar(hi, hi)};
+    for (int n = 0; n < 3; ++n) sign[n] = value[n] > p->err ? 1 : value[n] < -p->err ? -1 : 0;
+    return 2;
+}
+
 RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {
     RoundForm result;
-    if (const auto f = quadratic<Approx>(first, second)) {
-        result.p = filtered_round(*f, kappa);
+    if (const Filtered* p = kept_quadratic(first, second)) {
+        result.p = *p;
         return result;
     }
     const Products<Approx> all = meeting(RoundSurfaces<Approx>(scene), surface.contact, first, second);
@@ -282,13 +331,36 @@ RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {
 }
 
 Coefficients<Ball> RoundOrders::in_balls(const Feature& first, const Feature& second) const {
-    return event<Ball>(first, second, AsBallPoly{kappa});
+    const AsBallPoly in{kappa};
+    if (const auto trig = quadratic<Ball>(first, second)) return in(*trig);
+    return sum_of(meeting(RoundSurfaces<Ball>(scene), surface.contact, first, second), in);
 }
-std::shared_ptr<const NormedPoly> RoundOrders::exactly(const Feature& first, const Feature& second) const {
-    constexpr std::size_t most = 1024;
-    if (const auto known = forms.find({first, second}); known != forms.end()) return known->second;
-    if (forms.size() == most) forms.clear();
-    return forms[{first, second}] = std::make_shared<const NormedPoly>(event<RootSum>(first, second, AsSurdPoly{kappa}));
+
+RoundOrders::KeptExactly& RoundOrders::kept_exactly(const Feature& first, const Feature& second) const {
+    const Name first_name = name(first), second_name = name(second);
+    KeptExactly& here = entry(exact, 6, first_name + 7 * second_name);
+    if (here.first != first_name || here.second != second_name)
+        here = {first_name, second_name, quadratic<RootSum>(first, second), {}, 1, 0, {}};
+    return here;
+}
+const NormedPoly& RoundOrders::exactly(const Feature& first, const Feature& second) const {
+    KeptExactly& here = kept_exactly(first, second);
+    if (!here.polynomial) {
+        const AsSurdPoly in{kappa};
+        here.polynomial = here.quadratic ? in(*here.quadratic)
+                                         : sum_of(meeting(RoundSurfaces<RootSum>(scene), surface.contact, first, second), in);
+    }
+    return *here.polynomial;
+}
+LongRoot RoundOrders::root_between(const Feature& first, const Feature& second, double lo, double hi) const {
+    const NormedPoly& p = exactly(first, second);
+    KeptExactly& here = kept_exactly(first, second);
+    if (!here.root || here.lo != lo || here.hi != hi) {
+        auto roots = roots_between(p, Dyadic::from(lo), Dyadic::from(hi));
+        if (roots.size() != 1) throw std::logic_error("an angle is not the only root in its interval");
+        here.root = std::move(roots[0].at), here.lo = lo, here.hi = hi;
+    }
+    return *here.root;
 }
 
 }  // namespace cfree

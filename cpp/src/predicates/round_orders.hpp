@@ -3,11 +3,7 @@
 // On a line the place of a curve is t, on a quadrant of a circle a coordinate of the unit vector u. Both are of the form
 // (a + b sqrt(d)) / c, with b = 0 for a joint, for the end of a quadrant and for a line on a line.
 #pragma once
-#include <memory>
-#include <unordered_map>
-
 #include "cfree/exact/radicals.hpp"
-#include "predicates/close_angles.hpp"
 #include "predicates/round_places.hpp"
 
 namespace cfree {
@@ -59,10 +55,15 @@ public:
     bool are_proportional(const Event& x, const Event& y) const;
     // Sign at a double of the event of a line and a circle at its end, 0 if not certain.
     int joint_sign(const Feature& line, const Feature& circle, double tau) const;
+    // Sign of an event's polynomial at a double, and signs of its Bernstein coefficients between two, 0 if not certain; its degree.
+    int sign(const Feature& first, const Feature& second, double tau) const;
+    int signs(const Feature& first, const Feature& second, double lo, double hi, int* sign) const;
     // Polynomial of an event's features, times a power of 1 + tau^2.
     RoundForm form(const Feature& first, const Feature& second) const;  // in doubles
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
-    std::shared_ptr<const NormedPoly> exactly(const Feature& first, const Feature& second) const;
+    const NormedPoly& exactly(const Feature& first, const Feature& second) const;  // until the next question
+    // The only root of that between two doubles.
+    LongRoot root_between(const Feature& first, const Feature& second, double lo, double hi) const;
 
 private:
     // Angles at a sample, and around it if that is no double.
@@ -77,8 +78,6 @@ private:
     Difference difference(const Feature& p, const Feature& q) const;
     template <class K>
     std::optional<Trig<K>> quadratic(const Feature& first, const Feature& second) const;
-    template <class K, class Ring>
-    auto event(const Feature& first, const Feature& second, const Ring& in) const;
     template <class K>
     Trig<K> joint_direction(const Feature& line, const Feature& circle) const;
     template <class K, class Ring>
@@ -86,24 +85,54 @@ private:
         return place_of_curve<K>(scene, surface.contact, curve, axis, in);
     }
 
-    // Ranges of curves between two angles that have been asked for last; nothing if a denominator may be zero.
-    struct Kept {
-        Feature curve;
+    // What is asked for again and again, in tables by the names of features that are empty at first.
+    using Name = std::uint64_t;  // a feature with its branch
+    static Name name(const Feature& f) {
+        return static_cast<Name>(f.kind) << 61 | static_cast<Name>(f.branch & 3) << 59 | static_cast<Name>(f.robot) << 31 |
+               static_cast<Name>(f.obstacle);
+    }
+    // Functions of which a curve's place is made, the same between any angles, and its range between the two that have been asked for
+    // last: nothing if a denominator may be zero.
+    struct KeptPlace {
+        Name curve = 0;
         int axis = -1;
-        double lo = 0, hi = 0;
+        PlaceParts<Filtered> parts;
+        double lo = 1, hi = 0;
         std::optional<Bounds> range;
     };
-    const std::optional<Bounds>& kept_range(const Feature& curve, int axis, const Between& in) const;
+    KeptPlace& kept_place(const Feature& curve, int axis) const;
+    CurvePlace<Bounds> place(const Feature& curve, int axis, const Between& in) const {
+        return place_of_parts<Approx>(kept_place(curve, axis).parts, curve.branch, in);
+    }
+    std::optional<Bounds> kept_range(const Feature& curve, int axis, const Between& in) const;
+    // Quadratic of an event in doubles; null if its polynomial is of a higher degree.
+    struct KeptQuadratic {
+        Name first = 0, second = 0;
+        bool is_quadratic = false;
+        Filtered p;
+    };
+    const Filtered* kept_quadratic(const Feature& first, const Feature& second) const;
+    // The same exactly, the polynomial, and its root between two doubles: near ties ask for few of them.
+    struct KeptExactly {
+        Name first = 0, second = 0;
+        std::optional<Trig<RootSum>> quadratic;
+        std::optional<NormedPoly> polynomial;
+        double lo = 1, hi = 0;
+        std::optional<LongRoot> root;
+    };
+    KeptExactly& kept_exactly(const Feature& first, const Feature& second) const;
+    // Rotation at the double that has been asked for last.
+    struct Turned {
+        double tau = 2, cosine = 0, sine = 0;
+    };
 
     const Scene& scene;
     Surface surface;
     double kappa;
-    struct Hash {
-        std::size_t operator()(const std::array<Feature, 2>& pair) const { return spread(mixed(pair[0]) * 3 + mixed(pair[1])); }
-    };
-    mutable std::unordered_map<std::array<Feature, 2>, std::shared_ptr<const NormedPoly>, Hash> forms;  // ties ask for them again
-    mutable std::array<Kept, 8> kept;
-    mutable std::size_t next = 0;
+    mutable std::vector<KeptPlace> places;
+    mutable std::vector<KeptQuadratic> quadratics;
+    mutable std::vector<KeptExactly> exact;
+    mutable Turned turned_last;
 };
 
 }  // namespace cfree

@@ -32,8 +32,8 @@ inline Bounds bounds(const Ball& x) {
 struct Between {
     double lo, hi, kappa;
     Bounds number(const Approx& k) const { return outwards(k.v - round_error * k.m, k.v + round_error * k.m); }
-    Bounds operator()(const Trig<Approx>& x) const {
-        const Filtered f = filtered_round(x, kappa);
+    Bounds operator()(const Trig<Approx>& x) const { return (*this)(filtered_round(x, kappa)); }
+    Bounds operator()(const Filtered& f) const {
         const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
         return {std::min(std::min(p, q), r) - f.err, std::max(std::max(p, q), r) + f.err};
     }
@@ -104,37 +104,60 @@ auto limit_of_line(const Scene& scene, const Feature& x, const Feature& f, const
     return CurvePlace<V>{slope(N), zero, zero, slope(D), false};
 }
 
+// Functions of the angle of which the place of a curve is made: N / D; on a line (B + b sqrt(S - M^2)) / C; on a circle
+// (delta n + b m sqrt(R s - delta^2)) / (r s), n and m of the normal along an axis and a quarter turn on, s its square, R = r^2.
+template <class Q>
+struct PlaceParts {
+    enum class Form { quotient, circle_on_line, on_circle } form;
+    std::array<Q, 6> f;  // N, D; B, M, S, C; delta, n, m, s, R, r
+};
+template <class K>
+PlaceParts<Trig<K>> parts_of_place(const Scene& scene, const Feature& x, const Feature& f, int axis) {
+    using Form = typename PlaceParts<Trig<K>>::Form;
+    const RoundSurfaces<K> of(scene);
+    const auto constant = [](const K& k) { return RoundSurfaces<K>::constant(k); };
+    const auto one = [&] { return constant(whole<K>(1)); };
+    if (is_line(x)) {
+        if (const int end = smooth_end(scene, x, f); end >= 0) return {Form::quotient, {constant(whole<K>(end)), one()}};
+        if (is_line(f)) {
+            const auto [N, D] = place_of_line(of, x, f);
+            return {Form::quotient, {N, D}};
+        }
+        const K sigma = of.rho(f), square = of.square_of_length(x);
+        return {Form::circle_on_line, {dot(of.between(f, x), of.along(x)), of.offset(x, f), constant(sigma * sigma * square), constant(square)}};
+    }
+    const Quadrant ends = quadrant_of(scene, x);
+    const MovingVector<K> e = axis == 0 ? of.axis(ends.end) : of.axis(ends.begin + 2);
+    if (f.kind == Kind::seam) return {Form::quotient, {dot(of.axis(f.branch), e), one()}};
+    if (is_smooth(scene, f, x)) return {Form::quotient, {-dot(quarter_turn(of.along(f)), e), constant(of.length(f))}};
+    const auto seen = of.seen(x, f);
+    const K r = of.rho(x);
+    return {Form::on_circle, {seen.delta, dot(seen.n, e), dot(quarter_turn(seen.n), e), seen.square, constant(r * r), constant(r)}};
+}
+
+template <class K, class Q, class Ring>
+auto place_of_parts(const PlaceParts<Q>& parts, int branch, const Ring& in) {
+    using Form = typename PlaceParts<Q>::Form;
+    using V = decltype(in(parts.f[0]));
+    const auto& f = parts.f;
+    const auto number = [&](int k) { return in.number(whole<K>(k)); };
+    if (parts.form == Form::quotient) {
+        const V zero = number(0);
+        return CurvePlace<V>{in(f[0]), zero, zero, in(f[1]), false};
+    }
+    if (parts.form == Form::circle_on_line) {
+        const V M = in(f[1]);
+        return CurvePlace<V>{in(f[0]), number(branch), in(f[2]) * in(RoundSurfaces<K>::constant(whole<K>(1))) - M * M, in(f[3]), true};
+    }
+    const V delta = in(f[0]), square = in(f[3]);
+    return CurvePlace<V>{delta * in(f[1]), number(branch) * in(f[2]), in(f[4]) * square - delta * delta, in(f[5]) * square, true};
+}
+
 // Place of a curve f on a surface x: t on a line; on a circle a coordinate of u that grows with t over the quadrant, along the axis
 // at its end (axis 0), or against that at its beginning (1).
 template <class K, class Ring>
 auto place_of_curve(const Scene& scene, const Feature& x, const Feature& f, int axis, const Ring& in) {
-    const RoundSurfaces<K> of(scene);
-    const auto constant = [&](const K& k) { return in(RoundSurfaces<K>::constant(k)); };
-    using V = decltype(constant(whole<K>(1)));
-    const V zero = in.number(whole<K>(0)), w = constant(whole<K>(1));
-    if (is_line(x)) {
-        const auto U = of.along(x);
-        const K square = of.square_of_length(x);
-        if (const int end = smooth_end(scene, x, f); end >= 0) return CurvePlace<V>{constant(whole<K>(end)), zero, zero, w, false};
-        if (is_line(f)) {
-            const auto [N, D] = place_of_line(of, x, f);
-            return CurvePlace<V>{in(N), zero, zero, in(D), false};
-        }
-        const K sigma = of.rho(f);
-        const V M = in(of.offset(x, f));
-        return CurvePlace<V>{in(dot(of.between(f, x), U)), in.number(whole<K>(f.branch)), constant(sigma * sigma * square) * w - M * M,
-                        constant(square), true};
-    }
-    const Quadrant ends = quadrant_of(scene, x);
-    const MovingVector<K> e = axis == 0 ? of.axis(ends.end) : of.axis(ends.begin + 2);
-    if (f.kind == Kind::seam) return CurvePlace<V>{in(dot(of.axis(f.branch), e)), zero, zero, w, false};
-    if (is_smooth(scene, f, x))
-        return CurvePlace<V>{in(-dot(quarter_turn(of.along(f)), e)), zero, zero, constant(of.length(f)), false};
-    const auto seen = of.seen(x, f);
-    const K r = of.rho(x);
-    const V delta = in(seen.delta), square = in(seen.square);
-    return CurvePlace<V>{delta * in(dot(seen.n, e)), in.number(whole<K>(f.branch)) * in(dot(quarter_turn(seen.n), e)),
-                    constant(r * r) * square - delta * delta, constant(r) * square, true};
+    return place_of_parts<K>(parts_of_place<K>(scene, x, f, axis), f.branch, in);
 }
 
 // Point ((x.a + x.b sqrt(d)) / c, (y.a + y.b sqrt(d)) / c) of the plane.

@@ -16,11 +16,11 @@ const RoundOrders& Predicates::round_orders() const {
 // Roots in the interval and a little beyond it, where certain signs in balls do not suffice.
 Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, const Feature& second, double lo, double hi) {
     Candidates result;
-    const auto form = round_orders().exactly(first, second);
-    result.all_zero = form->norm.empty();
+    const NormedPoly& form = round_orders().exactly(first, second);
+    result.all_zero = form.norm.empty();
     if (result.all_zero) return result;
     constexpr unsigned digits = 56;  // a few more than a double has
-    for (SurdRoot& root : roots_between(*form, Dyadic::from(std::nextafter(lo, -2)), Dyadic::from(std::nextafter(hi, 2)))) {
+    for (SurdRoot& root : roots_between(form, Dyadic::from(std::nextafter(lo, -2)), Dyadic::from(std::nextafter(hi, 2)))) {
         while (!root.at.is_dyadic() && root.at.digits() < digits) root.at.narrow();
         const double below = root.at.lo.rounded_down(), above = root.at.hi.rounded_up();
         Event x{first, second, below, above, static_cast<Index>(fine.size()), !root.changes_sign};
@@ -32,10 +32,10 @@ Predicates::Candidates Predicates::roots_exactly_round(const Feature& first, con
 
 int Predicates::event_sign(const Feature& first, const Feature& second, const Sample& at) {
     if (!at.fine)
-        if (const int sign = round_orders().form(first, second).sign(at.tau); sign != 0) return ++counters.filter, sign;
+        if (const int sign = round_orders().sign(first, second, at.tau); sign != 0) return ++counters.filter, sign;
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(coefficients<Ball>(first, second), at.ball());
-        else return cfree::sign_at(round_orders().exactly(first, second)->p, at.exact());
+        else return cfree::sign_at(round_orders().exactly(first, second).p, at.exact());
     });
 }
 Predicates::Roots Predicates::event_roots(const Feature& first, const Feature& second, const Event& from, const Event& to) {
@@ -48,26 +48,26 @@ int Predicates::event_sign_on(const Feature& first, const Feature& second, doubl
         const bool is_one = std::all_of(sign, sign + degree + 1, [&](int s) { return s == sign[0]; });
         return is_one ? sign[0] : 0;
     };
-    const RoundForm form = round_orders().form(first, second);
-    form.signs(lo, hi, sign);
+    const int degree = round_orders().signs(first, second, lo, hi, sign);
     constexpr double wide = 0x1p-30;  // balls then rarely decide: there is a root near an end
-    if (hi - lo > wide || std::find(sign, sign + form.degree + 1, 0) == sign + form.degree + 1) return common(form.degree);
+    if (hi - lo > wide || std::find(sign, sign + degree + 1, 0) == sign + degree + 1) return common(degree);
     const Balls p(coefficients<Ball>(first, second));
     p.signs(lo, hi, sign);
     return common(p.degree);
 }
 
 LongRoot Predicates::long_root_of(const Event& x) const {
+    if (x.fine < 0 && x.lo < x.hi) return round_orders().root_between(x.first, x.second, x.lo, x.hi);
     const Dyadic lo = x.fine >= 0 ? fine[x.fine][0] : Dyadic::from(x.lo), hi = x.fine >= 0 ? fine[x.fine][1] : Dyadic::from(x.hi);
     if (cfree::compare(lo, hi) == 0) return {LongPoly{-lo.n, Int(1) << lo.k}, lo, hi};
-    auto roots = roots_between(*round_orders().exactly(x.first, x.second), lo, hi);
+    auto roots = roots_between(round_orders().exactly(x.first, x.second), lo, hi);
     if (roots.size() != 1) throw std::logic_error("an angle is not the only root in its interval");
     return roots[0].at;
 }
 
 // All roots of an event's polynomial in its interval of doubles, ends included.
 std::vector<SurdRoot> Predicates::roots_around(const Event& x) const {
-    return roots_between(*round_orders().exactly(x.first, x.second), Dyadic::from(std::nextafter(x.lo, -2)),
+    return roots_between(round_orders().exactly(x.first, x.second), Dyadic::from(std::nextafter(x.lo, -2)),
                          Dyadic::from(std::nextafter(x.hi, 2)));
 }
 
@@ -94,6 +94,53 @@ Event Predicates::restored_round(Event x, int place) {
     return x;
 }
 
+// Sense of a line in which it is parallel to another one of its kind at every angle; 0 if it is not, or if doubles do not tell.
+static int sense_along(const Scene& scene, const Feature& f, const Feature& g) {
+    if (!is_line(f) || f.kind != g.kind) return 0;
+    const bool of_robot = f.kind == Kind::edge_vertex;
+    const Shape& s = of_robot ? scene.robot : scene.obstacles;
+    const Index e = of_robot ? f.robot : f.obstacle, other = of_robot ? g.robot : g.obstacle;
+    if (s.direction[e] != s.direction[other]) return 0;
+    const Approx along = dot(edge<Approx>(s, e), edge<Approx>(s, other));
+    return std::abs(along.v) > coefficient_error * along.m ? (along.v > 0 ? 1 : -1) : 0;
+}
+
+// Name of an angle at which parallel lines become one, each the surface's or smooth with a circle that it touches there: on a line
+// the other line, on a circle the line, with the side of the touch.
+static std::optional<Feature> touch_of_parallels(const Scene& scene, const Feature& on, const Event& e) {
+    const auto side = [&](const Feature& circle, int sense) {  // of the circle's joint, seen from the line
+        const double r = RoundSurfaces<Approx>(scene).rho(circle).v;
+        return r > 0 ? -sense : r < 0 ? sense : 0;
+    };
+    if (is_circle(on)) {
+        for (const auto& [line, joint] : {std::pair{&e.first, &e.second}, std::pair{&e.second, &e.first}}) {
+            const int sense = sense_along(scene, *line, *joint);
+            if (sense == 0 || !is_smooth(scene, *joint, on)) continue;
+            Feature result = *line;
+            result.branch = static_cast<std::int8_t>(side(on, sense));
+            return result.branch != 0 ? std::optional(result) : std::nullopt;
+        }
+        return {};
+    }
+    const auto bare = [](Feature line) {
+        line.branch = 0;
+        return line;
+    };
+    if (is_line(e.first) && is_circle(e.second) && !is_center(e.second) && is_smooth(scene, e.first, e.second) && sense_along(scene, e.first, on) != 0)
+        return bare(e.first);
+    if (!is_circle(e.first) || e.second.kind != Kind::none) return {};
+    const bool of_robot = on.kind == Kind::edge_vertex;
+    const Shape& s = of_robot ? scene.robot : scene.obstacles;
+    const Index vertex = of_robot ? e.first.robot : e.first.obstacle;
+    if (vertex >= s.ring_vertices) return {};
+    for (const Index edge : {vertex, s.previous[vertex]}) {
+        const Feature line = of_robot ? Feature{on.kind, edge, e.first.obstacle} : Feature{on.kind, e.first.robot, edge};
+        const int sense = sense_along(scene, line, on);
+        if (sense != 0 && is_smooth(scene, line, e.first) && side(e.first, sense) == e.first.branch) return line;
+    }
+    return {};
+}
+
 // True if two angles are roots of one polynomial: by their names, in which branches of curves do not matter, or as their quadratics
 // are equal up to a factor.
 bool Predicates::is_same_round(const Event& x, const Event& y) const {
@@ -101,6 +148,7 @@ bool Predicates::is_same_round(const Event& x, const Event& y) const {
         Code first, second;
     };
     const auto names = [&](const Event& e) -> Names {
+        if (const auto touch = touch_of_parallels(scene, surface.contact, e)) return {code(scene, *touch), 0};
         Feature first = e.first, second = e.second;
         if (second.kind != Kind::none && !is_center(second)) {
             if (first.kind != Kind::seam) first.branch = 0;

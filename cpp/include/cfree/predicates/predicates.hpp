@@ -201,6 +201,9 @@ public:
     };
     static RangeEnd range_end(const Scene& scene, Index g, Index f, bool is_start, Counters& counters);
 
+    // Orders of curves on the surface, where shapes are grown.
+    const RoundOrders& round_orders() const;
+
     Counters counters;
 
 private:
@@ -262,7 +265,6 @@ private:
     };
     std::vector<Narrowed> recent;  // table by features, as one angle is compared with many; empty at first
     std::size_t misses = 0;        // misses since the last resize
-    const RoundOrders& round_orders() const;
     mutable std::unique_ptr<const RoundOrders> made_orders;  // none until asked for
     struct CloseAngles;
     std::unique_ptr<CloseAngles> close;  // none until there are many
