@@ -10,6 +10,11 @@ namespace cfree {
 
 inline constexpr double round_error = 0x1p-46;  // 128 u
 
+// Common sign of Bernstein coefficients, if there is one.
+inline int common_sign(const int* sign, int degree) {
+    return std::all_of(sign, sign + degree + 1, [&](int s) { return s == sign[0]; }) ? sign[0] : 0;
+}
+
 inline Filtered filtered_round(const Trig<Approx>& f, double kappa) {
     return {f.a.v, kappa * f.b.v, kappa * f.c.v, round_error * (f.a.m + f.b.m + f.c.m) + tiny};
 }

@@ -72,7 +72,7 @@ RoundOrders::KeptPlace& RoundOrders::kept_place(const Feature& f, int axis) cons
     KeptPlace& here = entry(places, 5, 2 * curve + static_cast<Name>(axis));
     if (here.curve == curve && here.axis == axis) return here;
     const PlaceParts<Trig<Approx>> parts = parts_of_place<Approx>(scene, surface.contact, f, axis);
-    here = {curve, axis, {static_cast<PlaceParts<Filtered>::Form>(parts.form), {}}, 1, 0, {}};
+    here = {curve, axis, {parts.form, {}}, 1, 0, {}};
     for (std::size_t k = 0; k < parts.f.size(); ++k) here.parts.f[k] = filtered_round(parts.f[k], kappa);
     return here;
 }
@@ -305,16 +305,12 @@ int RoundOrders::sign(const Feature& first, const Feature& second, double tau) c
     const double value = p->polar(tau, tau);
     return value > p->err ? 1 : value < -p->err ? -1 : 0;
 }
-int RoundOrders::signs(const Feature& first, const Feature& second, double lo, double hi, int* sign) const {
-    const Filtered* p = kept_quadratic(first, second);
-    if (!p) {
-        const RoundForm all = form(first, second);
-        all.signs(lo, hi, sign);
-        return all.degree;
-    }
-    const double value[] = {p->polar(lo, lo), p->polar(lo, hi), p->polar(hi, hi)};
-    for (int n = 0; n < 3; ++n) sign[n] = value[n] > p->err ? 1 : value[n] < -p->err ? -1 : 0;
-    return 2;
+int RoundOrders::sign_on(const Feature& first, const Feature& second, double lo, double hi) const {
+    if (const Filtered* p = kept_quadratic(first, second)) return Predicates::sign_on(*p, lo, hi);
+    const RoundForm all = form(first, second);
+    int sign[7];
+    all.signs(lo, hi, sign);
+    return common_sign(sign, all.degree);
 }
 
 RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {

@@ -55,9 +55,9 @@ public:
     bool are_proportional(const Event& x, const Event& y) const;
     // Sign at a double of the event of a line and a circle at its end, 0 if not certain.
     int joint_sign(const Feature& line, const Feature& circle, double tau) const;
-    // Sign of an event's polynomial at a double, and signs of its Bernstein coefficients between two, 0 if not certain; its degree.
+    // Sign of an event's polynomial at a double, and on all of an interval, 0 if not certain.
     int sign(const Feature& first, const Feature& second, double tau) const;
-    int signs(const Feature& first, const Feature& second, double lo, double hi, int* sign) const;
+    int sign_on(const Feature& first, const Feature& second, double lo, double hi) const;
     // Polynomial of an event's features, times a power of 1 + tau^2.
     RoundForm form(const Feature& first, const Feature& second) const;  // in doubles
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;

@@ -106,46 +106,45 @@ auto limit_of_line(const Scene& scene, const Feature& x, const Feature& f, const
 
 // Functions of the angle of which the place of a curve is made: N / D; on a line (B + b sqrt(S - M^2)) / C; on a circle
 // (delta n + b m sqrt(R s - delta^2)) / (r s), n and m of the normal along an axis and a quarter turn on, s its square, R = r^2.
+enum class PlaceForm { quotient, circle_on_line, on_circle };
 template <class Q>
 struct PlaceParts {
-    enum class Form { quotient, circle_on_line, on_circle } form;
+    PlaceForm form;
     std::array<Q, 6> f;  // N, D; B, M, S, C; delta, n, m, s, R, r
 };
 template <class K>
 PlaceParts<Trig<K>> parts_of_place(const Scene& scene, const Feature& x, const Feature& f, int axis) {
-    using Form = typename PlaceParts<Trig<K>>::Form;
     const RoundSurfaces<K> of(scene);
     const auto constant = [](const K& k) { return RoundSurfaces<K>::constant(k); };
     const auto one = [&] { return constant(whole<K>(1)); };
     if (is_line(x)) {
-        if (const int end = smooth_end(scene, x, f); end >= 0) return {Form::quotient, {constant(whole<K>(end)), one()}};
+        if (const int end = smooth_end(scene, x, f); end >= 0) return {PlaceForm::quotient, {constant(whole<K>(end)), one()}};
         if (is_line(f)) {
             const auto [N, D] = place_of_line(of, x, f);
-            return {Form::quotient, {N, D}};
+            return {PlaceForm::quotient, {N, D}};
         }
         const K sigma = of.rho(f), square = of.square_of_length(x);
-        return {Form::circle_on_line, {dot(of.between(f, x), of.along(x)), of.offset(x, f), constant(sigma * sigma * square), constant(square)}};
+        return {PlaceForm::circle_on_line, {dot(of.between(f, x), of.along(x)), of.offset(x, f), constant(sigma * sigma * square), constant(square)}};
     }
     const Quadrant ends = quadrant_of(scene, x);
     const MovingVector<K> e = axis == 0 ? of.axis(ends.end) : of.axis(ends.begin + 2);
-    if (f.kind == Kind::seam) return {Form::quotient, {dot(of.axis(f.branch), e), one()}};
-    if (is_smooth(scene, f, x)) return {Form::quotient, {-dot(quarter_turn(of.along(f)), e), constant(of.length(f))}};
+    if (f.kind == Kind::seam) return {PlaceForm::quotient, {dot(of.axis(f.branch), e), one()}};
+    if (is_smooth(scene, f, x)) return {PlaceForm::quotient, {-dot(quarter_turn(of.along(f)), e), constant(of.length(f))}};
     const auto seen = of.seen(x, f);
     const K r = of.rho(x);
-    return {Form::on_circle, {seen.delta, dot(seen.n, e), dot(quarter_turn(seen.n), e), seen.square, constant(r * r), constant(r)}};
+    return {PlaceForm::on_circle, {seen.delta, dot(seen.n, e), dot(quarter_turn(seen.n), e), seen.square, constant(r * r), constant(r)}};
 }
 
 template <class K, class Q, class Ring>
 auto place_of_parts(const PlaceParts<Q>& parts, int branch, const Ring& in) {
-    using Form = typename PlaceParts<Q>::Form;
     using V = decltype(in(parts.f[0]));
     const auto& f = parts.f;
     const auto number = [&](int k) { return in.number(whole<K>(k)); };
-    if (parts.form == Form::quotient) {
+    if (parts.form == PlaceForm::quotient) {
         const V zero = number(0);
         return CurvePlace<V>{in(f[0]), zero, zero, in(f[1]), false};
     }
-    if (parts.form == Form::circle_on_line) {
+    if (parts.form == PlaceForm::circle_on_line) {
         const V M = in(f[1]);
         return CurvePlace<V>{in(f[0]), number(branch), in(f[2]) * in(RoundSurfaces<K>::constant(whole<K>(1))) - M * M, in(f[3]), true};
     }

@@ -43,17 +43,13 @@ Predicates::Roots Predicates::event_roots(const Feature& first, const Feature& s
 }
 
 int Predicates::event_sign_on(const Feature& first, const Feature& second, double lo, double hi) const {
-    int sign[7];
-    const auto common = [&](int degree) {  // if there is one
-        const bool is_one = std::all_of(sign, sign + degree + 1, [&](int s) { return s == sign[0]; });
-        return is_one ? sign[0] : 0;
-    };
-    const int degree = round_orders().signs(first, second, lo, hi, sign);
+    if (const int sign = round_orders().sign_on(first, second, lo, hi); sign != 0) return sign;
     constexpr double wide = 0x1p-30;  // balls then rarely decide: there is a root near an end
-    if (hi - lo > wide || std::find(sign, sign + degree + 1, 0) == sign + degree + 1) return common(degree);
+    if (hi - lo > wide) return 0;
     const Balls p(coefficients<Ball>(first, second));
+    int sign[7];
     p.signs(lo, hi, sign);
-    return common(p.degree);
+    return common_sign(sign, p.degree);
 }
 
 LongRoot Predicates::long_root_of(const Event& x) const {
