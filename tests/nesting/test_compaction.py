@@ -62,6 +62,15 @@ def test_discs_touch_the_edge_and_each_other() -> None:
     replayed(start, result)
 
 
+@pytest.mark.slow
+def test_parts_with_other_curves_are_compacted_and_stay_what_they_are() -> None:
+    leaf = Part(Curved.ellipse((0, 0), (1, "0.5")), "leaf")
+    start = Nesting([SHEET], [Placed(leaf, (3, 2, "30deg")), Placed(SQUARE, (5, 1, 0))])
+    result = compact(start, "left")
+    assert [one.part for one in result.nesting.placed] == [leaf, SQUARE] and not overlaps(result.nesting)
+    assert result.nesting.box[0] == pytest.approx(0, abs=2e-3) and result.nesting.box[2] < 5
+
+
 def test_overlapping_parts_are_refused() -> None:
     with pytest.raises(ValueError, match=r"^nesting: square \(part 0\) and .*: 1 deep.*; free it first$"):
         compact(Nesting([SHEET], [Placed(SQUARE, (0, 0, 0)), Placed(SQUARE, (1, 0, 0))]))

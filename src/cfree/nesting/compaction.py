@@ -9,15 +9,17 @@ from fractions import Fraction
 from typing import Any, Literal
 
 from cfree.arguments import checked
+from cfree.collision.arcs import curves_of
 from cfree.collision.motion import Rotation, Translation
 from cfree.collision.motion_checker import FirstContact, first_contact, is_free_motion
 from cfree.contact.contact import EdgeVertex, VertexEdge
+from cfree.curves.curved import Curved
 from cfree.exact.half_angle import half_angle_rotation, sum_of_angles
 from cfree.exact.number import ExactPoint, Number, simplest_between, to_fraction
 from cfree.exact.pose import Pose
 from cfree.nesting.checking import overlaps
-from cfree.nesting.layout import Nesting, Placed, shape_box, union
-from cfree.scene.scene import Scene
+from cfree.nesting.layout import Nesting, Part, Placed, around, shape_box, union, within
+from cfree.scene.scene import AnyShape, Scene, size_of
 from cfree.words import counted
 
 SIDES = {"left": (-1, 0), "right": (1, 0), "down": (0, -1), "up": (0, 1)}
@@ -28,6 +30,7 @@ STEP_BACK = Fraction(1, 10**4)  # share of the size
 MOST_TURN = math.radians(30)
 BITS = 40  # of turns, and of positions of few digits
 LONG = 100  # bits of a position above which one of few digits is taken
+ROOM_BITS = 14  # of the distance, in shares of the size, of polygons from curves other than arcs
 STILL = Fraction(0), Fraction(0)
 
 
@@ -105,8 +108,8 @@ def compact(
     Notes
     -----
     A part slides straight, then along the edge that stops it, and turns about the corner that touches. Slides between
-    polygons end in exact contact. The order of the parts is that in which they lie in the direction. It is a descent:
-    parts do not jump over others.
+    polygons end in exact contact; polygons around them replace parts with other curves than arcs. The order of the
+    parts is that in which they lie in the direction. It is a descent: parts do not jump over others.
 
     Examples
     --------
@@ -124,7 +127,9 @@ def compact(
         raise ValueError(f"passes: {passes}; give at least 1")
     if wrong := overlaps(nesting):
         raise ValueError(f"nesting: {wrong[0]}; free it first")
-    placed, motions = list(nesting.placed), list[PartMotion]()
+    given, motions = nesting, list[PartMotion]()
+    nesting = _with_arcs(nesting)
+    placed = list(nesting.placed)
     for n in range(passes):
         order = sorted(range(len(placed)), key=lambda k: -_front(placed[k], (x, y)))
         before = len(motions)
@@ -138,11 +143,26 @@ def compact(
             break
     if progress is not None:
         progress(1.0)
-    return Compacted(_with(nesting, placed), tuple(motions))
+    places = [one.at(end.pose) for one, end in zip(given.placed, placed, strict=True)]
+    return Compacted(Nesting(given.sheets, places, given.left, given.units, given.name), tuple(motions))
 
 
-def _with(nesting: Nesting, placed: list[Placed]) -> Nesting:
-    return Nesting(nesting.sheets, placed, nesting.left, nesting.units, nesting.name)
+def _with_arcs(nesting: Nesting) -> Nesting:
+    """Return a layout of lines and arcs: polygons replace other curves, a little larger ones parts, inner ones sheets.
+
+    Whether two of the curves touch cannot be decided, so that their polygons keep a distance from them.
+    """
+
+    def larger(shape: AnyShape) -> list[AnyShape]:
+        if curves_of(shape) is not None:
+            return [shape]
+        room = 2.0**-ROOM_BITS * size_of(shape)
+        return [Curved(outer, holes, grown=room) for outer, *holes in (one.exact_rings for one in around([shape]))]
+
+    parts = {id(one.part): [new for shape in one.part.shapes for new in larger(shape)] for one in nesting.placed}
+    placed = [Placed(Part(parts[id(one.part)], one.part.name), one.pose, one.sheet) for one in nesting.placed]
+    sheets = [sheet if curves_of(sheet) is not None else max(within([sheet]), key=size_of) for sheet in nesting.sheets]
+    return Nesting(sheets, placed)
 
 
 def _front(placed: Placed, direction: ExactPoint) -> float:
