@@ -167,7 +167,11 @@ class Orientations:
         table, row = self._row(k)
         exact = (self._round_pose if self.boundary.scene.curved else self._pose)(table, row, k)
         if exact is None:
-            x, y, theta = self.boundary.isolated_part(row).ends[0]
+            if table is self.boundary.isolated:
+                x, y, theta = self.boundary.isolated_part(row).ends[0]
+            else:  # a slit among round shapes
+                tau = float(table.tau_from[row] + table.tau_to[row]) / 2
+                (x, y), theta = self._near(table, row, k, tau), float(theta_in(int(table.chart[row]), tau))
             return (x, y, float(normalize_angles(theta))), None
         angle = {"tau": exact.tau}
         segments = self.boundary.slice(angle).segments
