@@ -114,7 +114,6 @@ def test_what_takes_polygons_says_so() -> None:
     pose = cfree.Pose(0, 0)
     for call in (
         lambda: cfree.turn_in_place(scene, pose),
-        lambda: cfree.MotionChecker(scene), lambda: cfree.PoseChecker(scene),
         lambda: cfree.arrangements.arrangement(scene),
         lambda: cfree.save(scene, "round.svg"), lambda: cfree.save(scene, "round.geojson"),
     ):  # fmt: skip

@@ -354,7 +354,7 @@ def slice_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
 
 def slice_rings(space: Built, chart: int, tau: float) -> list[Any]:
     """Rings of chords around the forbidden positions at an orientation, each from one of its points."""
-    xy, start, _ = _core.Slicer(space.boundary).rings(chart, tau)
+    xy, start, *_ = _core.Slicer(space.boundary).rings(np.array([chart], np.int32), np.array([tau]))
     points = xy.reshape(-1, 2)
     return [points[i:j] - points[i] for i, j in pairwise(start.tolist())]
 

@@ -95,10 +95,13 @@ class MotionChecker(Value):
     FirstContact(at=Surd(p=Fraction(1, 2), q=Fraction(0, 1), n=0), robot=0, obstacle=0, contact=VertexEdge(i=1, j=2))
     """
 
+    _arcs: ArcScene | None = None
+
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
-        self._arcs = arcs_of(scene) if scene.curved else None
-        if self._arcs is None:
+        if scene.curved:
+            self._arcs = arcs_of(scene)
+        else:
             self._handle = kept(scene, _prepared)
 
     @property

@@ -87,7 +87,7 @@ def is_free(
     Examples
     --------
     >>> from cfree.curves.curved import Curved
-    >>> from cfree.scene.scene import Scene, robot_radius
+    >>> from cfree.scene.scene import Scene
     >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     >>> scene = Scene(robot=square, obstacles=square, bounds=(-2, -2, 2, 2))
     >>> is_free(scene, Pose(1, 0)), is_free(scene, Pose("0.999", 0)), is_free(scene, Pose(3, 0))
@@ -207,10 +207,13 @@ class PoseChecker(Value):
     [False, True]
     """
 
+    _arcs: ArcScene | None = None
+
     def __init__(self, scene: Scene, features: SceneFeatures | None = None) -> None:
         self.scene = scene
-        self._arcs = arcs_of(scene) if scene.curved else None
-        if self._arcs is None:
+        if scene.curved:
+            self._arcs = arcs_of(scene)
+        else:
             self._handle, self.limits = kept(scene, _prepared) if features is None else _prepared_with(scene, features)
 
     @property
