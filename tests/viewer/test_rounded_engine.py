@@ -72,7 +72,9 @@ UNEQUAL = Curved(  # a rectangle with corners of different radii
 NOTCHED = Curved([(5, 0), Arc((-5, 0), center=(0, 0)), (-1, 0), (3, 3), (1, 0)])  # whose chords are cut
 PLATE = Curved([(-3, -3), (4, -3), (4, 3), (-3, 3)], [Curved.circle(("0.5", 0), 2).path])
 BAY = Curved([(2, -2), (5, -2), (5, 2), (2, 2), (2, 1), Arc((2, -1), center=(2, 0), clockwise=True)])
-BRACKET = Curved([(-4, -3), (3, -3), (3, -2), (-2, -2), Arc((-3, -1), center=(-2, -1), clockwise=True), (-3, 3), (-4, 3)])
+BRACKET = Curved(
+    [(-4, -3), (3, -3), (3, -2), (-2, -2), Arc((-3, -1), center=(-2, -1), clockwise=True), (-3, 3), (-4, 3)]
+)
 HALL = Curved([(-6, -4), (4, -4), Arc((6, -2), center=(4, -2)), (6, 4), (-6, 4)], [Curved.circle((2, 1), 1).path])
 SLOT = [[(1, "0.3"), (6, "0.3"), (6, "2.5"), (1, "2.5")], [(1, "-2.5"), (6, "-2.5"), (6, "-0.3"), (1, "-0.3")]]
 SCENES = {
