@@ -363,7 +363,7 @@ void show_surface(const SceneFeatures& features, const CellComplex& cells, doubl
 void show_slice(const World& world, double theta, Reply& reply) {
     world.need_boundary();
     const auto [chart, tau] = chart_of(theta);
-    const auto rings = world.slicer->rings(chart, tau);
+    const auto rings = world.slicer->rings(std::array{chart}, std::array{tau});
     reply.add("xy", rings.xy), reply.add("start", rings.start), reply.add("shell", rings.shell), reply.add("bend", rings.bend);
     const auto segments = world.slicer->segments(chart, tau);
     std::vector<std::uint8_t> kind;

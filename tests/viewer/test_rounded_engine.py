@@ -204,11 +204,20 @@ def test_slices_have_the_radii_of_their_arcs() -> None:
     assert set(kind[bend > 0]) == {2} and set(kind[bend == 0]) == {0}
     assert set(bend) == {0.0, 0.5, 1.5}
     rings, start = values(cut, "bend"), values(cut, "start")
-    assert set(rings) == {-1.0, 0.0, 0.5, 1.5}  # -1: a point of a chord
+    assert set(rings) == {-1e300, 0.0, 0.5, 1.5}  # the first: a point of a chord
     for first, last in pairwise(start.tolist()):
         points = values(cut, "xy").reshape(-1, 2)[first:last]
         if 1.5 in rings[first:last]:
             assert np.allclose(np.hypot(points[:, 0] - 2, points[:, 1]), 1.5)
+
+
+def test_a_slice_in_a_round_hole_has_its_radius_below_0() -> None:
+    plate = Curved([(-3, -3), (3, -3), (3, 3), (-3, 3)], [Curved.circle((0, 0), "3/2").path])
+    [cut] = opened(Scene(disc(0, 0, "1/2"), [plate]), ["all slice", 0.3])
+    for name in ("bend", "segments.bend"):
+        assert set(values(cut, name)) - {-1e300} == {-1.0, 0.0, 0.5}
+    xy, bend = values(cut, "xy").reshape(-1, 2), values(cut, "bend")
+    assert np.allclose(np.hypot(*xy[bend == -1].T), 1)
 
 
 NAMED = ("kind", "robot_vertex", "obstacle", "obstacle_vertex")

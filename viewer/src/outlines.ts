@@ -24,7 +24,9 @@ export function outline(
   return d;
 }
 
-// The rings of a slice without the points of chords, whose bend is -1.
+const IN_ARC = -1e300; // in place of a radius: a point of a chord
+
+// The rings of a slice without the points of chords.
 export function corners_of(
   xy: ArrayLike<number>,
   start: ArrayLike<number>,
@@ -33,7 +35,7 @@ export function corners_of(
   const kept: { xy: number[]; ring: number[]; bend: number[] } = { xy: [], ring: [0], bend: [] };
   for (let r = 0; r + 1 < start.length; ++r) {
     for (let k = start[r]!; k < start[r + 1]!; ++k) {
-      if (bend[k] === -1) continue;
+      if (bend[k] === IN_ARC) continue;
       kept.xy.push(xy[2 * k]!, xy[2 * k + 1]!);
       kept.bend.push(bend[k] ?? 0);
     }

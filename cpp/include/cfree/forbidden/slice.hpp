@@ -36,7 +36,7 @@ public:
         std::vector<Index> first{0};  // first ring of each orientation, and the end
         // Radius of the arc from each point to the next that is no point of a chord; 0: a segment, `in_arc`: a point of a chord.
         std::vector<double> bend;
-        static constexpr double in_arc = -1;
+        static constexpr double in_arc = -1e300;  // no radius
     };
     Rings rings(std::span<const int> chart, std::span<const double> tau) const;
 
