@@ -99,9 +99,8 @@ class MotionChecker(Value):
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
-        if scene.curved:
-            self._arcs = arcs_of(scene)
-        else:
+        self._arcs = arcs_of(scene) if scene.curved else None
+        if self._arcs is None:
             self._handle = kept(scene, _prepared)
 
     @property

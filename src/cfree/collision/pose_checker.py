@@ -211,9 +211,8 @@ class PoseChecker(Value):
 
     def __init__(self, scene: Scene, features: SceneFeatures | None = None) -> None:
         self.scene = scene
-        if scene.curved:
-            self._arcs = arcs_of(scene)
-        else:
+        self._arcs = arcs_of(scene) if scene.curved else None
+        if self._arcs is None:
             self._handle, self.limits = kept(scene, _prepared) if features is None else _prepared_with(scene, features)
 
     @property
