@@ -427,7 +427,7 @@ def test_hostile_files_are_refused_or_read_with_counted_work(body: str, message:
             read(tmp_path, body)
     else:
         read(tmp_path, body)
-    assert time.process_time() - begin < 20
+    assert time.process_time() - begin < 60
 
 
 def test_shapes_painted_upon_others_are_solids_and_this_is_said(tmp_path: Path) -> None:
