@@ -15,6 +15,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from cfree.curves.drawn import Line
+from cfree.curves.pieces import start_of
 from cfree.curves.rings import Arc, Bezier, Cubic, GivenRing, Piece, Segment, Span
 from cfree.curves.tangent_chains import Chain, Tangent, tangent_chain
 from cfree.exact.number import ExactPoint, simplest_between
@@ -199,7 +200,7 @@ def _chained(
     spans = [arc for arc in arcs if isinstance(arc, Span)]
     longest = max(Fraction(math.hypot(*_float(arc.u))) for arc in spans)
     by = Fraction(tolerance) / longest / CHOICE_SHARE
-    joints, normals = [*map(_start, spans), spans[-1].end], list[ExactPoint | None]()
+    joints, normals = [*map(start_of, spans), spans[-1].end], list[ExactPoint | None]()
     for k, joint in enumerate(joints):
         line = before if k == 0 else after if k == len(spans) else None
         if line:
@@ -215,7 +216,7 @@ def _chained(
     if is_closed:
         normals[-1] = normals[0]
     if _is_tangent(spans, before if normals[0] else None, after if normals[-1] else None, is_closed=is_closed):
-        return [_start(spans[0]), *(arc.end for arc in spans)], [arc.center for arc in spans]
+        return [start_of(spans[0]), *(arc.end for arc in spans)], [arc.center for arc in spans]
     place = tangent_chain(Chain((*joints,), (*normals,)), Fraction(tolerance) / CHOICE_SHARE)
     if place and all(dot(arc.u, minus(p, c)) > 0 for arc, p, c in zip(spans, *place, strict=False)):
         return place
@@ -231,7 +232,7 @@ def _is_tangent(
 ) -> bool:
     """True if a chain of arcs is exactly tangent, also to lines before and after it."""
     follow = [*pairwise(arcs), *([(arcs[-1], arcs[0])] if is_closed else [])]
-    touching = [(_start(arcs[0]), arcs[0], before), (arcs[-1].end, arcs[-1], after)]
+    touching = [(start_of(arcs[0]), arcs[0], before), (arcs[-1].end, arcs[-1], after)]
     return all(not cross(minus(one.end, one.center), minus(one.end, other.center)) for one, other in follow) and all(
         not (line and (cross(minus(p, line[0]), line[1]) or dot(minus(p, arc.center), line[1])))
         for p, arc, line in touching
@@ -340,14 +341,14 @@ def _tangent_arc(
 ) -> tuple[ExactPoint, ExactPoint, ExactPoint] | None:
     """Return start, end and center of an arc that is tangent to two lines with rational unit directions."""
     (a, d), (b, e) = before, after
-    touching = ((_start(arc), a, d), (arc.end, b, e))
+    touching = ((start_of(arc), a, d), (arc.end, b, e))
     if not any(cross(minus(p, q), v) or dot(minus(p, arc.center), v) for p, q, v in touching):
-        return _start(arc), arc.end, arc.center
+        return start_of(arc), arc.end, arc.center
     turn = 1 if cross(arc.u, arc.v) > 0 else -1
     inward = (-turn * d[1], turn * d[0])
     sine, cosine = turn * cross(d, e), dot(d, e)
     if sine == 0:
-        start = along(a, dot(minus(_start(arc), a), d), d)
+        start = along(a, dot(minus(start_of(arc), a), d), d)
         radius = dot(minus(b, a), inward) / 2
         if cosine > 0 or radius <= 0:
             return None
@@ -367,7 +368,7 @@ def _radius(arc: Span, corner: ExactPoint, ratio: Fraction) -> Fraction:
     The ends of a tangent arc are a radius divided by `ratio` away from the corner of its lines.
     """
     radii = [Fraction(math.sqrt(dot(arc.u, arc.u)))]
-    radii += [Fraction(_distance(p, corner)) * ratio for p in (_start(arc), arc.end)]
+    radii += [Fraction(_distance(p, corner)) * ratio for p in (start_of(arc), arc.end)]
     spread = min(2 * (max(radii) - min(radii)) + radii[0] * ROUNDING, radii[0] * Fraction(WIDEST_CORNER))
     return simplest_between(min(radii) - spread, max(radii) + spread)
 
@@ -399,10 +400,6 @@ def unit_near(x: Fraction, y: Fraction, by: Fraction) -> ExactPoint:
 def _meeting(one: tuple[ExactPoint, ExactPoint], other: tuple[ExactPoint, ExactPoint]) -> ExactPoint:
     (a, d), (b, e) = one, other
     return along(a, cross(minus(b, a), e) / cross(d, e), d)
-
-
-def _start(arc: Span) -> ExactPoint:
-    return arc.center[0] + arc.u[0], arc.center[1] + arc.u[1]
 
 
 def _end(piece: Piece) -> ExactPoint:

@@ -72,8 +72,8 @@ class Crossing:
     is_free_before: bool
 
 
-class TileLines:
-    """Lines through the trapezoids of one tile.
+class TileSurfaces:
+    """Parts of closed surfaces in one tile.
 
     Parameters
     ----------
@@ -90,6 +90,15 @@ class TileLines:
         self._order = np.lexsort((rows.from_hi - rows.to_lo, surface))
         self._sorted = surface[self._order]
 
+    def _row(self, surface: int, attempt: int) -> int:
+        """Return a trapezoid of a surface that is in the tile; other attempts give others, and then the same again."""
+        first, end = np.searchsorted(self._sorted, [surface, surface + 1]).tolist()
+        return int(self._order[first + attempt % (end - first)])
+
+
+class TileLines(TileSurfaces):
+    """Lines through the trapezoids of one tile; see `TileSurfaces`."""
+
     def begin(self, surface: int, attempt: int) -> tuple[Line | None, list[Crossing] | None]:
         """Line from a surface that is in the tile, and its crossings here; other attempts give other lines."""
         for k in range(TRIES * attempt, TRIES * (attempt + 1)):
@@ -100,8 +109,7 @@ class TileLines:
         return None, None
 
     def _line(self, surface: int, attempt: int) -> Line | None:
-        first, end = np.searchsorted(self._sorted, [surface, surface + 1]).tolist()
-        row = int(self._order[first + attempt % (end - first)])
+        row = self._row(surface, attempt)
         pose = self._location.pose_on(row, attempt)
         return None if pose is None else Line(*pose, row)
 

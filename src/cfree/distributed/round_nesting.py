@@ -14,8 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-import cfree._core as _core
-from cfree.distributed.nesting import NONE, Nesting
+from cfree.distributed.nesting import NONE, Nesting, TileSurfaces
 from cfree.errors import InvariantError
 
 Ints = NDArray[np.int64]
@@ -57,30 +56,14 @@ class RoundAnswer:
     odd: frozenset[int] | None = None
 
 
-class RoundTileLines:
-    """Lines through the trapezoids of one tile.
-
-    Parameters
-    ----------
-    boundary : _core.Boundary
-        Boundary of the tile's own trapezoids.
-    surface : (n,) int64
-        Surface of each of them.
-    """
-
-    def __init__(self, boundary: _core.Boundary, surface: Ints) -> None:
-        self._location, self._surface = _core.PointLocation(boundary), surface
-        rows = boundary.trapezoids
-        # by surface, the widest first
-        self._order = np.lexsort((rows.from_hi - rows.to_lo, surface))
-        self._sorted = surface[self._order]
+class RoundTileLines(TileSurfaces):
+    """Lines through the trapezoids of one tile; see `TileSurfaces`."""
 
     def answered(self, asked: RoundQuestion) -> RoundAnswer:
         """Answer a query."""
         if asked.beside is not None:
             return RoundAnswer(asked.surface, asked.beside, self._odd(asked.beside))
-        first, end = np.searchsorted(self._sorted, [asked.surface, asked.surface + 1]).tolist()
-        row = int(self._order[first + asked.attempt // 2 % (end - first)])
+        row = self._row(asked.surface, asked.attempt // 2)
         found = self._location.beside(row, asked.attempt, CLOSER * (asked.attempt % 2))
         if found is None:
             return RoundAnswer(asked.surface)
