@@ -162,8 +162,9 @@ static Surface random_surface(const Scene& s) {
 // Signs in doubles at an angle, and everywhere between two, are those of the exact polynomials.
 static void certain_signs_in_doubles_are_exact() {
     int certain = 0, everywhere = 0, joints = 0, turns = 0;
+    constexpr unsigned bits[] = {0, 60, 130};  // coordinates are doubles, sums of two, or rounded
     for (int k = 0; k < 3000; ++k) {
-        const SceneFeatures made = random_scene();
+        const SceneFeatures made = random_scene(false, bits[k % 3]);
         const Scene& s = *made.scene;
         const Surface on = random_surface(s);
         const RoundOrders orders(s, on);
@@ -186,7 +187,9 @@ static void certain_signs_in_doubles_are_exact() {
         }
         const Feature circle = neighbour(s, p);
         if (is_line(p) && is_smooth(s, p, circle) && !is_smooth(s, on.contact, circle)) {
-            const int quick = orders.joint_sign(p, circle, lo);
+            const auto turned = orders.turned_to(lo);
+            const auto along = [&](const Feature& f) { return is_line(f) ? orders.along(f, turned) : RoundOrders::Vector{}; };
+            const int quick = orders.joint_sign(p, along(p), circle, orders.to_centre(circle, turned), along(on.contact));
             if (quick != 0) CHECK(quick == sign_at(orders.exactly(p, circle).p, Dyadic::from(lo)));
             joints += quick != 0;
         }
@@ -197,7 +200,7 @@ static void certain_signs_in_doubles_are_exact() {
             const Place line = placed(s, p, 2 * std::atan(Real(lo)) + on.chart * std::acos(Real(-1)));
             const Point normal{line.along.y, -line.along.x}, axis{Real(quadrant == 0) - (quadrant == 2), Real(quadrant == 1) - (quadrant == 3)};
             const Real value = cross(axis, normal);
-            if (!(std::abs(value) > 1e-12L)) continue;
+            if (!(std::abs(value) > 1e-12L * std::sqrt(dot(normal, normal)))) continue;
             CHECK(found == (value > 0 ? 1 : -1));
             ++turns;
         }

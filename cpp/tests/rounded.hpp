@@ -11,9 +11,17 @@
 using namespace cfree;
 using Real = long double;
 
-inline Polygon polygon(const std::vector<std::pair<long, long>>& points) {
+inline std::mt19937 random_numbers(45);
+inline long random_between(long lo, long hi) { return std::uniform_int_distribution<long>(lo, hi)(random_numbers); }
+
+// Of whole coordinates, or of such with many bits after the point.
+inline Polygon polygon(const std::vector<std::pair<long, long>>& points, unsigned bits = 0) {
+    const auto coordinate = [&](long whole) {
+        const Int one = Int(1) << bits;
+        return Ratio{bits == 0 ? Int(whole) : whole * one + random_between(1, 1000), one};
+    };
     RatioRing ring;
-    for (const auto& [x, y] : points) ring.push_back({Ratio{x, 1}, Ratio{y, 1}});
+    for (const auto& [x, y] : points) ring.push_back({coordinate(x), coordinate(y)});
     return points.size() < 3 ? Polygon::thin(ring) : Polygon(std::vector<RatioRing>{ring});
 }
 inline std::shared_ptr<const Polygon> shared(Polygon p) { return std::make_shared<Polygon>(std::move(p)); }
@@ -72,18 +80,15 @@ inline Real value(const Scene& s, const Feature& x, const Feature& f, Real theta
     return std::abs(cosine) > 1 ? none : from_start(std::atan2(d.y, d.x) + f.branch * std::acos(cosine));
 }
 
-inline std::mt19937 random_numbers(45);
-inline long random_between(long lo, long hi) { return std::uniform_int_distribution<long>(lo, hi)(random_numbers); }
-
 // With different radii of the obstacles, or one.
-inline SceneFeatures random_scene(bool with_one_radius = false) {
-    const auto shape = [](long size) {
+inline SceneFeatures random_scene(bool with_one_radius = false, unsigned bits = 0) {
+    const auto shape = [bits](long size) {
         const long x = random_between(-size, size), y = random_between(-size, size);
         switch (random_between(0, 3)) {
-            case 0: return polygon({{x, y}});
-            case 1: return polygon({{x, y}, {x + random_between(1, size), y + random_between(-size, size)}});
-            case 2: return polygon({{x, y}, {x + 3, y}, {x + 3, y + 4}, {x, y + 4}});
-            default: return polygon({{x, y}, {x + random_between(1, size), y}, {x + random_between(-2, 2), y + random_between(1, size)}});
+            case 0: return polygon({{x, y}}, bits);
+            case 1: return polygon({{x, y}, {x + random_between(1, size), y + random_between(-size, size)}}, bits);
+            case 2: return polygon({{x, y}, {x + 3, y}, {x + 3, y + 4}, {x, y + 4}}, bits);
+            default: return polygon({{x, y}, {x + random_between(1, size), y}, {x + random_between(-2, 2), y + random_between(1, size)}}, bits);
         }
     };
     SceneShapes shapes;

@@ -128,7 +128,8 @@ void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::P
     cover_by(p, k, slices, part, [&](const Sample& at, Cover& out) {
         pillar.arcs.clear(), pillar.edges.clear();
         if (!shape(p, k, at, pillar)) return false;
-        out = is_line(surface.contact) ? on_line(pillar, at) : on_circle(pillar, at);
+        if (is_line(surface.contact)) on_line(pillar, at, out);
+        else on_circle(pillar, at, out);
         return true;
     });
 }
@@ -151,15 +152,17 @@ void RoundTrimmer::cover_fillet(const Shape::Fillet& fillet, bool of_robot, Inde
     circle.arcs.push_back(of_robot ? Arc{fillet.arc, vertex} : Arc{vertex, fillet.arc});
     circle.has_arcs = true;
     cover_by(-1, -1, slices, part, [&](const Sample& at, Cover& out) {
-        const auto cover_of = [&](const Pillar& pillar) {
-            return is_line(surface.contact) ? on_line(pillar, at) : on_any_circle(pillar, joint_signs(pillar, at), at);
+        const auto find_cover = [&](const Pillar& pillar, Cover& found) {
+            if (is_line(surface.contact)) on_line(pillar, at, found);
+            else on_any_circle(pillar, joint_signs(pillar, at), at, found);
         };
         const auto add = [&](const Pillar& pillar) {
-            Cover other = cover_of(pillar);
+            Cover other;
+            find_cover(pillar, other);
             out.watched.insert(out.watched.end(), other.watched.begin(), other.watched.end());
             return std::move(other.bands);
         };
-        out = cover_of(around);
+        find_cover(around, out);
         if (directions && !out.bands.empty()) {
             out.within = add(wedge);
             if (out.within->empty()) out.bands.clear();
@@ -217,6 +220,13 @@ void RoundTrimmer::take_part(const std::array<Feature, 2>& band, const Cover& co
     }
 }
 
+// True if something is left between two angles, as far as their doubles tell.
+bool RoundTrimmer::is_left_between(const Span& span) const {
+    const double lo = events[span.from].lo, hi = events[span.to].hi;
+    const auto is_there = [&](const Area& x) { return events[x.from].lo <= hi && events[x.to].hi >= lo; };
+    return std::any_of(live.begin(), live.end(), is_there) || std::any_of(thin.begin(), thin.end(), is_there);
+}
+
 template <class Find>
 void RoundTrimmer::cover_by(Index p, Index k, const Slices& slices, const Slices::Part& part, const Find& find) {
     static const State crossing{Meets::crosses, {}, {}, {}, 0, 0, {}, {}};
@@ -232,16 +242,18 @@ void RoundTrimmer::cover_by(Index p, Index k, const Slices& slices, const Slices
     while (first <= last && slices.at[last] > hi) --last;
     if (first > last) return;
     todo.assign(1, {limit(first), limit(last + 1)});
+    Cover found;
     while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();
+        if (!is_left_between(whole)) continue;
         Span span = whole;
-        Cover found;
         for (int attempt = 0;; ++attempt) {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no sample decides a pillar's state");
             const Sample at = decide.between(events[whole.from], events[whole.to], attempt);
             span = whole;
             is_critical = false;
+            found.clear();
             if (!find(at, found)) continue;
             if (!is_critical && narrow(found, at, span)) break;
         }
@@ -345,15 +357,6 @@ std::optional<int> RoundTrimmer::known_sign(const Feature& line, const Feature& 
     return !has_extent(circle) && line_of_joint(scene, x, circle) ? std::optional(side) : std::nullopt;  // a point of the arc
 }
 
-// Sign of a joint: 1 left of the line or outside the circle; of others that are on it at every angle 0.
-int RoundTrimmer::joint_sign(const Pillar& pillar, int k, const Sample& at) {
-    const Joint j = joint(pillar, k);
-    const Feature line = pillar.edge(j.edge).line, circle = circle_of(pillar, j);
-    if (const auto sign = known_sign(line, circle)) return *sign;
-    const int sign = at.fine ? 0 : orders.joint_sign(line, circle, at.tau);
-    return sign != 0 ? ++decide.counters.filter, sign : sign_of(line, circle, at);
-}
-
 bool RoundTrimmer::is_stub(const Feature& line) const {
     return line.kind == Kind::vertex_edge ? scene.obstacles.is_stub(line.obstacle) : scene.robot.is_stub(line.robot);
 }
@@ -419,9 +422,25 @@ int RoundTrimmer::cross_with_line(const Feature& line, const Sample& at) {
     return on_edge ? sign : -sign;
 }
 
+// Signs of all joints: 1 left of the line or outside the circle; of others that are on it at every angle 0.
 const std::vector<int>& RoundTrimmer::joint_signs(const Pillar& pillar, const Sample& at) {
+    const int count = pillar.count();
     signs.clear();
-    for (int k = 0; k < 2 * pillar.count(); ++k) signs.push_back(joint_sign(pillar, k, at));
+    const auto here = orders.turned_to(at.tau);
+    const RoundOrders::Vector on = is_line(surface.contact) ? orders.along(surface.contact, here) : RoundOrders::Vector{};
+    Feature circle;
+    RoundOrders::Vector to_circle{}, along{};
+    for (int k = 0; k < 2 * count; ++k) {
+        const Joint j = joint(pillar, k);
+        const Feature& line = pillar.edge(j.edge).line;
+        if (const Feature next = circle_of(pillar, j); k == 0 || next != circle) circle = next, to_circle = orders.to_centre(circle, here);
+        if (k % 2 == 0) along = orders.along(line, here);
+        const auto known = known_sign(line, circle);
+        int sign = known ? *known : at.fine ? 0 : orders.joint_sign(line, along, circle, to_circle, on);
+        if (!known && sign != 0) ++decide.counters.filter;
+        if (!known && sign == 0) sign = sign_of(line, circle, at);
+        signs.push_back(sign);
+    }
     return signs;
 }
 
@@ -448,14 +467,12 @@ std::optional<std::array<Feature, 2>> RoundTrimmer::crossed_once(const Pillar& p
 
 // Counter-clockwise around the pillar, the line enters where joints on its left are followed by one on its right, and leaves
 // where they come back. If no joint is on one side, an arc may still be.
-RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at) {
-    Cover out;
-    out.watched.reserve(16);
+void RoundTrimmer::on_line(const Pillar& pillar, const Sample& at, Cover& out) {
     const Feature& x = surface.contact;
     const std::vector<int>& sign = joint_signs(pillar, at);
     if (const auto curves_of_band = crossed_once(pillar, sign, 1, out)) {
         out.bands.push_back(*curves_of_band);
-        return out;
+        return;
     }
     // the arc farthest on the side where no joint is
     const int side = std::count(sign.begin(), sign.end(), 1) > 0 ? -1 : 1, count = pillar.count();
@@ -468,7 +485,7 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
     const Feature circle = pillar.circle(far);
     if (is_smooth(scene, x, circle)) {  // it touches the line at its end
         watch_arc(pillar, far, out);
-        return out;
+        return;
     }
     const auto reaches = [&](int to) {  // true if some of it is strictly on this side of the line
         const Feature tangent = with_branch(circle, to);
@@ -481,10 +498,9 @@ RoundTrimmer::Cover RoundTrimmer::on_line(const Pillar& pillar, const Sample& at
         for (const int k : {2 * far - 1, 2 * far}) watch_joint(pillar, k, -side, out);
     if (!reaches(side) || (count == 0 && !reaches(-side))) {
         if (count > 0) watch_direction(pillar.edge(far - 1).line, side, out), watch_direction(pillar.edge(far).line, -side, out);
-        return out;
+        return;
     }
     out.bands.push_back({with_branch(circle, -1), with_branch(circle, 1)});
-    return out;
 }
 
 // Place of the circle's centre along an edge, from the centre of an arc; see Event.
@@ -507,23 +523,21 @@ void RoundTrimmer::watch_cone(const Pillar& pillar, int k, Cover& out) const {
 
 // Counter-clockwise around the pillar, its rim goes into the circle where this leaves the pillar, and comes out where it enters.
 // No joint may be inside though the rim cuts the circle in one feature; else the centre's nearest feature decides.
-RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& at) {
-    Cover out;
-    out.watched.reserve(16);
+void RoundTrimmer::on_circle(const Pillar& pillar, const Sample& at, Cover& out) {
     const Feature& x = surface.contact;
     const int count = pillar.count();
-    if (pillar.has_arcs || is_concave) return on_any_circle(pillar, joint_signs(pillar, at), at);
+    if (pillar.has_arcs || is_concave) return on_any_circle(pillar, joint_signs(pillar, at), at, out);
     for (int k = 0; k < count; ++k)  // the circle is one of its own: all but that arc is inside
         if (code(scene, with_branch(pillar.circle(k), x.branch)) == code(scene, x)) {
             watch_arc(pillar, k, out);
-            clip({{with_branch(pillar.edge(k).line, 0), true}, {with_branch(pillar.edge(k - 1).line, 0), false}}, at, out);
-            return out;
+            clip_between(with_branch(pillar.edge(k).line, 0), with_branch(pillar.edge(k - 1).line, 0), at, out);
+            return;
         }
     const std::vector<int>& sign = joint_signs(pillar, at);
-    if (orders.compare_radius(pillar.circle(0)) != 0) return on_any_circle(pillar, sign, at);
+    if (orders.compare_radius(pillar.circle(0)) != 0) return on_any_circle(pillar, sign, at, out);
     if (const auto curves_of_band = crossed_once(pillar, sign, -1, out)) {
-        clip({{(*curves_of_band)[0], true}, {(*curves_of_band)[1], false}}, at, out);
-        return out;
+        clip_between((*curves_of_band)[0], (*curves_of_band)[1], at, out);
+        return;
     }
     // nearest feature to the centre: an edge beyond which it is, between its ends; an arc in whose cone it is; or none, inside
     for (int k = 0; k < count; ++k) {
@@ -534,11 +548,11 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         const int touches = sign_of(with_branch(edge.line, 1), {}, at);
         watch_edge(edge, out);
         out.watched.push_back({with_branch(edge.line, 1), {}, touches > 0 ? 1 : -1, touches <= 0});
-        if (touches <= 0) return out;
+        if (touches <= 0) return;
         out.watched.push_back({with_branch(edge.line, -1), {}, -1, true});
         for (const int j : {2 * k, 2 * k + 1}) watch_joint(pillar, j, 1, out);
-        clip({{with_branch(edge.line, -1), true}, {with_branch(edge.line, 1), false}}, at, out);
-        return out;
+        clip_between(with_branch(edge.line, -1), with_branch(edge.line, 1), at, out);
+        return;
     }
     for (int k = 0; k < std::max(count, 1); ++k) {
         if (count > 0 && (foot_sign(pillar, k - 1, k, at) < 0 || foot_sign(pillar, k, k, at) > 0)) continue;
@@ -548,12 +562,12 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         out.watched.push_back({with_branch(circle, 1), {}, apart >= 0 ? 1 : -1, apart >= 0});
         if (apart >= 0) {
             watch_cone(pillar, k, out);
-            return out;
+            return;
         }
         if (count > 0)
             for (const int j : {2 * k - 1, 2 * k}) watch_joint(pillar, j, 1, out);
-        clip({{with_branch(circle, -1), true}, {with_branch(circle, 1), false}}, at, out);
-        return out;
+        clip_between(with_branch(circle, -1), with_branch(circle, 1), at, out);
+        return;
     }
     // the centre is inside the ungrown pillar
     for (const Edge& edge : pillar.edges) {
@@ -561,15 +575,12 @@ RoundTrimmer::Cover RoundTrimmer::on_circle(const Pillar& pillar, const Sample& 
         out.watched.push_back({with_branch(edge.line, -1), {}, 1, true});
     }
     out.bands.push_back(quadrant());
-    return out;
 }
 
 // A circle of another radius than the pillar's rounding may cross each of its features twice. All are watched. A joint that is
 // on the circle at every angle counts as outside: the rim crosses there in either of its features. But if the two touch there,
 // both on the pillar's side of a line, the joint counts as inside: it is, for a pillar a little smaller.
-RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at) {
-    Cover out;
-    out.watched.reserve(16);
+void RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at, Cover& out) {
     std::vector<Crossing> crossings;
     const int count = pillar.count(), n = 2 * count;
     const auto watch = [&](const Feature& first, const Feature& second, int wanted) {  // true if it has this sign
@@ -617,7 +628,7 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     }
     if (!crossings.empty()) {
         clip(crossings, at, out);
-        return out;
+        return;
     }
     // all of the circle is inside, or outside: beyond an edge or an arc, or around the pillar
     bool is_apart = false;
@@ -632,11 +643,10 @@ RoundTrimmer::Cover RoundTrimmer::on_any_circle(const Pillar& pillar, const std:
     const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
                            (count == 0 && orders.compare_radius(pillar.circle(0)) > 0);
     if (!is_apart && !is_around) out.bands.push_back(quadrant()), turn_bands(out);
-    return out;
 }
 
 // The covered parts of the quadrant, from crossings in any order: between one where the circle enters and the next one.
-void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out) {
+void RoundTrimmer::clip(std::span<const Crossing> crossings, const Sample& at, Cover& out) {
     const Feature& x = surface.contact;
     const auto seams = quadrant();
     struct Placed {
@@ -662,6 +672,7 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
     if (is_critical) return;
     const auto order = [&](const Placed& p, const Placed& q) {
         if (p.quadrant != q.quadrant) return p.quadrant - q.quadrant;
+        if (p.quadrant == 0) return (is_concave ? -1 : 1) * orders.order_at(p.crossing.curve, q.crossing.curve, at);
         Surface there = surface;
         there.contact.branch = static_cast<std::int8_t>((x.branch + p.quadrant) & 3);
         return (is_concave ? -1 : 1) * RoundOrders(scene, there).order_at(p.crossing.curve, q.crossing.curve, at);
@@ -686,6 +697,12 @@ void RoundTrimmer::clip(const std::vector<Crossing>& crossings, const Sample& at
     }
     if (is_covered) out.bands.push_back({from, seams[1]});
     turn_bands(out);
+}
+
+// The same for one part.
+void RoundTrimmer::clip_between(const Feature& enters, const Feature& leaves, const Sample& at, Cover& out) {
+    const Crossing both[] = {{enters, true}, {leaves, false}};
+    clip(both, at, out);
 }
 
 // Bands in the order of t, which is clockwise on the circle of a concave arc.

@@ -4,6 +4,8 @@
 // A pillar's state is how the line, or the circle, enters and leaves it. It changes only where a joint of the features passes
 // by which it does, where one of them appears or vanishes, or where they are touched; theory, "Rounded shapes".
 #pragma once
+#include <span>
+
 #include "cfree/forbidden/trim.hpp"
 #include "predicates/round_orders.hpp"
 
@@ -65,9 +67,11 @@ private:
         std::vector<Watch> watched;
         std::vector<std::array<Feature, 2>> left_out = {};  // parts that the bands do not cover, in order
         std::optional<std::vector<std::array<Feature, 2>>> within = {};  // parts outside of which they cover nothing
+        void clear() { bands.clear(), watched.clear(), left_out.clear(), within.reset(); }
     };
     template <class Find>
     void cover_by(Index p, Index k, const Slices& slices, const Slices::Part& part, const Find& find);
+    bool is_left_between(const Span& span) const;
     void take_part(const std::array<Feature, 2>& band, const Cover& cover, const Span& span);
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
     bool has_extent(const Feature& circle) const;  // its radius is not 0
@@ -75,7 +79,6 @@ private:
     Feature circle_of(const Pillar& pillar, const Joint& joint) const;
     std::optional<int> known_sign(const Feature& line, const Feature& circle) const;
     Joint joint(const Pillar& pillar, int k) const;
-    int joint_sign(const Pillar& pillar, int k, const Sample& at);
     void watch_joint(const Pillar& pillar, int k, int sign, Cover& out) const;
     void watch_edge(const Edge& edge, Cover& out) const;
     void watch_arc(const Pillar& pillar, int k, Cover& out) const;
@@ -83,13 +86,15 @@ private:
     Feature feature_after(const Pillar& pillar, int joint, int branch) const;
     const std::vector<int>& joint_signs(const Pillar& pillar, const Sample& at);
     std::optional<std::array<Feature, 2>> crossed_once(const Pillar& pillar, const std::vector<int>& sign, int before, Cover& out) const;
-    Cover on_line(const Pillar& pillar, const Sample& at);
-    Cover on_circle(const Pillar& pillar, const Sample& at);
-    Cover on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at);
+    // To an empty cover.
+    void on_line(const Pillar& pillar, const Sample& at, Cover& out);
+    void on_circle(const Pillar& pillar, const Sample& at, Cover& out);
+    void on_any_circle(const Pillar& pillar, const std::vector<int>& sign, const Sample& at, Cover& out);
     std::array<Feature, 2> foot(const Pillar& pillar, int edge, int arc) const;
     int foot_sign(const Pillar& pillar, int edge, int arc, const Sample& at);
     void watch_cone(const Pillar& pillar, int k, Cover& out) const;
-    void clip(const std::vector<Crossing>& crossings, const Sample& at, Cover& out);
+    void clip(std::span<const Crossing> crossings, const Sample& at, Cover& out);
+    void clip_between(const Feature& enters, const Feature& leaves, const Sample& at, Cover& out);
     void turn_bands(Cover& out) const;
     bool narrow(Cover& cover, const Sample& at, Span& span);
     int cross_with_line(const Feature& line, const Sample& at);

@@ -11,6 +11,8 @@ namespace cfree {
 inline constexpr double margin = 0x1p-40;           // search for roots so far beyond the ends, in case one is there
 inline constexpr double narrow = 0x1p-20;           // roots closer than this are left to balls
 inline constexpr double narrow_in_balls = 0x1p-46;  // and closer than this to exact integers
+inline constexpr double closest = 0x1p-51;  // false position stops here: two units in the last place of 1
+inline constexpr double nearby = 0x1p-30;   // the slope at a root is taken over this distance
 
 enum class Found { none, one, unclear, hopeless };
 
@@ -46,6 +48,47 @@ std::array<double, 2> around(const Form& form, double t, double delta, double lo
         if ((x == lo || form.sign(x) == below) && (y == hi || form.sign(y) == above)) return {x, y};
     }
     return {lo, hi};
+}
+
+// Illinois method: false position that halves the value of an end that stays twice.
+template <class Form>
+double false_position(const Form& form, double a, double b, double fa, double fb) {
+    double t = a;
+    int stayed = 0;
+    for (int k = 0; k < 60 && b - a > closest; ++k) {
+        t = (a * fb - b * fa) / (fb - fa);
+        if (!(t > a && t < b)) t = 0.5 * (a + b);
+        const auto value = form.at(t);
+        if (std::abs(value.v) <= value.err) break;
+        if ((value.v > 0) == (fb > 0)) {
+            b = t, fb = value.v;
+            if (stayed == 1) fa *= 0.5;
+            stayed = 1;
+        } else {
+            a = t, fa = value.v;
+            if (stayed == 2) fb *= 0.5;
+            stayed = 2;
+        }
+    }
+    return t;
+}
+
+template <class Form>
+std::array<double, 2> refine(const Form& form, double lo, double hi) {
+    double t = lo, width;
+    if (form.degree == 2) {  // (a - b) tau^2 + 2 c tau + (a + b)
+        const double A = form.p.a - form.p.b, B = form.p.c, C = form.p.a + form.p.b;
+        const double s = std::sqrt(std::max(0.0, B * B - A * C)), q = B > 0 ? -(B + s) : s - B;
+        t = q / A;
+        if (!(t >= lo && t <= hi)) t = C / q;
+        if (!(t >= lo && t <= hi)) t = 0.5 * (lo + hi);
+        width = form.p.err / s;
+    } else {
+        t = false_position(form, lo, hi, form.at(lo).v, form.at(hi).v);
+        const double l = std::max(lo, t - nearby), r = std::min(hi, t + nearby);
+        width = 2 * form.at(t).err * (r - l) / std::abs(form.at(r).v - form.at(l).v);
+    }
+    return around(form, t, width + 2 * u, lo, hi);
 }
 
 // The same polynomial in balls.
@@ -149,6 +192,10 @@ bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brac
 }
 
 // Find brackets a little beyond the two ends, as a root may be one of them.
+template <class Form>
+bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {
+    return isolate_by_signs(form, lo - margin, hi + margin, narrow, found);
+}
 inline bool isolate_around(const Balls& form, double lo, double hi, Brackets& found) {
     return isolate_by_signs(form, lo - margin, hi + margin, narrow_in_balls, found);
 }

@@ -6,60 +6,6 @@
 
 namespace cfree {
 
-namespace {
-
-// These decide nothing either.
-constexpr double closest = 0x1p-51;  // false position stops here: two units in the last place of 1
-constexpr double nearby = 0x1p-30;   // the slope at a root is taken over this distance
-
-// Illinois method: false position that halves the value of an end that stays twice.
-template <class Form>
-double false_position(const Form& form, double a, double b, double fa, double fb) {
-    double t = a;
-    int stayed = 0;
-    for (int k = 0; k < 60 && b - a > closest; ++k) {
-        t = (a * fb - b * fa) / (fb - fa);
-        if (!(t > a && t < b)) t = 0.5 * (a + b);
-        const auto value = form.at(t);
-        if (std::abs(value.v) <= value.err) break;
-        if ((value.v > 0) == (fb > 0)) {
-            b = t, fb = value.v;
-            if (stayed == 1) fa *= 0.5;
-            stayed = 1;
-        } else {
-            a = t, fa = value.v;
-            if (stayed == 2) fb *= 0.5;
-            stayed = 2;
-        }
-    }
-    return t;
-}
-
-}  // namespace
-
-template <class Form>
-static std::array<double, 2> refine(const Form& form, double lo, double hi) {
-    double t = lo, width;
-    if (form.degree == 2) {  // (a - b) tau^2 + 2 c tau + (a + b)
-        const double A = form.p.a - form.p.b, B = form.p.c, C = form.p.a + form.p.b;
-        const double s = std::sqrt(std::max(0.0, B * B - A * C)), q = B > 0 ? -(B + s) : s - B;
-        t = q / A;
-        if (!(t >= lo && t <= hi)) t = C / q;
-        if (!(t >= lo && t <= hi)) t = 0.5 * (lo + hi);
-        width = form.p.err / s;
-    } else {
-        t = false_position(form, lo, hi, form.at(lo).v, form.at(hi).v);
-        const double l = std::max(lo, t - nearby), r = std::min(hi, t + nearby);
-        width = 2 * form.at(t).err * (r - l) / std::abs(form.at(r).v - form.at(l).v);
-    }
-    return around(form, t, width + 2 * u, lo, hi);
-}
-
-template <class Form>
-static bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {
-    return isolate_by_signs(form, lo - margin, hi + margin, narrow, found);
-}
-
 // Interval around a simple root near its double, with certain, opposite signs.
 std::optional<std::array<double, 2>> straddling(const Coefficients<Ball>& p, double t) {
     double delta = 2 * u * std::max(1.0, std::abs(t));
@@ -180,11 +126,8 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
                                     const Event& to) {
     Candidates all;
     Brackets found;
-    bool is_isolated = scene.is_round ? isolate_around(round_orders().form(first, second), from.lo, to.hi, found)
-                                      : isolate_around(f, from.lo, to.hi, found) || double_only;
-    constexpr double widest = 0x1p-36;  // places are computed from the middle: near ties, where doubles leave more, balls do
-    if (scene.is_round)
-        for (const auto& [below, above] : found) is_isolated &= above - below < widest;
+    const bool is_isolated = scene.is_round ? round_orders().isolate(first, second, from.lo, to.hi, found)
+                                            : isolate_around(f, from.lo, to.hi, found) || double_only;
     if (is_isolated) {
         ++counters.filter;
         for (const auto& [below, above] : found) all.at.push_back({first, second, below, above});

@@ -1,11 +1,12 @@
 // Orders of curves on lines and circles, in intervals, balls and exactly; theory, "Rounded shapes".
 #include "predicates/round_orders.hpp"
 
+#include <atomic>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include "cfree/exact/squaring.hpp"
-#include "predicates/isolation.hpp"
 #include "predicates/round_places.hpp"
 
 namespace cfree {
@@ -39,14 +40,21 @@ struct AsBallPoly {
     }
 };
 
-// Entry for a number in a table of 2^bits.
-template <class Kept>
-Kept& entry(std::vector<Kept>& table, int bits, std::uint64_t number) {
-    if (table.empty()) table.resize(std::size_t(1) << bits);
-    return table[number * 0x9e3779b97f4a7c15u >> (64 - bits)];
+// Place of a number in a table of 2^bits.
+std::size_t place_in_table(std::uint64_t number, int bits) { return number * 0x9e3779b97f4a7c15u >> (64 - bits); }
+
+// Entry for a number in the thread's table, which all orders share: there are too many of them to set up one for each.
+template <class Kept, int bits>
+Kept& shared_entry(std::uint64_t number) {
+    static thread_local const std::unique_ptr<Kept[]> table(new Kept[std::size_t(1) << bits]);
+    return table[place_in_table(number, bits)];
 }
 
+std::atomic<std::uint64_t> orders_made{0};
+
 }  // namespace
+
+RoundOrders::RoundOrders(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1), number(++orders_made) {}
 
 int RoundOrders::compare_radius(const Feature& circle) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
@@ -69,10 +77,10 @@ std::array<double, 2> RoundOrders::range(const Feature& f, double lo, double hi)
 
 RoundOrders::KeptPlace& RoundOrders::kept_place(const Feature& f, int axis) const {
     const Name curve = name(f);
-    KeptPlace& here = entry(places, 5, 2 * curve + static_cast<Name>(axis));
-    if (here.curve == curve && here.axis == axis) return here;
+    KeptPlace& here = shared_entry<KeptPlace, 7>(2 * curve + static_cast<Name>(axis) + 5 * number);
+    if (here.owner == number && here.curve == curve && here.axis == axis) return here;
     const PlaceParts<Trig<Approx>> parts = parts_of_place<Approx>(scene, surface.contact, f, axis);
-    here = {curve, axis, {parts.form, {}}, 1, 0, {}};
+    here.owner = number, here.curve = curve, here.axis = axis, here.parts.form = parts.form, here.lo = 1, here.hi = 0;
     for (std::size_t k = 0; k < parts.f.size(); ++k) here.parts.f[k] = filtered_round(parts.f[k], kappa);
     return here;
 }
@@ -135,11 +143,11 @@ RoundOrders::Direction RoundOrders::direction(const Feature& to, const Sample& a
     constexpr double unit[] = {1, 0, -1, 0};
     if (to.kind == Kind::seam) return {to, -unit[(to.branch + 3) & 3], unit[to.branch & 3], 1};
     if (to.kind == Kind::vertex_edge) {
-        const auto E = edge<Approx>(scene.obstacles, to.obstacle);
+        const auto E = close_edge<Approx>(scene.obstacles, to.obstacle);
         return {to, E.x.v, E.y.v, E.x.m + E.y.m};
     }
     const double cosine = kappa * (1 - at.tau * at.tau), sine = 2 * kappa * at.tau;  // times 1 + tau^2 <= 2
-    const auto E = edge<Approx>(scene.robot, to.robot);
+    const auto E = close_edge<Approx>(scene.robot, to.robot);
     return {to, sine * E.y.v - cosine * E.x.v, -sine * E.x.v - cosine * E.y.v, 4 * (E.x.m + E.y.m)};
 }
 
@@ -210,7 +218,7 @@ template <class K>
 std::optional<Trig<K>> RoundOrders::quadratic(const Feature& first, const Feature& second) const {
     const RoundSurfaces<K> of(scene);
     if (first.kind == Kind::edge_edge)
-        return Predicates::parallel_trig(edge<K>(scene.robot, first.robot), edge<K>(scene.obstacles, first.obstacle));
+        return Predicates::parallel_trig(close_edge<K>(scene.robot, first.robot), close_edge<K>(scene.obstacles, first.obstacle));
     if (second.kind == Kind::none) return of.tangency(surface.contact, first, first.branch);
     if (is_center(second)) {
         if (is_line(first)) return dot(of.along(first), of.between(surface.contact, second));
@@ -249,37 +257,37 @@ bool RoundOrders::are_proportional(const Event& x, const Event& y) const {
     return *answer.template operator()<RootSum>([](const RootSum& v) { return std::optional(v.sign()); });
 }
 
+RoundOrders::Turned RoundOrders::turned_to(double tau) const {
+    const double w = 1 + tau * tau;
+    return {kappa * (1 - tau * tau) / w, kappa * 2 * tau / w};
+}
+RoundOrders::Vector RoundOrders::turned(const Vec<Approx>& v, const Turned& at) const {
+    return {at.cosine * v.x.v - at.sine * v.y.v, at.sine * v.x.v + at.cosine * v.y.v, 2 * (v.x.m + v.y.m)};
+}
+RoundOrders::Vector RoundOrders::along(const Feature& line, const Turned& at) const {
+    if (line.kind == Kind::vertex_edge) {
+        const auto E = close_edge<Approx>(scene.obstacles, line.obstacle);
+        return {E.x.v, E.y.v, E.x.m + E.y.m};
+    }
+    const Vector E = turned(close_edge<Approx>(scene.robot, line.robot), at);
+    return {-E.x, -E.y, E.m};
+}
+RoundOrders::Vector RoundOrders::to_centre(const Feature& circle, const Turned& at) const {
+    const RoundSurfaces<Approx> of(scene);
+    const Site to = of.site(circle), from = of.site(surface.contact);
+    const auto fixed = close_difference<Approx>(scene.obstacles, to.obstacle, from.obstacle);
+    const Vector turning = turned(close_difference<Approx>(scene.robot, to.robot, from.robot), at);
+    return {fixed.x.v - turning.x, fixed.y.v - turning.y, fixed.x.m + fixed.y.m + turning.m};
+}
+
 // The joint is d + r nu from the surface's site: less than 30 roundings in a row, and magnitudes of vectors as sums of coordinates.
-int RoundOrders::joint_sign(const Feature& line, const Feature& circle, double tau) const {
+int RoundOrders::joint_sign(const Feature& line, const Vector& V, const Feature& circle, const Vector& d, const Vector& U) const {
     const Feature& x = surface.contact;
     const RoundSurfaces<Approx> of(scene);
-    if (tau != turned_last.tau) {
-        const double w = 1 + tau * tau;
-        turned_last = {tau, kappa * (1 - tau * tau) / w, kappa * 2 * tau / w};
-    }
-    const double cosine = turned_last.cosine, sine = turned_last.sine;
-    struct Vector {
-        double x, y, m;
-    };
-    const auto turned = [&](const Vec<Approx>& v) -> Vector {
-        return {cosine * v.x.v - sine * v.y.v, sine * v.x.v + cosine * v.y.v, 2 * (v.x.m + v.y.m)};
-    };
-    const auto along = [&](const Feature& f) -> Vector {
-        if (f.kind == Kind::vertex_edge) {
-            const auto E = edge<Approx>(scene.obstacles, f.obstacle);
-            return {E.x.v, E.y.v, E.x.m + E.y.m};
-        }
-        const Vector E = turned(edge<Approx>(scene.robot, f.robot));
-        return {-E.x, -E.y, E.m};
-    };
-    const Site to = of.site(circle), from = of.site(x);
-    const auto fixed = cfree::difference<Approx>(scene.obstacles, to.obstacle, from.obstacle);
-    const Vector turning = turned(cfree::difference<Approx>(scene.robot, to.robot, from.robot)), V = along(line);
     const double r = of.rho(circle).v / of.length(line).v, rho = of.rho(x).v;
-    const Vector joint{fixed.x.v - turning.x + r * V.y, fixed.y.v - turning.y - r * V.x, fixed.x.m + fixed.y.m + turning.m + std::abs(r) * V.m};
+    const Vector joint{d.x + r * V.y, d.y - r * V.x, d.m + std::abs(r) * V.m};
     double value, most;
     if (is_line(x)) {
-        const Vector U = along(x);
         const double offset = rho * of.length(x).v;
         value = U.x * joint.y - U.y * joint.x + offset, most = U.m * joint.m + std::abs(offset);
     } else {
@@ -289,34 +297,51 @@ int RoundOrders::joint_sign(const Feature& line, const Feature& circle, double t
     return value > err ? 1 : value < -err ? -1 : 0;
 }
 
-const Filtered* RoundOrders::kept_quadratic(const Feature& first, const Feature& second) const {
+RoundOrders::KeptQuadratic* RoundOrders::kept_quadratic(const Feature& first, const Feature& second) const {
     const Name first_name = name(first), second_name = name(second);
-    KeptQuadratic& here = entry(quadratics, 6, first_name + 7 * second_name);
-    if (here.first != first_name || here.second != second_name) {
+    KeptQuadratic& here = shared_entry<KeptQuadratic, 8>(first_name + 7 * second_name + 5 * number);
+    if (here.owner != number || here.first != first_name || here.second != second_name) {
         const auto f = quadratic<Approx>(first, second);
-        here = {first_name, second_name, f.has_value(), f ? filtered_round(*f, kappa) : Filtered{}};
+        here = {number, first_name, second_name, f.has_value(), f ? filtered_round(*f, kappa) : Filtered{}};
     }
-    return here.is_quadratic ? &here.p : nullptr;
+    return here.is_quadratic ? &here : nullptr;
 }
 
 int RoundOrders::sign(const Feature& first, const Feature& second, double tau) const {
-    const Filtered* p = kept_quadratic(first, second);
-    if (!p) return form(first, second).sign(tau);
-    const double value = p->polar(tau, tau);
-    return value > p->err ? 1 : value < -p->err ? -1 : 0;
+    const KeptQuadratic* kept = kept_quadratic(first, second);
+    if (!kept) return form(first, second).sign(tau);
+    const double value = kept->p.polar(tau, tau);
+    return value > kept->p.err ? 1 : value < -kept->p.err ? -1 : 0;
 }
 int RoundOrders::sign_on(const Feature& first, const Feature& second, double lo, double hi) const {
-    if (const Filtered* p = kept_quadratic(first, second)) return Predicates::sign_on(*p, lo, hi);
+    if (const KeptQuadratic* kept = kept_quadratic(first, second)) return Predicates::sign_on(kept->p, lo, hi);
     const RoundForm all = form(first, second);
     int sign[7];
     all.signs(lo, hi, sign);
     return common_sign(sign, all.degree);
 }
 
+// Places are computed from the middle of a bracket: near ties, where doubles leave wide ones, balls isolate.
+bool RoundOrders::isolate(const Feature& first, const Feature& second, double lo, double hi, Brackets& found) const {
+    const auto are_narrow = [](const Brackets& roots) {
+        return std::all_of(roots.begin(), roots.end(), [](const auto& root) { return root[1] - root[0] < 0x1p-36; });
+    };
+    KeptQuadratic* kept = kept_quadratic(first, second);
+    if (!kept) return isolate_around(form(first, second), lo, hi, found) && are_narrow(found);
+    if (!kept->is_isolated) {
+        kept->is_isolated = isolate_around(form(first, second), -1, 1, found) && are_narrow(found);
+        kept->roots = {};
+        for (int k = 0; *kept->is_isolated && k < found.size(); ++k) kept->roots.push_back(found[k]);
+    }
+    found = {};
+    for (const auto& root : kept->roots) found.push_back(root);
+    return *kept->is_isolated;
+}
+
 RoundForm RoundOrders::form(const Feature& first, const Feature& second) const {
     RoundForm result;
-    if (const Filtered* p = kept_quadratic(first, second)) {
-        result.p = *p;
+    if (const KeptQuadratic* kept = kept_quadratic(first, second)) {
+        result.p = kept->p;
         return result;
     }
     const Products<Approx> all = meeting(RoundSurfaces<Approx>(scene), surface.contact, first, second);
@@ -334,7 +359,9 @@ Coefficients<Ball> RoundOrders::in_balls(const Feature& first, const Feature& se
 
 RoundOrders::KeptExactly& RoundOrders::kept_exactly(const Feature& first, const Feature& second) const {
     const Name first_name = name(first), second_name = name(second);
-    KeptExactly& here = entry(exact, 6, first_name + 7 * second_name);
+    constexpr int bits = 6;
+    if (exact.empty()) exact.resize(std::size_t(1) << bits);
+    KeptExactly& here = exact[place_in_table(first_name + 7 * second_name, bits)];
     if (here.first != first_name || here.second != second_name)
         here = {first_name, second_name, quadratic<RootSum>(first, second), {}, 1, 0, {}};
     return here;

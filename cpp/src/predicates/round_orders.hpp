@@ -4,13 +4,14 @@
 // (a + b sqrt(d)) / c, with b = 0 for a joint, for the end of a quadrant and for a line on a line.
 #pragma once
 #include "cfree/exact/radicals.hpp"
+#include "predicates/isolation.hpp"
 #include "predicates/round_places.hpp"
 
 namespace cfree {
 
 class RoundOrders {
 public:
-    RoundOrders(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
+    RoundOrders(const Scene& scene, const Surface& on);
 
     // Sign of p - q if it is certainly the same everywhere between two angles, else 0; in doubles.
     int order_on(const Feature& p, const Feature& q, double lo, double hi) const;
@@ -53,13 +54,27 @@ public:
 
     // True if the polynomials of two events are quadratics, and equal up to a factor.
     bool are_proportional(const Event& x, const Event& y) const;
-    // Sign at a double of the event of a line and a circle at its end, 0 if not certain.
-    int joint_sign(const Feature& line, const Feature& circle, double tau) const;
+    // Rotation at a double, and vectors there with the sum of the magnitudes of their coordinates: of a line, and from the surface's
+    // site to the centre of a circle.
+    struct Turned {
+        double cosine, sine;
+    };
+    struct Vector {
+        double x, y, m;
+    };
+    Turned turned_to(double tau) const;
+    Vector along(const Feature& line, const Turned& at) const;
+    Vector to_centre(const Feature& circle, const Turned& at) const;
+    // Sign at a double of the event of a line and a circle at its end, 0 if not certain, from their vectors and the surface's, if that
+    // is a line.
+    int joint_sign(const Feature& line, const Vector& along, const Feature& circle, const Vector& to_centre, const Vector& surface_along) const;
     // Sign of an event's polynomial at a double, and on all of an interval, 0 if not certain.
     int sign(const Feature& first, const Feature& second, double tau) const;
     int sign_on(const Feature& first, const Feature& second, double lo, double hi) const;
     // Polynomial of an event's features, times a power of 1 + tau^2.
     RoundForm form(const Feature& first, const Feature& second) const;  // in doubles
+    // Brackets of its roots in doubles, at least of those between two angles; false if signs do not suffice.
+    bool isolate(const Feature& first, const Feature& second, double lo, double hi, Brackets& found) const;
     Coefficients<Ball> in_balls(const Feature& first, const Feature& second) const;
     const NormedPoly& exactly(const Feature& first, const Feature& second) const;  // until the next question
     // The only root of that between two doubles.
@@ -85,7 +100,8 @@ private:
         return place_of_curve<K>(scene, surface.contact, curve, axis, in);
     }
 
-    // What is asked for again and again, in tables by the names of features that are empty at first.
+    // What is asked for again and again, in tables by the names of features; doubles in one of the thread, with the number of these
+    // orders.
     using Name = std::uint64_t;  // a feature with its branch
     static Name name(const Feature& f) {
         return static_cast<Name>(f.kind) << 61 | static_cast<Name>(f.branch & 3) << 59 | static_cast<Name>(f.robot) << 31 |
@@ -94,6 +110,7 @@ private:
     // Functions of which a curve's place is made, the same between any angles, and its range between the two that have been asked for
     // last: nothing if a denominator may be zero.
     struct KeptPlace {
+        std::uint64_t owner = 0;
         Name curve = 0;
         int axis = -1;
         PlaceParts<Filtered> parts;
@@ -105,13 +122,17 @@ private:
         return place_of_parts<Approx>(kept_place(curve, axis).parts, curve.branch, in);
     }
     std::optional<Bounds> kept_range(const Feature& curve, int axis, const Between& in) const;
-    // Quadratic of an event in doubles; null if its polynomial is of a higher degree.
+    // Quadratic of an event in doubles, and its roots in the chart once they are asked for; null if its polynomial is of a higher
+    // degree.
     struct KeptQuadratic {
+        std::uint64_t owner = 0;
         Name first = 0, second = 0;
         bool is_quadratic = false;
         Filtered p;
+        std::optional<bool> is_isolated = {};
+        Few<std::array<double, 2>, 2> roots = {};
     };
-    const Filtered* kept_quadratic(const Feature& first, const Feature& second) const;
+    KeptQuadratic* kept_quadratic(const Feature& first, const Feature& second) const;
     // The same exactly, the polynomial, and its root between two doubles: near ties ask for few of them.
     struct KeptExactly {
         Name first = 0, second = 0;
@@ -121,18 +142,13 @@ private:
         std::optional<LongRoot> root;
     };
     KeptExactly& kept_exactly(const Feature& first, const Feature& second) const;
-    // Rotation at the double that has been asked for last.
-    struct Turned {
-        double tau = 2, cosine = 0, sine = 0;
-    };
+    Vector turned(const Vec<Approx>& v, const Turned& at) const;
 
     const Scene& scene;
     Surface surface;
     double kappa;
-    mutable std::vector<KeptPlace> places;
-    mutable std::vector<KeptQuadratic> quadratics;
+    std::uint64_t number;  // of all orders that are made, so that none takes what another one has kept
     mutable std::vector<KeptExactly> exact;
-    mutable Turned turned_last;
 };
 
 }  // namespace cfree

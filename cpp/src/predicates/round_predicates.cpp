@@ -97,7 +97,7 @@ static int sense_along(const Scene& scene, const Feature& f, const Feature& g) {
     const Shape& s = of_robot ? scene.robot : scene.obstacles;
     const Index e = of_robot ? f.robot : f.obstacle, other = of_robot ? g.robot : g.obstacle;
     if (s.direction[e] != s.direction[other]) return 0;
-    const Approx along = dot(edge<Approx>(s, e), edge<Approx>(s, other));
+    const Approx along = dot(close_edge<Approx>(s, e), close_edge<Approx>(s, other));
     return std::abs(along.v) > coefficient_error * along.m ? (along.v > 0 ? 1 : -1) : 0;
 }
 

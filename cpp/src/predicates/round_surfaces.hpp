@@ -121,20 +121,20 @@ public:
     }
     // Vector V of a line, and its length.
     MovingVector<K> along(const Feature& f) const {
-        if (f.kind == Kind::vertex_edge) return {edge<K>(scene.obstacles, f.obstacle), zero()};
-        return {zero(), edge<K>(scene.robot, f.robot)};
+        if (f.kind == Kind::vertex_edge) return {close_edge<K>(scene.obstacles, f.obstacle), zero()};
+        return {zero(), close_edge<K>(scene.robot, f.robot)};
     }
     K length(const Feature& f) const {
         return f.kind == Kind::vertex_edge ? cfree::length<K>(scene.obstacles, f.obstacle) : cfree::length<K>(scene.robot, f.robot);
     }
     K square_of_length(const Feature& f) const {
-        const auto V = f.kind == Kind::vertex_edge ? edge<K>(scene.obstacles, f.obstacle) : edge<K>(scene.robot, f.robot);
+        const auto V = f.kind == Kind::vertex_edge ? close_edge<K>(scene.obstacles, f.obstacle) : close_edge<K>(scene.robot, f.robot);
         return dot(V, V);
     }
     // Vector from the second feature's site to the first one's.
     MovingVector<K> between(const Feature& f, const Feature& g) const {
         const Site to = site(f), from = site(g);
-        return {difference<K>(scene.obstacles, to.obstacle, from.obstacle), difference<K>(scene.robot, to.robot, from.robot)};
+        return {close_difference<K>(scene.obstacles, to.obstacle, from.obstacle), close_difference<K>(scene.robot, to.robot, from.robot)};
     }
     // Offset of a feature's site from a line, times |V|, positive on its left.
     Trig<K> offset(const Feature& line, const Feature& from) const {
