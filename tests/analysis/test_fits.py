@@ -6,6 +6,7 @@ import math
 import random
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from cfree import Curved, Polygon, Pose, Scene, UnsupportedError, boundary, fits
 from cfree.analysis import Fit
 from cfree.curves import Arc
 from cfree.exact import AngleInterval
+from hollow_fits import filleted
 from shapes import Point, Shape, box, l_shape, mapped
 
 SQUARE = box(0, 0, 1, 1)[0]
@@ -175,16 +177,54 @@ def test_what_fits_in_a_round_hole() -> None:
         assert fit.orientations == ALL and fit.pose is not None
         assert is_free(Scene(part, workspace=hole), fit.pose)
     assert fits(box("-6/5", "-8/5", "6/5", 1.7)[0], hole) == fits(Curved.circle((0, 0), "2.0000001"), hole) == ()
-    with pytest.raises(UnsupportedError, match=r"concave arcs .*scene.outer\(error\)"):
-        fits(_with_ends(1), _with_ends(1))
+    corner = Curved([(0, 0), (9, 0), (9, 4), (4, 4), (4, 9), (1, 9), Arc((0, 8), center=(1, 8))])
+    with pytest.raises(UnsupportedError, match=r"hole that is not convex .*scene.outer\(error\)"):
+        fits(SQUARE, corner)
 
 
-@pytest.mark.parametrize("seed", range(3))
+def _pocket(half_width: object, half_height: object, radius: object) -> Curved:
+    return Curved(filleted(-half_width, -half_height, half_width, half_height, radius))  # type: ignore[operator]
+
+
+DOME = Curved([(-2, 0), (2, 0), Arc((-2, 0), center=(0, 0))])
+
+
+@pytest.mark.parametrize(
+    ("part", "hole", "degrees"),
+    [
+        (box("-3.6", "-1.8", "3.6", "1.8")[0], _pocket(4, 2, 1), [0, 180]),  # its corners are in the fillets
+        (_pocket(4, 2, 1), _pocket(4, 2, 1), [0, 180]),
+        (_pocket(2, 2, 1), _pocket(2, 2, Fraction(1, 2)), [0, 90, 180, 270]),
+        ([(-1, 0), (1, 0), (0, 2)], DOME, [0]),
+        (DOME, DOME, [0]),
+        (_with_ends(1), _with_ends(1), [0, 180]),
+        (_with_ends(1), _with_ends(3), [0, 180]),
+        (_pocket(2, 2, Fraction(1, 2)), _pocket(2, 2, 1), []),
+    ],
+)
+def test_exact_fits_in_convex_pockets(part: Any, hole: Curved, degrees: list[float]) -> None:
+    found = [fit for fit in fits(part, hole) if fit.orientations.is_single]
+    assert [round(math.degrees(fit.place[2])) for fit in found] == degrees
+    assert all(fit.pose is not None and is_free(Scene(part, workspace=hole), fit.pose) for fit in found)
+
+
+def test_a_half_disc_turns_in_a_disc_of_its_radius() -> None:
+    (fit,) = fits(Curved([(0, 2), Arc((0, -2), center=(0, 0))]), Curved.circle((0, 0), 2))
+    assert fit.orientations == ALL and fit.place[:2] == (0, 0)
+
+
+@pytest.mark.parametrize("seed", range(6))
 def test_random_round_parts_fit_at_the_orientations_of_slices(seed: int) -> None:
     """Free positions at 60 orientations, by the boundary of the scene with chords: a little larger, or smaller."""
     rng = random.Random(seed)
-    part = [Curved.circle((rng.randint(-4, 4) / 4, 0), "1/2"), _with_ends(rng.randint(1, 4))]
-    hole = box(0, 0, 3 + rng.randint(0, 8) / 4, 2 + rng.randint(1, 6) / 8)[0]
+    part: list[Any] = [Curved.circle((rng.randint(-4, 4) / 4, 0), "1/2"), _with_ends(rng.randint(1, 4))]
+    hole: Any = box(0, 0, 3 + rng.randint(0, 8) / 4, 2 + rng.randint(1, 6) / 8)[0]
+    if seed >= 3:  # a polygon and a part with an arc in a pocket with fillets
+        part = [
+            box(-1, Fraction(-rng.randint(2, 6), 8), 1, Fraction(1, 2))[0],
+            _pocket(Fraction(9, 8), Fraction(3, 8), Fraction(1, 4)),
+        ]
+        hole = _pocket(Fraction(rng.randint(9, 12), 8), Fraction(rng.randint(6, 9), 8), Fraction(rng.randint(2, 5), 8))
     found, scene = fits(part, hole), Scene(part, workspace=hole)
     outer, inner = boundary(scene.outer(1e-4)), boundary(scene.inner(1e-4))
     for theta in np.arange(60) * 0.1047:

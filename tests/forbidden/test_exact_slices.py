@@ -181,11 +181,11 @@ def test_slices_are_exact(kind: str) -> None:
 @pytest.mark.parametrize("kind", fuzz.KINDS)
 def test_slices_of_the_kinds_that_are_fuzzed_are_exact(kind: str) -> None:
     compared = 0
-    for number in range(12):
+    for number in range(6):
         wrong, slices = fuzz.mistakes(fuzz.scene(kind, number), f"{kind} {number}")
         assert not wrong, f"{kind} {number}"
         compared += slices
-    assert compared > 30
+    assert compared > 15
 
 
 # --- the comparison, and what fuzz does with a difference ---

@@ -50,7 +50,7 @@ def check_against_flood(plain: PlainScene, space: FreeSpace, steps: int) -> int:
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_cells_are_those_of_a_flood(kind: str) -> None:
-    for seed in range(2):
+    for seed in range(1):
         plain = random_scene(seed, kind)
         check_against_flood(plain, space_of(plain), 60)
 

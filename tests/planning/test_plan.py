@@ -163,7 +163,7 @@ def test_sizes_and_places_do_not_matter(size: Fraction, offset: int) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_decisions_are_those_of_a_flood(kind: str) -> None:
-    for seed in range(2):
+    for seed in range(1):
         plain = random_scene(seed, kind)
         scene = scene_of(plain)
         space = free_space(boundary(scene, threads=1))

@@ -210,8 +210,57 @@ def both(r: HollowDraw) -> Scene:
     return Scene([ring, r.moving(points((x, y)), second)], others)
 
 
+def part_of_disc(radius: Fraction, kind: str) -> Ring:
+    """A half disc, a quarter, or a disc without a segment, of this radius about the origin."""
+    r, o = radius, (F(0), F(0))
+    if kind == "half":
+        return [(F(0), r), Arc((F(0), -r), center=o)]
+    if kind == "quarter":
+        return [o, (r, F(0)), Arc((F(0), r), center=o)]
+    return [(3 * r / 5, 4 * r / 5), Arc((3 * r / 5, -4 * r / 5), center=o)]
+
+
+def shaft(r: HollowDraw) -> Scene:
+    """A part of a disc in a round hole of its radius, or a larger one, or in a hole of its own shape."""
+    own, kind = r.parts(1, 3, 2), r.choice(["half", "quarter", "cut"])
+    ring = part_of_disc(own, kind)
+    room = r.choice([own, own, own + F(1, 2), own * F(5, 4)])
+    bored: Ring = Circle((F(0), F(0)), room) if r.random() < 0.6 else part_of_disc(r.choice([own, room]), kind)  # type: ignore[assignment]
+    others = [r.hollow(box(-9, -9, 9, 9), [bored])]
+    if r.random() < 0.4:
+        others.append(r.still(box(-F(1, 4), own / 2, F(1, 4), own), 0))
+    return Scene([r.hollow(ring, [], moves=True)], others)
+
+
+def key(r: HollowDraw) -> Scene:
+    """A peg with one round end in a slot: of its radius or another, as long as the slot or shorter."""
+    half, radius = r.parts(1, 4, 2), r.parts(1, 3, 2)
+    own = radius + r.choice([F(0), F(0), F(0), F(-1, 4)])
+    flat = r.choice([-half - radius, -half, F(0), -half + F(1, 2)])
+    ring = [(flat, -own), (half, -own), Arc((half, own), center=(half, F(0))), (flat, own)]
+    return Scene([r.hollow(ring, [], moves=True)], [r.hollow(box(-25, -25, 25, 25), [slot_ring(half, radius)])])
+
+
+def pocket(r: HollowDraw) -> Scene:
+    """A rectangle with some round corners in a pocket with fillets, of its size or larger; radii equal or not."""
+    w, h, radius = r.parts(2, 4, 1), r.parts(2, 4, 1), r.parts(1, 3, 2)
+    more = r.choice([(F(0), F(0)), (F(0), F(0)), (F(1), F(0)), (F(0), F(1, 2))])
+    fillet = r.choice([radius, radius, radius / 2, radius + F(1, 4)])
+    corners = [(-w, -h, 1, 0, 0, 1), (w, -h, 0, 1, -1, 0), (w, h, -1, 0, 0, -1), (-w, h, 0, -1, 1, 0)]
+    ring: list[Any] = []
+    for x, y, a, b, c, d in corners:  # along the next side, and back along the last one
+        if r.random() < 0.35:
+            ring.append((x, y))
+            continue
+        before, after = (x + radius * c, y + radius * d), (x + radius * a, y + radius * b)
+        ring += [before, Arc(after, center=(x + radius * (a + c), y + radius * (b + d)))]
+    wide, high = w + more[0], h + more[1]
+    bored = filleted(-wide, -high, wide, high, min(fillet, wide, high))
+    return Scene([r.hollow(ring, [], moves=True)], [r.hollow(box(-25, -25, 25, 25), [bored])])
+
+
 FAMILIES: dict[str, Callable[[HollowDraw], Scene]] = {
-    f.__name__: f for f in (hole, slot, bay, room, link, pair, inscribed, extreme, both)
+    f.__name__: f for f in (hole, slot, bay, room, link, pair, inscribed, extreme, both, shaft, key, pocket)
 }
 
 

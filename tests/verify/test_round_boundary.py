@@ -54,7 +54,7 @@ def test_boundaries_of_random_rounded_scenes_are_verified(seed: int) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("make", "seed"), [*((random_arcs, k) for k in range(2, 12)), *((random_concave, k) for k in range(20))]
+    ("make", "seed"), [*((random_arcs, k) for k in range(2, 8)), *((random_concave, k) for k in range(10))]
 )
 def test_boundaries_of_random_shapes_with_arcs_are_verified(make: Callable[[int], Scene], seed: int) -> None:
     """Convex arcs, of a robot of one part or two, and concave ones."""
@@ -343,8 +343,7 @@ NO_BRANCH = (0, 2, 4)
 @pytest.mark.slow
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda f: f.__name__)
 def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random], Boundary]) -> None:
-    scenes = [MIXED, ONE_RADIUS, IN_BOUNDS, random_scene(3), random_arcs(4), random_concave(5), random_concave(8)]
-    for seed, scene in enumerate(scenes):
+    for seed, scene in {0: MIXED, 2: IN_BOUNDS, 4: random_arcs(4), 5: random_concave(5)}.items():
         result = boundary(scene)
         rng = random.Random(20 + seed if mutant is with_another_curve else seed)  # a joint's other names are right
         if mutant is on_the_other_branch and seed in NO_BRANCH:

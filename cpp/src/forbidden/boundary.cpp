@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cfree/forbidden/isolated.hpp"
-#include "forbidden/equal_radii.hpp"
 #include "forbidden/kept_patches.hpp"
 #include "forbidden/patch_trimming.hpp"
 #include "support/parallel.hpp"
@@ -172,7 +171,7 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
         for (Trapezoids* rows : {&trapezoids, &thin}) use_names(scene, rows->features());
     tally.collect_seconds = lap();
     IsolatedParts isolated;
-    if (work.is_complete() && !task.regularized && !task.features && !has_facing_arcs(scene))
+    if (work.is_complete() && !task.regularized && !task.features)
         isolated = scene.is_round ? isolated_round_parts(scene, work.patches, trapezoids, thin, task.threads)
                                   : isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
     heed_stop();

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/scene/features.hpp"
-#include "collision/box_tree.hpp"
 #include "forbidden/coincident_surfaces.hpp"
+#include "forbidden/near_fillets.hpp"
+#include "forbidden/pillar_index.hpp"
 #include "predicates/round_junction.hpp"
 #include "predicates/round_orders.hpp"
 #include "support/parallel.hpp"
@@ -20,16 +22,6 @@ bool have_equal_radii(const Scene& scene, Index i, Index j) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const bool is_pair = A.convex[i] ? O.is_concave(j) : O.convex[j] && A.is_concave(i);
     return is_pair && (A.radius_of(i).exact + O.radius_of(j).exact).is_zero();
-}
-
-bool has_facing_arcs(const Scene& scene) {
-    const auto has_convex = [](const Shape& s) {
-        for (Index v = 0; s.has_arcs() && v < s.ring_vertices; ++v)
-            if (s.is_arc[v] && s.convex[v]) return true;
-        return false;
-    };
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    return (A.has_concave() && has_convex(O)) || (O.has_concave() && has_convex(A));
 }
 
 namespace {
@@ -111,38 +103,31 @@ private:
 // All that may cover the places at which the vertices of a pair are as far apart as the sum of their radii, or less.
 class Covers {
 public:
-    explicit Covers(const Scene& s) : scene(s) {
-        for (const bool of_robot : {false, true}) {
-            const Shape &own = of_robot ? s.robot : s.obstacles, &other = of_robot ? s.obstacles : s.robot;
-            if (own.fillets.empty()) continue;
-            std::vector<Index> list = other.fillet_ends;  // with the convex vertices, those of the shape without its fillets
-            for (Index v = 0; v < other.ring_vertices; ++v)
-                if (other.convex[v] && other.layer[v] == body_layer) list.push_back(v);
-            std::sort(list.begin(), list.end(), [&](Index v, Index w) { return std::pair(other.point[v], v) < std::pair(other.point[w], w); });
-            list.erase(std::unique(list.begin(), list.end(), [&](Index v, Index w) { return other.point[v] == other.point[w]; }), list.end());
-            for (const Shape::Fillet& fillet : own.fillets)
-                for (const Index v : list)
-                    if ((own.radius_of(fillet.vertex[0]).exact + other.radius_of(v).exact).is_zero()) fillets.push_back({&fillet, of_robot, v});
-        }
-    }
+    explicit Covers(const Scene& s) : scene(s), index(s) {}
 
+    double reach() const { return index.reach(); }
     std::vector<OpenCover> near(const Feature& pair) const {
         const Shape &A = scene.robot, &O = scene.obstacles;
         std::vector<OpenCover> result;
-        for (Index k = 0; k < O.pieces(); ++k)
+        std::vector<Index> pieces;
+        index.near(pair.obstacle, pieces);
+        for (const Index k : pieces)
             for (Index p = 0; p < A.pieces(); ++p) {
                 const Index *a = &A.piece_vertex[A.piece[p]], *b = &O.piece_vertex[O.piece[k]];
                 if (A.piece_layer[p] != O.piece_layer[k] || !is_near(pair, a, A.piece[p + 1] - A.piece[p], b, O.piece[k + 1] - O.piece[k])) continue;
                 const OpenPillar pillar(scene, p, k);
                 if (!pillar.is_empty()) result.push_back({pillar.surfaces(), [pillar](RoundJunction& at, const RoundSpot& place) { return pillar.has(at, place); }});
             }
-        for (const auto& [fillet, of_robot, v] : fillets) {
+        for (const auto& [fillet, of_robot, v, directions] : fillets_near(scene, pair, index.reach())) {
             const Index* corners = fillet->vertex.data();
             if (!(of_robot ? is_near(pair, corners, 4, &v, 1) : is_near(pair, &v, 1, corners, 4))) continue;
             OpenCover cover;
             for (const Index edge : fillet->edge) cover.surfaces.push_back(contact_line_of(of_robot, edge, v));
+            for (std::size_t k = 0; directions && k < directions->edge.size(); ++k)
+                cover.surfaces.push_back(contact_line_of(!of_robot, directions->edge[k], fillet->arc));
             cover.surfaces.push_back(contact_circle_of(of_robot, fillet->arc, v));
-            cover.has = [all = cover.surfaces](RoundJunction& at, const RoundSpot& place) {  // the open quadrangle outside of the circle
+            // the open quadrangle outside of the circle, in the open triangle of directions
+            cover.has = [all = cover.surfaces](RoundJunction& at, const RoundSpot& place) {
                 return std::all_of(all.begin(), all.end(), [&](const Feature& x) { return at.outside(x, place) * (is_line(x) ? -1 : 1) > 0; });
             };
             result.push_back(std::move(cover));
@@ -151,11 +136,6 @@ public:
     }
 
 private:
-    struct Near {
-        const Shape::Fillet* fillet;
-        bool of_robot;
-        Index vertex;
-    };
     // False if vertices of the two shapes are certainly too far away at every angle.
     bool is_near(const Feature& pair, const Index* a, Index n, const Index* b, Index m) const {
         const Shape &A = scene.robot, &O = scene.obstacles;
@@ -176,7 +156,7 @@ private:
     }
 
     const Scene& scene;
-    std::vector<Near> fillets;
+    const PillarIndex index;
 };
 
 // A curve on a circle's surface in one chart: what is free of it, and where the two arcs touch.
@@ -197,7 +177,8 @@ public:
     template <class Meets>
     std::vector<Range> free(const Event& from, const Event& to, std::vector<Event> changes, const Meets& meets, const std::vector<OpenCover>& covers) {
         const bool is_one = decide.order(from, to) == 0;
-        std::vector<Range> left = without({{from, to, is_one}}, std::move(changes), [&](RoundJunction& at, const RoundSpot& p) { return !meets(at, p); });
+        if (is_one) return is_free_at(from, meets, covers) ? std::vector<Range>{{from, to, true}} : std::vector<Range>{};
+        std::vector<Range> left = without({{from, to, false}}, std::move(changes), [&](RoundJunction& at, const RoundSpot& p) { return !meets(at, p); });
         for (const OpenCover& cover : covers) {
             if (left.empty()) break;
             heed_stop();
@@ -208,6 +189,19 @@ public:
     Predicates decide;
 
 private:
+    RoundJunction junction_at(const Event& e) {
+        return RoundJunction(scene, on.chart, e.lo, e.hi, [this, e] { return decide.long_root_of(e); }, [this, e] { return decide.narrowed(e); });
+    }
+    template <class Meets>
+    bool is_free_at(const Event& e, const Meets& meets, const std::vector<OpenCover>& covers) {
+        heed_stop();
+        RoundJunction here = junction_at(e), quick = junction_at(e);
+        const RoundSpot place = here.spot(on.contact, name, false);
+        quick.ask_doubles_only();
+        const auto is_covered = [&](RoundJunction& at) { return std::any_of(covers.begin(), covers.end(), [&](const OpenCover& cover) { return cover.has(at, place); }); };
+        return !is_covered(quick) && meets(here, place) && !is_covered(here);
+    }
+
     std::vector<Range> without(const std::vector<Range>& whole, const OpenCover& cover) {
         std::vector<Range> result;
         for (const Range& range : whole) {
@@ -230,7 +224,7 @@ private:
     std::vector<Range> without(const std::vector<Range>& whole, std::vector<Event> changes, const Covered& is_covered) {
         std::sort(changes.begin(), changes.end(), [&](const Event& x, const Event& y) { return decide.order(x, y) < 0; });
         const auto at_event = [&](const Event& e) {
-            RoundJunction here(scene, on.chart, e.lo, e.hi, [&] { return decide.long_root_of(e); }, [&] { return decide.narrowed(e); });
+            RoundJunction here = junction_at(e);
             return is_covered(here, here.spot(on.contact, name, false));
         };
         const auto between = [&](const Event& first, const Event& last) {
@@ -286,12 +280,11 @@ public:
             return;
         }
         const std::vector<Held> held = held_on(contact);
-        const std::vector<Feature> touching = touching_once(contact);
-        if (held.empty() && touching.empty()) return;
+        const std::vector<Feature> touching = facing(contact);
         const std::vector<OpenCover> near = covers.near(contact);
         for (const int chart : {0, 1}) {
             for (const Held& curve : held) add_held({contact, chart}, curve, near, patch, out);
-            for (const Feature& surface : touching) add_touch({contact, chart}, surface, near, patch, out);
+            for (const Feature& surface : touching) add_touch({contact, chart}, surface, touching, near, patch, out);
         }
     }
 
@@ -377,32 +370,35 @@ private:
         }
     }
 
-    // Surfaces that may touch the circle at an extreme of their distance, and cover all of it but for one point there: their quadratic
-    // has a double root, in doubles.
-    std::vector<Feature> touching_once(const Feature& pair) const {
+    // Surfaces that may touch the circle at some angles with the opposite normal.
+    std::vector<Feature> facing(const Feature& pair) const {
         const Shape &A = scene.robot, &O = scene.obstacles;
-        const RoundSurfaces<Approx> of(scene);
+        const Box near = grown(edge_box(O, pair.obstacle), covers.reach());
+        const Int radius = A.radius_of(pair.robot).exact + O.radius_of(pair.obstacle).exact;
+        // circles of one radius, one convex and one concave, are one where they touch
+        const auto are_opposite = [&](Index i, Index j) { return Int(radius + A.radius_of(i).exact + O.radius_of(j).exact).is_zero(); };
         std::vector<Feature> result;
         const auto add = [&](Feature f) {
-            f.branch = static_cast<std::int8_t>(is_circle(f) && is_below_zero(of.rho(f)) ? 1 : -1);
-            const Trig<Approx> form = of.tangency(pair, f, f.branch);
-            const double most = form.a.m + form.b.m + form.c.m;
-            if (std::abs(std::abs(form.a.v) - length_of(form.b.v, form.c.v)) > 0x1p-30 * most) return;
-            if (std::abs(form.a.v) > 0x1p-40 * most) result.push_back(f);  // else they touch at every angle
+            f.branch = static_cast<std::int8_t>(is_circle(f) && is_below_zero(RoundSurfaces<Approx>(scene).rho(f)) ? 1 : -1);
+            result.push_back(f);
         };
-        for (Index j = 0; j < O.ring_vertices; ++j)
+        for (Index j = 0; j < O.ring_vertices; ++j) {
+            if (!O.emit[j] || !near.meets(edge_box(O, j))) continue;
             for (Index i = 0; i < A.ring_vertices; ++i) {
-                if (A.layer[i] != O.layer[j] || A.layer[i] != body_layer || !O.emit[j]) continue;
+                if (A.layer[i] != O.layer[j] || A.layer[i] != body_layer) continue;
                 if (A.convex[i] && O.makes_surfaces(j)) add({Kind::vertex_edge, i, j});
                 if (O.convex[j] && A.makes_surfaces(i)) add({Kind::edge_vertex, i, j});
-                if (makes_circles(scene, i, j) && !(i == pair.robot && j == pair.obstacle)) add({Kind::vertex_vertex, i, j});
+                if (makes_circles(scene, i, j) && !(i == pair.robot && j == pair.obstacle) && !are_opposite(i, j)) add({Kind::vertex_vertex, i, j});
             }
+        }
         return result;
     }
 
     // The points where a surface touches a circle, in one quadrant of it.
-    void add_touch(const Surface& on, const Feature& surface, const std::vector<OpenCover>& near, Index patch, std::vector<Trapezoid>& out) const {
+    void add_touch(const Surface& on, const Feature& surface, const std::vector<Feature>& others, const std::vector<OpenCover>& near, Index patch,
+                   std::vector<Trapezoid>& out) const {
         FreeCurve free(scene, on, surface);
+        const RoundOrders& orders = free.decide.round_orders();
         const Feature& pair = on.contact;
         const auto roots = free.decide.event_roots(surface, {}, chart_end(-1), chart_end(1));
         if (roots.all_zero) return;
@@ -413,7 +409,11 @@ private:
         if (scene.obstacles.has_extent(pair.obstacle)) cones.push_back(cone(false, pair));
         for (const Event& e : events) {
             const bool is_end = e.first.kind == Kind::none;
-            if (is_end ? free.decide.event_sign_on(surface, {}, e.lo, e.hi) != 0 || !free.vanishes(surface, e) : !e.is_touch) continue;
+            const auto turned = orders.turned_to(0.5 * (e.lo + e.hi));
+            const NearTouch touch = touch_in_doubles(orders, pair, surface, cones, turned);
+            if (!touch.is_there) continue;
+            if (!is_end && !e.is_touch && touch.is_known && !may_be_held(orders, pair, surface, touch, others, turned)) continue;
+            if (is_end && (free.decide.event_sign_on(surface, {}, e.lo, e.hi) != 0 || !free.vanishes(surface, e))) continue;
             const auto meets = [&](RoundJunction& at, const RoundSpot& p) {
                 const auto seam = [&](int turns) { return at.spot(pair, {Kind::seam, pair.robot, pair.obstacle, turns & 3}, false); };
                 const Quadrant ends = quadrant_of(scene, pair);
@@ -421,6 +421,65 @@ private:
             };
             put(free, free.free(e, e, {}, meets, near), patch, on, surface, out);
         }
+    }
+    // A touch with the opposite normal in doubles: the unit vector from the circle's centre to the place, if they tell it.
+    struct NearTouch {
+        double x, y;
+        bool is_known, is_there;  // the second is false if the surface does not reach it, or the normal is in another quadrant or in no cone
+    };
+    static constexpr double hair = 0x1p-20;
+    NearTouch touch_in_doubles(const RoundOrders& orders, const Feature& pair, const Feature& surface, const std::vector<std::array<Feature, 2>>& cones,
+                               const RoundOrders::Turned& here) const {
+        const RoundSurfaces<Approx> of(scene);
+        const auto site = orders.to_centre(surface, here);
+        const double size = -of.rho(pair).v, radius = of.rho(surface).v;
+        NearTouch touch{0, 0, false, true};
+        if (is_line(surface)) {
+            const auto V = orders.along(surface, here);
+            const double length = length_of(V.x, V.y), t = ((size * V.y / length - site.x) * V.x - (size * V.x / length + site.y) * V.y) / (length * length);
+            if (0x1p-40 * (site.m + size) > hair * length) return touch;
+            touch = {V.y / length, -V.x / length, true, t > -hair && t < 1 + hair};
+        } else {
+            const double apart = size - radius;
+            if (0x1p-40 * (site.m + size) > hair * std::abs(apart)) return touch;
+            touch = {site.x / apart, site.y / apart, true, true};
+        }
+        double u = -touch.x, v = -touch.y;  // the normal, turned into the first quadrant
+        for (int k = 0; k < (pair.branch & 3); ++k) std::tie(u, v) = std::pair(v, -u);
+        touch.is_there &= u > -hair && v > -hair;
+        for (const auto& edges : cones) {
+            const auto ahead = [&](const Feature& edge) {
+                const auto V = orders.along(edge, here);
+                return (V.x * touch.x + V.y * touch.y) / length_of(V.x, V.y);
+            };
+            touch.is_there &= ahead(edges[0]) < hair && ahead(edges[1]) > -hair;
+        }
+        return touch;
+    }
+    // True if a third surface may go through a touch: without one there is room beside it at the angles on one side.
+    bool may_be_held(const RoundOrders& orders, const Feature& pair, const Feature& surface, const NearTouch& touch, const std::vector<Feature>& others,
+                     const RoundOrders::Turned& here) const {
+        const RoundSurfaces<Approx> of(scene);
+        const double size = -of.rho(pair).v;
+        const auto is_one = [&](const Feature& f, const Feature& g) {  // the same circle, of another arc
+            return is_circle(f) && is_circle(g) && scene.robot.point[f.robot] == scene.robot.point[g.robot] &&
+                   scene.obstacles.point[f.obstacle] == scene.obstacles.point[g.obstacle] &&
+                   scene.robot.vertex_radius[f.robot] == scene.robot.vertex_radius[g.robot] &&
+                   scene.obstacles.vertex_radius[f.obstacle] == scene.obstacles.vertex_radius[g.obstacle];
+        };
+        return std::any_of(others.begin(), others.end(), [&](const Feature& f) {
+            if (f == surface || is_one(f, surface) || is_one(f, pair)) return false;
+            const auto site = orders.to_centre(f, here);
+            const double x = size * touch.x - site.x, y = size * touch.y - site.y, radius = of.rho(f).v;
+            double away;
+            if (is_line(f)) {
+                const auto V = orders.along(f, here);
+                away = (V.x * y - V.y * x) / length_of(V.x, V.y) + radius;
+            } else {
+                away = length_of(x, y) - std::abs(radius);
+            }
+            return std::abs(away) <= hair * (size + std::abs(radius)) + 0x1p-40 * site.m;
+        });
     }
     // True if the outward normal at a place, from it to the circle's centre, is in all cones.
     static bool has_normal(RoundJunction& at, const std::vector<std::array<Feature, 2>>& cones, const Feature& pair, const RoundSpot& p) {

@@ -28,15 +28,6 @@ public:
 private:
     void trim_round(Index patch, const Shadows& near, const std::vector<Feature>& before_it, std::vector<Trapezoid>& out,
                     std::vector<Trapezoid>& thin, Count& count) const;
-    // A fillet, of the robot or else of the obstacles, and a vertex of the other shape, near a contact. If that is a convex arc, with
-    // its directions.
-    struct NearFillet {
-        const Shape::Fillet* fillet;
-        bool of_robot;
-        Index vertex;
-        const Shape::Wedge* directions;
-    };
-    std::vector<NearFillet> fillets_near(const Feature& contact) const;
     // Helices inside a bound's patch along which pillars may touch it, free space on both sides; theory, "The trimmed boundary".
     void seams(const Feature& contact, std::vector<Feature>& out) const;
 

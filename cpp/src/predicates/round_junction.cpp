@@ -138,6 +138,7 @@ int RoundJunction::sign(const F& form) {
     const Bounds near = Between{lo, hi, kappa}(form.template operator()<Approx>(RoundSurfaces<Approx>(scene)));
     if (near.lo > 0) return 1;
     if (near.hi < 0) return -1;
+    if (is_quick) return 0;
     return sign_at(AsSurdPoly{kappa}(form.template operator()<RootSum>(RoundSurfaces<RootSum>(scene))), here());
 }
 
@@ -147,7 +148,7 @@ int RoundJunction::turn(const Feature& x, const Feature& y) {
         const Code name = code(scene, {Kind::edge_edge, ev.robot, ve.obstacle});
         if (known.contains({0, 0, name})) return 0;
         const int found = sign([&]<class K>(const RoundSurfaces<K>& of) { return cross(of.along(x), of.along(y)); });
-        if (found == 0) known.insert({0, 0, name});
+        if (found == 0 && !is_quick) known.insert({0, 0, name});
         return found;
     }
     return sign([&]<class K>(const RoundSurfaces<K>& of) { return cross(of.along(x), of.along(y)); });
@@ -403,7 +404,7 @@ template <class F>
 int RoundJunction::sign_of_place(const F& place_in) {
     const CurvePlace<Bounds> about = place_in.template operator()<Approx>(Between{lo, hi, kappa});
     const auto sign_of = [](const Bounds& b) { return b.lo > 0 ? 1 : b.hi < 0 ? -1 : 0; };
-    if (const int sign = sign_of(value_of(about)) * sign_of(about.c); sign != 0) return sign;
+    if (const int sign = sign_of(value_of(about)) * sign_of(about.c); sign != 0 || is_quick) return sign;
     if (const auto tau = near_ball()) {
         const CurvePlace<Ball> near = place_in.template operator()<Ball>(InBalls(*tau, kappa));
         const auto value = certain_sign(value_of(near)), below = certain_sign(near.c);

@@ -24,6 +24,9 @@ public:
     RoundJunction(const Scene& scene, int chart, double lo, double hi, std::function<LongRoot()> exact,
                   std::function<std::optional<Predicates::Bracket>()> narrow = nullptr);
 
+    // From now on `turn`, `outside` and `ahead` are 0 where doubles leave them open.
+    void ask_doubles_only() { is_quick = true; }
+
     // Enter an edge of the robot and one of the obstacles that are parallel here.
     void know_parallel(Index g, Index f);
 
@@ -78,6 +81,7 @@ private:
     const Scene& scene;
     int chart;
     double lo, hi, kappa;
+    bool is_quick = false;
     std::function<LongRoot()> exact;
     std::function<std::optional<Predicates::Bracket>()> narrow;
     std::optional<LongRoot> root;  // computed when needed, as the next

@@ -4,8 +4,9 @@ The part is a robot whose workspace is the hole. At an orientation at which it f
 bounded set. A pose on the rim of this set is on a trapezoid of the boundary or on an isolated part. So the orientations
 are those of all trapezoids and isolated parts: closed intervals, united by the exact order of their ends.
 
-In concave arcs not all fits at single orientations are isolated parts. Then the orientations are those of all fits only
-if there is no single one: a disc that fits can turn about its center, and whatever fits a round hole turns in it.
+In concave arcs not all fits at single orientations are isolated parts: a part may slide along an arc at one orientation
+only. The orientations are those of all fits if the hole is convex, for then free positions at one orientation are a
+convex set; or if the part is a disc, which can turn about its center.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -21,19 +22,19 @@ import numpy as np
 import cfree._core as _core
 from cfree.collision.nearest_free import centers
 from cfree.contact.contact_lines import contact_lines, crossings
-from cfree.curves.curved import Curved
-from cfree.curves.rings import Circle
 from cfree.errors import UnsupportedError
 from cfree.exact.algebraic import between, part
 from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
 from cfree.exact.half_angle import normalize_angles, tau_in_chart, theta_in
+from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, pose_at
+from cfree.exact.vectors import cross, minus
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import Trapezoids
 from cfree.forbidden.critical_angle import critical_angle
 from cfree.planning.core_ways import from_numbers
 from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import known_cores
+from cfree.scene.rounded import known_cores, rounded
 from cfree.scene.scene import Scene, largest_of, shapes_in
 
 SAME = 1e-6  # of the largest shape: exact places are looked for so near to rounded ones
@@ -80,8 +81,8 @@ def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
     InvalidPolygonError
         If a shape is invalid.
     UnsupportedError
-        If a shape is not rounded, as for `boundary`. Also if the part, or the hole's complement, has concave arcs,
-        unless the part is a disc, or the hole is one and the part has no other arcs.
+        If a shape is not rounded, as for `boundary`. Also if the hole is not convex and the part, or the hole's
+        complement, has concave arcs, unless the part is a disc.
 
     Notes
     -----
@@ -122,7 +123,8 @@ class Orientations:
         boundary.require_complete()
         if boundary.scene.curved and not _lists_all_fits(boundary.scene):
             remedy = "give boundary(scene.outer(error)) for intervals of orientations at which it surely fits"
-            raise UnsupportedError(f"exact fits: in concave arcs some at single orientations are not found; {remedy}")
+            why = "in concave arcs of a hole that is not convex some at single orientations are not found"
+            raise UnsupportedError(f"exact fits: {why}; {remedy}")
         self.boundary = boundary
         self._from, self._to, _, self._last = boundary._handle.angle_ranks()
 
@@ -239,12 +241,27 @@ def _lists_all_fits(scene: Scene) -> bool:
     cores = known_cores(scene)
     if not cores.has_concave:
         return True
-    sides = cores.robot, cores.obstacles
-    if any(
-        any(shape.has_concave for shape in one) and any(arc.is_convex for shape in other for arc in shape.arcs)
-        for one, other in (sides, sides[::-1])
-    ):
-        return False
-    hole = scene.workspace
     is_disc = len(cores.robot) == 1 and not isinstance(cores.robot[0].core, Polygon) and len(cores.robot[0].core) == 1
-    return is_disc or (isinstance(hole, Curved) and isinstance(hole.path, Circle) and not hole.holes)
+    return is_disc or _is_convex(scene.workspace)
+
+
+def _is_convex(hole: Any) -> bool:
+    """True if a polygon or a round shape that has a core is convex."""
+    if isinstance(hole, Polygon):
+        return hole.is_convex
+    shape = rounded(hole)
+    if shape is None or shape.has_concave:
+        return False
+    if not isinstance(shape.core, Polygon):
+        return True
+    ring, *holes = shape.core.exact_rings
+    arcs = {(arc.start, arc.end): arc.center for arc in shape.arcs}
+    sides = [(p, q, arcs.get((p, q))) for p, q in pairwise([*ring, ring[0]])]
+    first = [minus(q, p) if center is None else _left(minus(p, center)) for p, q, center in sides]
+    last = [minus(q, p) if center is None else _left(minus(q, center)) for p, q, center in sides]
+    turns = zip(last, [*first[1:], first[0]], strict=True)
+    return not holes and shape.core.is_convex and all(cross(before, after) >= 0 for before, after in turns)
+
+
+def _left(v: ExactPoint) -> ExactPoint:
+    return -v[1], v[0]
