@@ -36,7 +36,7 @@ def good(file: str) -> Boundary:
 def test_one_wrong_thing_is_detected(mutate: Mutation) -> None:
     tried = 0
     for file in FILES:
-        for bad in mutants(good(file), mutate, 2):
+        for bad in mutants(good(file), mutate, 3):
             result = detected(bad)
             assert not result.verified or says_the_same(good(file), bad), file
             tried += not result.verified
