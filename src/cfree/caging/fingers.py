@@ -27,6 +27,7 @@ from cfree.exact.vectors import cross, dot, minus
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape, Scene, polygons_for, shapes_in, size_of
+from cfree.words import coordinate
 
 Finger = ExactPoint | AnyShape
 FIRST, NEXT, MOST = 10, 10, 50  # sizes of triangles: bits below that of the body
@@ -192,11 +193,11 @@ def _triangle(body: Sequence[AnyShape], point: ExactPoint, pose: Pose, size: Fra
         size /= 2
     if almost:
         raise UndecidedError(
-            f"undecided: finger {k} at ({float(x):g}, {float(y):g}) touches the body, or almost does, at a curve that "
+            f"undecided: finger {k} at ({coordinate(float(x))}, {coordinate(float(y))}) touches the body, or almost does, at a curve that "
             "is not an arc; move the finger off it, or give polygons for the body: scene.outer(error)"
         )
     raise InvalidPoseError(
-        f"pose: finger {k} at ({float(x):g}, {float(y):g}) is inside the body, or in a notch of it that is too narrow; "
+        f"pose: finger {k} at ({coordinate(float(x))}, {coordinate(float(y))}) is inside the body, or in a notch of it that is too narrow; "
         "move the finger or the body"
     )
 
