@@ -125,11 +125,13 @@ export function way_verdict(
   clearance = "",
 ): Verdict {
   const verdict = string(columns, "verdict");
-  if (verdict.endsWith("forbidden"))
-    return {
-      tone: "bad",
-      text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot ${clearance ? `is nearer than ${clearance}${units && ` ${units}`} to` : "overlaps"} ${obstacle_name(names, integers(columns, "pair")[1]!)}.`,
-    };
+  if (verdict.endsWith("forbidden")) {
+    const owner = integers(columns, "pair")[1]!;
+    const overlaps = owner < 0 ? "overlaps the outside of" : "overlaps";
+    const how = clearance ? `is nearer than ${clearance}${units && ` ${units}`} to` : overlaps;
+    const end = verdict.startsWith("start") ? "Start" : "Goal";
+    return { tone: "bad", text: `${end}: the robot ${how} ${obstacle_name(names, owner)}.` };
+  }
   if (verdict === "path") return { tone: "good", text: path_words(columns, units, vehicle, clearance) };
   if (verdict === "apart") {
     const owners = [...integers(columns, "obstacles")];
