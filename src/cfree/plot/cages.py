@@ -107,7 +107,7 @@ def plot_immobility(answer: Immobility) -> Figure:
     draw_surroundings(ax, scene)
     for pose in moved:
         draw_robot(ax, scene, pose, faint=True, mark=False)
-    draw_robot(ax, scene, answer.pose, faint=False)
+    draw_robot(ax, scene, answer.pose, faint=False, mark=False)  # an arrow ahead would look like a velocity
     _draw_points(ax, answer.fingers)
     arrow = {"arrowstyle": "->", "color": BARRIER, "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0}
     for contact in answer.contacts:
@@ -115,7 +115,7 @@ def plot_immobility(answer: Immobility) -> Figure:
         u, v = (size * n / np.hypot(*n)).tolist() if n.any() else (0.0, 0.0)
         ax.annotate("", xy=(x + u, y + v), xytext=(x, y), arrowprops=arrow, zorder=8)
         ax.plot(x, y, "o", color=MARK, markersize=5, zorder=8)
-    set_window(ax, window, "")
+    set_window(ax, window, answer.units)
     headed(figure, scene, *answer.sentence().split(": ", 1))
     return figure
 
