@@ -294,8 +294,9 @@ def _farthest(scene: Scene, center: ExactPoint) -> float:
 def _reach(part: AnyShape, center: ExactPoint) -> float:
     if isinstance(part, Polygon):
         return math.sqrt(max(dot(v, v) for v in (minus(p, center) for p in part.exact_vertices)))
-    pieces = part.curves[0]
-    if all(isinstance(piece, Line) or (isinstance(piece, Span) and piece.is_circular) for piece in pieces):
+    outer = part.curves[0]
+    pieces = [piece for piece in outer if isinstance(piece, Line) or (isinstance(piece, Span) and piece.is_circular)]
+    if len(pieces) == len(outer):
         return max(_reach_of(piece, center) for piece in pieces) + float(part.grown)
     return max(_reach(polygon, center) for polygon in polygons_around(part))
 
