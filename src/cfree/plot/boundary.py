@@ -173,7 +173,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     _draw_fits(space, isolated_lines(boundary))
     set_space(space, window, boundary.scene.units)
     handles = [
-        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in _contact_kinds(boundary)),
+        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in contact_kinds(boundary)),
         Line2D([], [], color=Colours.helix, label="joint" if boundary.scene.curved else "v-v helix"),
         Line2D([], [], color=Colours.edge_edge, label="e-e line"),
         Patch(facecolor=COLOURS[PatchKind.BOUND], edgecolor=GREY, alpha=0.4, label="bounds"),
@@ -359,7 +359,7 @@ def plain(text: str) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text).replace("$", r"\$")
 
 
-def _contact_kinds(boundary: Boundary) -> list[PatchKind]:
+def contact_kinds(boundary: Boundary) -> list[PatchKind]:
     """Return the kinds of contact patches for a legend: all live ones among round shapes, else both."""
     if not boundary.scene.curved:
         return [PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX]
