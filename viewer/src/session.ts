@@ -5,7 +5,7 @@ import { $, fault, say, working } from "./page";
 import { digits, number } from "./shapes";
 import { wrapped, type Space } from "./space";
 import { History, fragment, from_words, words, type PoseText, type State } from "./state";
-import { around_words, degrees, missing_words, pose_verdict, way_verdict } from "./verdict";
+import { around_words, degrees, in_digits, missing_words, pose_verdict, way_verdict } from "./verdict";
 import { frame_of, track_of, usual, words_of, type Gear, type Vehicle, type Wheels } from "./vehicle";
 import { NONE, clearance_of, words_of as words_of_wishes, type Wishes } from "./wishes";
 import type { FilePose, SceneText } from "./words";
@@ -299,7 +299,7 @@ export class Session {
       const clearance = value(answer, "clearance");
       const units = this.file.units ? ` ${this.file.units}` : "";
       if (verdict.tone === "good" && Number.isFinite(clearance))
-        verdict.text = `Free${cells.length ? `, in cell ${cells[0]}` : ""}; ${clearance.toPrecision(3)}${units} from obstacles.`;
+        verdict.text = `Free${cells.length ? `, in cell ${cells[0]}` : ""}; ${in_digits(clearance, 3)}${units} from obstacles.`;
       say("pose", verdict);
       return is_free;
     } catch (error) {
