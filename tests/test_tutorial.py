@@ -55,7 +55,15 @@ def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> 
 def test_each_tutorial_has_its_notebook_as_the_tool_writes_it() -> None:
     written = {path.name: path.read_text() for path in (EXAMPLES / "notebooks").glob("*.ipynb")}
     assert written == notebooks(), "run `make notebooks`"
-    trades = {"nest_parts", "cage_a_part", "take_apart", "audit_a_floor_plan", "park_a_car", "ompl_without_collisions"}
+    trades = {
+        "count_holes",
+        "nest_parts",
+        "cage_a_part",
+        "take_apart",
+        "audit_a_floor_plan",
+        "park_a_car",
+        "ompl_without_collisions",
+    }
     assert {f"{name}.ipynb" for name in (*trades, "teach_a_lesson")} <= {*written}
 
 
@@ -132,3 +140,10 @@ def test_teach_a_lesson(run: Run) -> None:
     names, said = run("teach_a_lesson")
     assert "0deg 9.0\n45deg 10.657\n" in said and "2 cells; turns: [0, 0]" in said
     assert "not even one that touches. verified" in said and names["proof"].of == "closed"
+
+
+@pytest.mark.slow
+def test_count_holes(run: Run) -> None:
+    _, said = run("count_holes")
+    counts = [line.split("(")[1].split(")")[0] for line in said.splitlines() if "long" in line]
+    assert counts == ["b0=1, b1=2, b2=1"] * 2 + ["b0=1, b1=5, b2=0"] * 2 and "\n-4.0 -4\n" in said

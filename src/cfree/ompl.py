@@ -37,6 +37,7 @@ from cfree.paths.path import Path
 from cfree.planning.separation import known_scene
 from cfree.planning.through_states import driven_path
 from cfree.scene.frame import frame_of
+from cfree.scene.goals import text_of
 from cfree.scene.scene import Scene, robot_radius
 from cfree.vehicles.vehicle import Vehicle
 
@@ -212,7 +213,8 @@ def to_path(path: Any, scene: Scene, vehicle: Vehicle | None = None) -> Path:
                 motions.append(motion)
                 continue
             if high - low < 2.0**-MOST_HALVINGS:
-                raise ValueError(f"motion {k} of {len(states) - 1} is not free near {low:.6g} of it")
+                place = f"near {low:.6g} of it: at {text_of(first)}"
+                raise ValueError(f"motion {k} of {len(states) - 1} is not free {place}")
             half = (low + high) / 2
             middle = Pose(*(a + half * d for a, d in zip(*sweep, strict=True)))
             todo += [(half, high, middle, last), (low, half, first, middle)]

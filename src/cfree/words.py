@@ -44,6 +44,18 @@ def ends(low: float, high: float, digits: int) -> tuple[str, str]:
     return f"{low:.{digits}g}", f"{high:.{digits}g}"
 
 
+def coordinate(value: float) -> str:
+    """Return a coordinate with three decimals, or with six digits if these are more; without an exponent.
+
+    Examples
+    --------
+    >>> coordinate(1021500.0), coordinate(2003000.25), coordinate(0.123456789), coordinate(-0.0), coordinate(1e300)
+    ('1021500', '2003000.25', '0.123457', '0', '1e+300')
+    """
+    before = math.floor(math.log10(abs(value))) + 1 if value and math.isfinite(value) else 0
+    return f"{value + 0.0:.{min(MOST_DIGITS - 1, max(6, before + 3))}g}"
+
+
 def near(value: float, size: float) -> str:
     """Return a coordinate to a hundredth of a size, however large it is.
 

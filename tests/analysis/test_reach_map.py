@@ -13,6 +13,7 @@ import pytest
 import shapely
 
 import cfree
+from cfree.curves import Arc
 from cfree.plot import plot_reach
 
 ROOM = [(0, 0), (9, 0), (9, 5), (0, 5)]
@@ -135,7 +136,19 @@ def test_turning_circles_have_their_closed_forms() -> None:
         2 * math.hypot(3, 4), rel=1e-14
     )  # to the right
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 2), vehicle=cfree.DifferentialDrive())
-    assert 4 <= cfree.turning_circle(scene) < 4.05
+    assert cfree.turning_circle(scene) == pytest.approx(4, rel=1e-14)
+
+
+def test_round_machines_turn_in_the_circle_of_their_arcs() -> None:
+    disc = cfree.Curved.circle((3, 4), 1)
+    bullet = cfree.Curved([(0, 0), (18, 0), Arc((18, 12), center=(18, 6)), (0, 12)])
+    grown = cfree.Curved([(-1, 0), (3, 0), (3, 4)], grown="1/2")
+    assert cfree.turning_circle(disc) == pytest.approx(12, rel=1e-14)
+    assert cfree.turning_circle(bullet) == pytest.approx(2 * (math.hypot(18, 6) + 6), rel=1e-14)
+    assert cfree.turning_circle(bullet, cfree.DifferentialDrive(axle=(30, 6))) == pytest.approx(
+        2 * math.hypot(30, 6), rel=1e-14
+    )  # away from the arc
+    assert cfree.turning_circle(grown) == pytest.approx(11, rel=1e-14)
 
 
 @pytest.mark.slow

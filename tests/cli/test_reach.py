@@ -108,3 +108,23 @@ def test_a_machine_is_named_by_its_file_or_by_its_name(tmp_path: Path) -> None:
         opening = ["--opening", "D=2.3,-4.1,3.25,-4.1", "--no-missing", "--json"]
         facts = json.loads(run("audit", CLINIC, "--machine", word, *opening).stdout)
         assert [door["machine"] for door in facts["doors"]] == [name]
+
+
+def test_machines_are_taken_in_the_unit_of_the_plan(tmp_path: Path) -> None:
+    room, wall = [[0, 0], [4000, 0], [4000, 3000], [0, 3000]], [[2000, 0], [2100, 0], [2100, 1900], [2000, 1900]]
+    square = {"outer": [[0, 0], [1, 0], [1, 1], [0, 1]]}
+    plan = {"version": 1, "units": "mm", "workspace": {"outer": room}, "obstacles": [{"outer": wall}], "robot": square}
+    (tmp_path / "plan.json").write_text(json.dumps(plan))
+    machines = []
+    for units, radius in (("m", 0.6), ("cm", 45), ("mm", 600)):
+        disc = {"version": 1, "units": units, "robot": {"circle": {"center": [0, 0], "radius": radius}}}
+        (tmp_path / f"{units}.json").write_text(json.dumps(disc))
+        machines += ["--machine", tmp_path / f"{units}.json"]
+    words = ["--opening", "D=2050,1900,2050,3000", "--no-missing"]
+    result = run("audit", tmp_path / "plan.json", *machines, *words, "--json")
+    assert [door["result"] for door in json.loads(result.stdout)["doors"]] == ["blocked", "passes", "blocked"]
+    assert "robot in m, converted to mm" in result.stderr
+    assert "1.1998 m is too narrow, 1.2002 m will do" in run("aisle", tmp_path / "m.json", "--kind", "straight").stdout
+    drawing = '<svg xmlns="http://www.w3.org/2000/svg"><rect id="wall" width="9" height="9"/></svg>'
+    (tmp_path / "plan.svg").write_text(drawing)
+    assert "there is no machine; give --machine" in run("audit", tmp_path / "plan.svg").stderr

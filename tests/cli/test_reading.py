@@ -281,7 +281,7 @@ def test_a_footprint_given_as_text_has_the_unit_of_the_drawing_which_is_reported
         scale = ("--scale", "0.001", "--units", "m") if unit == "m" else ()
         result = run("check", tmp_path / "a.svg", "--robot", "[[0.3, 0], [0, 0.3], [0, 0]]", *scale)
         assert result.exit_code == 0
-        assert ("footprint of --robot taken in mm" in result.stderr) == (unit == "mm")
+        assert ("footprint taken in mm" in result.stderr) == (unit == "mm")
 
 
 def test_the_frame_of_the_scene_is_that_of_its_poses(tmp_path: Path) -> None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
+import shapely
 
 import cfree
 from cfree import Curved
@@ -49,3 +52,11 @@ def test_a_picture_marks_overlaps_and_has_a_panel_for_each_sheet() -> None:
     figure = nesting.plot()
     assert len(figure.axes) == 2 and "1 overlap" in figure.get_suptitle()
     assert nesting._repr_svg_().startswith("<svg")
+
+
+def test_numbers_of_thin_parts_do_not_cover_each_other() -> None:
+    strip = Part([(0, 0), (120, 0), (120, 1), (0, 1)], "strip")
+    sheet = [(0, 0), (200, 0), (200, 100), (0, 100)]
+    (ax,) = Nesting([sheet], [Placed(strip, (0, y, 0)) for y in range(9)]).plot().axes
+    boxes = [shapely.box(*text.get_window_extent().extents) for text in ax.texts]
+    assert len(boxes) == 9 and not any((a & b).area for a, b in itertools.combinations(boxes, 2))

@@ -138,7 +138,7 @@ def test_cells_that_differ_are_separated(kind: str) -> None:
 def test_one_cell_and_forbidden_poses() -> None:
     space = room("1/9")
     assert separation(space, INSIDE, Pose("1/2", 0, "90deg")) is None
-    with pytest.raises(InvalidPoseError, match="goal \\(2, 0, 0\\) is forbidden"):
+    with pytest.raises(InvalidPoseError, match="goal \\(2, 0, 0 deg\\) is forbidden"):
         separation(space, INSIDE, Pose(2, 0))
 
 

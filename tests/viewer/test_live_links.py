@@ -14,7 +14,7 @@ from live_links import MOST, fragment
 from pages import Tried, bare_page
 
 ROOT = Path(__file__).parents[2]
-TRADES = ("nesting", "caging", "disassembly", "buildings", "forklift", "ompl", "teaching")
+TRADES = ("nesting", "caging", "disassembly", "buildings", "forklift", "for-geometers", "ompl", "teaching")
 LIVE = {
     page: re.findall(r"^```{live} (\S+)\n```$", (ROOT / "docs" / f"{page}.md").read_text(), re.M) for page in TRADES
 }

@@ -114,3 +114,20 @@ def test_a_hostile_svg_runs_nothing_and_loads_nothing(tried: Tried) -> None:
     blocked = [fault for fault in tried.faults if fault.startswith("Executing inline event handler violates")]
     for fault in blocked:  # some browsers tell so: no other is left for the end
         tried.faults.remove(fault)
+
+
+def test_a_drawing_without_start_and_goal_gets_them_where_the_robot_is(tried: Tried) -> None:
+    shapes = '<rect id="robot" x="20" y="40" width="30" height="20"/><rect x="100" y="0" width="9" height="60"/>'
+    room = '<rect id="workspace" width="240" height="100" fill="none" stroke="#000"/>'
+    drawing = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 240 100">{room}{shapes}</svg>'
+    tried.built(lambda: tried.give(drawing, "drawing.svg"))
+    tried.say("#pose", "Free")  # where it is drawn
+    tried.say("#way", "No start and goal in this scene")
+    tried.page.click("#start-here")
+    tried.say("#way", "No goal in this scene")
+    tried.drag("robot", 100, 60)
+    tried.page.click("#goal-here")
+    tried.say("#way", "motion")
+    assert not tried.page.locator("#start-here, #goal-here").filter(visible=True).count()
+    tried.page.click("#undo")
+    tried.say("#way", "No goal in this scene")

@@ -127,6 +127,8 @@ const actions: Record<string, () => void> = {
   draw: () => editor.draw(),
   remove: () => editor.remove(),
   "frame-proof": () => space?.frame_barrier(),
+  "start-here": () => session.mark_end("start"),
+  "goal-here": () => session.mark_end("goal"),
 };
 for (const [id, action] of Object.entries(actions)) if (id !== "save") $(id).addEventListener("click", action);
 $("save").addEventListener("change", () => {
@@ -210,6 +212,8 @@ document.addEventListener("keydown", (event) => {
   };
   const keys: Record<string, () => void> = {
     " ": actions.play!,
+    s: actions["start-here"]!,
+    g: actions["goal-here"]!,
     x: () => toggle("cut"),
     f: () => {
       workspace.fit();

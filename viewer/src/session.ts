@@ -5,7 +5,7 @@ import { $, fault, say, working } from "./page";
 import { digits, number } from "./shapes";
 import { wrapped, type Space } from "./space";
 import { History, fragment, from_words, words, type PoseText, type State } from "./state";
-import { around_words, degrees, missing_words, pose_verdict, way_verdict } from "./verdict";
+import { around_words, degrees, in_digits, missing_words, pose_verdict, way_verdict } from "./verdict";
 import { frame_of, track_of, usual, words_of, type Gear, type Vehicle, type Wheels } from "./vehicle";
 import { NONE, clearance_of, words_of as words_of_wishes, type Wishes } from "./wishes";
 import type { FilePose, SceneText } from "./words";
@@ -96,9 +96,7 @@ export class Session {
       const file: SceneText = JSON.parse(string(read, "file"));
       const start = of?.start ?? (file.start && (await this.text_of(file.start)));
       const goal = of?.goal ?? (file.goal && (await this.text_of(file.goal, start?.tau))); // a goal without an angle has the start's
-      const box = box_of(read);
-      const middle = (k: 0 | 1) => ((box[k] + box[k + 2]!) / 2).toFixed(2);
-      const robot = of?.robot ?? start ?? { x: middle(0), y: middle(1), tau: "0" };
+      const robot = of?.robot ?? start ?? (await this.robot_alone(read));
       const vehicle = of?.vehicle ?? file.vehicle;
       const state: State = {
         source,
@@ -119,6 +117,16 @@ export class Session {
     }
     this.remember();
     await this.build(true);
+  }
+
+  // The pose of a robot without a start: its own in a drawing among the shapes, if it is free there, or else the middle.
+  private async robot_alone(read: Columns): Promise<PoseText> {
+    const drawn = { x: "0", y: "0", tau: "0" };
+    const box = box_of(read);
+    const is_among = doubles(read, "robot.xy").every((c, k) => box[k % 2]! <= c && c <= box[(k % 2) + 2]!);
+    if (is_among && value(await this.quick.call("pose", words(drawn)), "free") === 1) return drawn;
+    const middle = (k: 0 | 1) => ((box[k] + box[k + 2]!) / 2).toFixed(2);
+    return { ...drawn, x: middle(0), y: middle(1) };
   }
 
   // Show the state with the scene that was read. A new scene gets a new view; an edited one keeps its view.
@@ -291,7 +299,7 @@ export class Session {
       const clearance = value(answer, "clearance");
       const units = this.file.units ? ` ${this.file.units}` : "";
       if (verdict.tone === "good" && Number.isFinite(clearance))
-        verdict.text = `Free${cells.length ? `, in cell ${cells[0]}` : ""}; ${clearance.toPrecision(3)}${units} from obstacles.`;
+        verdict.text = `Free${cells.length ? `, in cell ${cells[0]}` : ""}; ${in_digits(clearance, 3)}${units} from obstacles.`;
       say("pose", verdict);
       return is_free;
     } catch (error) {
@@ -305,8 +313,12 @@ export class Session {
     const { start, goal, source, vehicle } = this.now;
     const { wishes } = this;
     this.end_missing();
-    if (!start || !goal)
-      return say("way", { tone: "plain", text: start || goal ? "" : "No start and goal in this scene." });
+    $("start-here").hidden = start !== undefined;
+    $("goal-here").hidden = goal !== undefined;
+    if (!start || !goal) {
+      const missing = start ? "goal" : goal ? "start" : "start and goal";
+      return say("way", { tone: "plain", text: `No ${missing} in this scene: drag the robot there, and mark it.` });
+    }
     $("way").classList.add("old");
     const slow = setTimeout(() => {
       this.is_waiting = true;
@@ -451,6 +463,16 @@ export class Session {
       void this.ask_slice();
     }
     this.keep({ ...this.now, robot: reached }, drag.done);
+  }
+
+  // Put start or goal where the robot is.
+  mark_end(who: "start" | "goal"): void {
+    this.stop_playing();
+    const { robot } = this.now;
+    this.seen[who] = seen_of(robot);
+    this.place(who);
+    this.keep({ ...this.now, [who]: robot }, true);
+    void this.ask_way(true);
   }
 
   // The vehicle that is shown, or was before the robot moved in any direction, or a guess.

@@ -557,7 +557,10 @@ const SETTINGS = ["bounds", "start", "goal", "goals", "vehicle", "units", "note"
 export function scene_of_svg(content: string, file: string): Drawing {
   const document = parsed(content);
   const fault = document.querySelector("parsererror");
-  if (fault) throw new Error(`${file}: no SVG: ${fault.textContent!.replace(/\s+/g, " ").slice(0, 160)}`);
+  if (fault) {
+    const [line] = /error on line [^\n]*/.exec(fault.textContent!) ?? [fault.textContent!];
+    throw new Error(`${file}: no SVG: ${line.replace(/\s+/g, " ").slice(0, 160)}`);
+  }
   const svg = document.documentElement;
   const reader = new Reader(file);
   if (svg.localName !== "svg") throw reader.unread(`the element ${svg.localName.slice(0, 40)}, not svg`);

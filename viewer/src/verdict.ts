@@ -3,6 +3,11 @@ import { type Columns, bytes, doubles, integers, string, value } from "./engine"
 import type { Vehicle } from "./vehicle";
 
 export const degrees = (theta: number) => `${((theta * 180) / Math.PI).toFixed(1).replace(/\.0$/, "")}°`;
+// A number with some digits, and all those before the point.
+export function in_digits(of: number, count: number): string {
+  const short = of.toPrecision(count);
+  return short.includes("e+") ? of.toFixed(0) : short;
+}
 export type Tone = "good" | "touch" | "bad" | "proof" | "plain";
 export interface Verdict {
   tone: Tone;
@@ -61,7 +66,7 @@ export function around_words(scene: Columns, names: string[], units: string): st
   if (!owners.length) return "";
   const some = owners.slice(0, 2).map((k) => (k === -3 ? "the robot" : obstacle_name(names, k)));
   if (owners.length > 2) some.push(`${owners.length - 2} more`);
-  const within = `${value(scene, "around").toPrecision(2)}${units && ` ${units}`}`;
+  const within = `${in_digits(value(scene, "around"), 2)}${units && ` ${units}`}`;
   return ` · ${joined(some)}: drawn as ${owners.length > 1 ? "polygons" : "a polygon"} around the arcs, within ${within}`;
 }
 
@@ -84,7 +89,7 @@ const kept = (clearance: string, units: string) => `that keeps ${clearance}${uni
 
 function path_words(columns: Columns, units: string, vehicle: Vehicle | undefined, clearance: string): string {
   const pieces = value(columns, "motions");
-  const length = `length ${value(columns, "length").toPrecision(3)}${units ? ` ${units}` : ""}`;
+  const length = `length ${in_digits(value(columns, "length"), 3)}${units ? ` ${units}` : ""}`;
   if (columns.gear) {
     const cusps = value(columns, "cusps");
     const changes = `${many(cusps, "change")} of direction`;
@@ -125,11 +130,13 @@ export function way_verdict(
   clearance = "",
 ): Verdict {
   const verdict = string(columns, "verdict");
-  if (verdict.endsWith("forbidden"))
-    return {
-      tone: "bad",
-      text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot ${clearance ? `is nearer than ${clearance}${units && ` ${units}`} to` : "overlaps"} ${obstacle_name(names, integers(columns, "pair")[1]!)}.`,
-    };
+  if (verdict.endsWith("forbidden")) {
+    const owner = integers(columns, "pair")[1]!;
+    const overlaps = owner < 0 ? "overlaps the outside of" : "overlaps";
+    const how = clearance ? `is nearer than ${clearance}${units && ` ${units}`} to` : overlaps;
+    const end = verdict.startsWith("start") ? "Start" : "Goal";
+    return { tone: "bad", text: `${end}: the robot ${how} ${obstacle_name(names, owner)}.` };
+  }
   if (verdict === "path") return { tone: "good", text: path_words(columns, units, vehicle, clearance) };
   if (verdict === "apart") {
     const owners = [...integers(columns, "obstacles")];
@@ -161,19 +168,17 @@ export function missing_words(found: Columns, units: string): string {
   if (found.verdict === "unknown")
     return "How much is missing is not computed here for this robot: `cfree plan --nearest-miss` tells.";
   const [low, high] = [value(found, "lo"), value(found, "hi")];
-  const digits = (length: number) => Number(length.toPrecision(3));
+  const short = (length: number) => Number(length.toPrecision(3));
   const unit = units && ` ${units}`;
   const proved = value(found, "proved") === 1 ? "" : " The page does not decide between the two.";
-  return `Missing: the robot gets there if all its sides move inwards by ${digits(high)}${unit}, and not by ${digits(low)}${unit}. It is about ${digits(2 * high)}${unit} too wide.${proved}`;
+  return `Missing: the robot gets there if all its sides move inwards by ${short(high)}${unit}, and not by ${short(low)}${unit}. It is about ${short(2 * high)}${unit} too wide.${proved}`;
 }
 
 // "Cell 5: volume 1.24, caged: obstacles alone enclose it; the robot cannot turn round in it."
 export function cell_words(k: number, cell: Columns, units: string): string {
   const volume = value(cell, "volume");
   const turns = value(cell, "turns");
-  const size = Number.isFinite(volume)
-    ? `volume ${volume.toPrecision(4)}${units ? ` ${units}²` : ""} rad`
-    : "unbounded";
+  const size = Number.isFinite(volume) ? `volume ${in_digits(volume, 4)}${units ? ` ${units}²` : ""} rad` : "unbounded";
   const caged =
     value(cell, "caged") === 1
       ? "caged: obstacles alone enclose it"
@@ -192,7 +197,7 @@ export function patch_words(found: Columns, names: string[]): string {
     contact_words(found, "trims", k, names),
   );
   const more = trims.length > 4 ? ` and ${trims.length - 4} more` : "";
-  const digits = (name: string) => value(found, name).toPrecision(4);
+  const number = (name: string) => in_digits(value(found, name), 4);
   const place =
     bytes(found, "contact.kind")[0] === 2
       ? `S(ψ, φ) at ψ = ${degrees(value(found, "t"))}`
@@ -200,7 +205,7 @@ export function patch_words(found: Columns, names: string[]): string {
   return [
     contact_words(found, "contact", 0, names),
     `${place}, φ = ${degrees(value(found, "phi"))}`,
-    `K = ${digits("K")}, H = ${digits("H")}`,
+    `K = ${number("K")}, H = ${number("H")}`,
     `left of it: φ from ${degrees(low)} to ${degrees(high)}`,
     trims.length ? `trimmed by: ${trims.slice(0, 4).join("; ")}${more}` : "trimmed by nothing",
   ].join("\n");

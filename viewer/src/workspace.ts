@@ -2,6 +2,7 @@
 import { type Columns, bytes, doubles, integers } from "./engine";
 import type { Track, Wheels } from "./vehicle";
 import { corners_of, outline, to_point } from "./outlines";
+import { in_digits } from "./verdict";
 import { FINGER, Pointers, type Pinch, type Place } from "./pointers";
 
 export type Who = "robot" | "start" | "goal";
@@ -237,7 +238,7 @@ export class Workspace {
     if (tone) group.dataset.tone = tone;
     group.setAttribute(
       "aria-label",
-      `${who}: x ${at.x.toPrecision(4)}, y ${at.y.toPrecision(4)}, turned by ${turn.toFixed(1)} degrees`,
+      `${who}: x ${in_digits(at.x, 4)}, y ${in_digits(at.y, 4)}, turned by ${turn.toFixed(1)} degrees`,
     );
     const reach = this.radius + 16 * px;
     const set = (selector: string, of: Record<string, number | string>) => {

@@ -5,6 +5,7 @@ import {
   cell_words,
   contact_words,
   degrees,
+  in_digits,
   missing_words,
   obstacle_name,
   patch_words,
@@ -213,4 +214,11 @@ test("how much is missing is an inset, none, or not computed", () => {
   assert.match(missing_words({ ...found, ...numbers({ proved: 0 }) }, ""), /does not decide between the two\.$/);
   assert.match(missing_words({ verdict: "none" }, ""), /no inset that leaves all sides of the robot helps/);
   assert.match(missing_words({ verdict: "unknown" }, ""), /`cfree plan --nearest-miss` tells/);
+});
+
+test("numbers have some digits, and all before the point", () => {
+  assert.deepEqual(
+    [in_digits(4009.2, 3), in_digits(0.012345, 3), in_digits(1005000.4, 4), in_digits(5.5e-7, 3), in_digits(999.96, 4)],
+    ["4009", "0.0123", "1005000", "5.50e-7", "1000"],
+  );
 });

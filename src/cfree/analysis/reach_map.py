@@ -15,13 +15,17 @@ from typing import Any, Literal
 from cfree.arguments import checked
 from cfree.collision.nearest_free import require_free
 from cfree.curves.curved import Curved
+from cfree.curves.drawn import Line
+from cfree.curves.rings import Span
 from cfree.errors import InvalidPoseError, UnsupportedError
 from cfree.exact.number import ExactPoint, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.exact.vectors import dot, minus
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace, free_space
 from cfree.libraries import Floats, NDArray, np, shapely
-from cfree.scene.scene import Scene, box_of, polygons_around, with_ends, with_shapes, with_vehicle
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import AnyShape, Scene, box_of, polygons_around, with_ends, with_shapes, with_vehicle
 from cfree.value import Value
 from cfree.vehicles.vehicle import Car, Vehicle
 from cfree.words import counted
@@ -245,7 +249,7 @@ def turning_circle(robot: Any, vehicle: Vehicle | None = None) -> float:
     Returns
     -------
     float
-        Rounded up. Of round shapes with curves other than arcs it is that of polygons around them.
+        Rounded up. Of curves other than arcs of circles it is that of polygons around them.
 
     Examples
     --------
@@ -284,14 +288,28 @@ def refuse_forward_only(vehicle: Vehicle | None) -> None:
 
 def _farthest(scene: Scene, center: ExactPoint) -> float:
     """Return the distance of a robot's farthest point from a point of its plane, rounded up."""
-    x, y = center
-    squares = [
-        (to_fraction(p) - x) ** 2 + (to_fraction(q) - y) ** 2
-        for part in scene.robot
-        for polygon in polygons_around(part)
-        for p, q in polygon.exact_vertices
-    ]
-    return math.sqrt(float(max(squares))) * ROUNDED_UP
+    return max(_reach(part, center) for part in scene.robot) * ROUNDED_UP
+
+
+def _reach(part: AnyShape, center: ExactPoint) -> float:
+    if isinstance(part, Polygon):
+        return math.sqrt(max(dot(v, v) for v in (minus(p, center) for p in part.exact_vertices)))
+    outer = part.curves[0]
+    pieces = [piece for piece in outer if isinstance(piece, Line) or (isinstance(piece, Span) and piece.is_circular)]
+    if len(pieces) == len(outer):
+        return max(_reach_of(piece, center) for piece in pieces) + float(part.grown)
+    return max(_reach(polygon, center) for polygon in polygons_around(part))
+
+
+def _reach_of(piece: Line | Span, center: ExactPoint) -> float:
+    """Return the distance of the farthest point of a line or an arc of a circle, without its start."""
+    last = minus(piece.end, center)
+    away = math.sqrt(dot(last, last))
+    if isinstance(piece, Line):
+        return away
+    out = minus(piece.center, center)
+    angle = math.atan2(dot(out, piece.v), dot(out, piece.u)) % math.tau if any(out) else 0.0
+    return max(away, math.sqrt(dot(out, out)) + math.sqrt(dot(piece.u, piece.u))) if angle <= piece.sweep else away
 
 
 def _cells_of(space: FreeSpace, pose: Pose, name: str) -> set[int]:

@@ -27,6 +27,7 @@ from cfree.exact.vectors import cross, dot, minus
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape, Scene, polygons_for, shapes_in, size_of
+from cfree.words import coordinate
 
 Finger = ExactPoint | AnyShape
 FIRST, NEXT, MOST = 10, 10, 50  # sizes of triangles: bits below that of the body
@@ -179,6 +180,7 @@ def radius_of(shape: AnyShape) -> tuple[ExactPoint, Fraction] | None:
 def _triangle(body: Sequence[AnyShape], point: ExactPoint, pose: Pose, size: Fraction, k: int) -> Polygon:
     """Return a triangle with a corner at a point, at most so large, that the body does not overlap."""
     x, y = point
+    where = f"({coordinate(float(x))}, {coordinate(float(y))})"
     almost = False
     for _ in range(HALVINGS):
         for u, v in UNITS:
@@ -192,11 +194,11 @@ def _triangle(body: Sequence[AnyShape], point: ExactPoint, pose: Pose, size: Fra
         size /= 2
     if almost:
         raise UndecidedError(
-            f"undecided: finger {k} at ({float(x):g}, {float(y):g}) touches the body, or almost does, at a curve that "
+            f"undecided: finger {k} at {where} touches the body, or almost does, at a curve that "
             "is not an arc; move the finger off it, or give polygons for the body: scene.outer(error)"
         )
     raise InvalidPoseError(
-        f"pose: finger {k} at ({float(x):g}, {float(y):g}) is inside the body, or in a notch of it that is too narrow; "
+        f"pose: finger {k} at {where} is inside the body, or in a notch of it that is too narrow; "
         "move the finger or the body"
     )
 

@@ -47,6 +47,8 @@ class Immobility(Value):
         If an exact motion decides: it is free.
     body, fingers, pose
         As given.
+    units : str
+        Unit of lengths, for pictures; ``cfree cage`` has that of the scene.
     """
 
     verdict: Literal["immobile", "mobile", "undecided"]
@@ -57,6 +59,7 @@ class Immobility(Value):
     body: tuple[AnyShape, ...]
     fingers: tuple[Finger, ...]
     pose: Pose
+    units: str = ""
 
     def __bool__(self) -> bool:
         return self.verdict == "immobile"

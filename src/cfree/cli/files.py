@@ -69,7 +69,7 @@ def read_source(source: Path, curves: Curves = "rounded") -> Scene | Boundary:
     return read_scene(source, curves)
 
 
-def without_curves(scene: Scene, source: Path, *, keep_rounded: bool = False) -> Scene:
+def without_curves(scene: Scene, source: Path, *, keep_rounded: bool = False, remedy: str = "--tolerance") -> Scene:
     """Replace round shapes by polygons around them, within --tolerance, and report them; rounded ones may stay."""
     from cfree.formats.conversion import as_exact, straightened
     from cfree.scene.reading import together
@@ -77,7 +77,7 @@ def without_curves(scene: Scene, source: Path, *, keep_rounded: bool = False) ->
 
     if not scene.curved:
         return scene
-    straight, notes = (as_exact if keep_rounded else straightened)(scene, drawing.tolerance(), remedy="--tolerance")
+    straight, notes = (as_exact if keep_rounded else straightened)(scene, drawing.tolerance(), remedy=remedy)
     if not notes:
         return scene
     report(notes, Path(f"polygons of {source}"))

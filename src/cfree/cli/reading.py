@@ -74,7 +74,7 @@ def unit_of_text(units: str, shapes: Shapes) -> tuple[Note, ...]:
     """Return a note about the unit of a footprint given as text, unless it is the usual one."""
     from cfree.scene.reading import Note, of_file
 
-    notes = () if units in ("", "m") else (Note("info", f"footprint of --robot taken in {units}"),)
+    notes = () if units in ("", "m") else (Note("info", f"footprint taken in {units}"),)
     return notes if shapes.form == "scene" else of_file(notes, shapes.file)
 
 

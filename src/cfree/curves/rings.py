@@ -18,6 +18,7 @@ from cfree.errors import InvalidPolygonError
 from cfree.exact.half_angle import Angle
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose
+from cfree.words import coordinate
 
 Point = Sequence[Number]
 DEGREE = 3  # degree of splines
@@ -321,7 +322,7 @@ def _span(start: ExactPoint, arc: Arc) -> Span:
     c, s = (x * v[1] - y * v[0]) / det, (u[0] * y - u[1] * x) / det
     if c * c + s * s != 1:
         remedy = "give a point that it goes through instead of the center" if arc.conjugate is None else "give another"
-        end = f"({float(arc.to[0]):g}, {float(arc.to[1]):g})"
+        end = f"({coordinate(float(arc.to[0]))}, {coordinate(float(arc.to[1]))})"
         raise InvalidPolygonError(f"{end} is not on it, by a part of {float(abs(c * c + s * s - 1) / 2):.1e}; {remedy}")
     quarters = 0
     while not (c > 0 and s >= 0):

@@ -18,9 +18,10 @@ from cfree.exact.pose import Pose
 from cfree.film.contact_motions import Moment
 from cfree.film.plane import TOUCH, Plane, edge_number, obstacle_name, whole
 from cfree.film.space import Space
+from cfree.forbidden.kinds import COLOURS, KINDS
 from cfree.forbidden.patch import Contact
-from cfree.palette import EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, FREE, GREY, HELIX, INK, RIM, VERTEX_EDGE
-from cfree.plot.boundary import extent, roomy, with_unit
+from cfree.palette import EDGE_EDGE, FORBIDDEN, FREE, GREY, HELIX, INK, RIM
+from cfree.plot.boundary import contact_kinds, extent, roomy, with_unit
 from cfree.plot.gears import Gears
 
 if TYPE_CHECKING:
@@ -127,7 +128,7 @@ class Stage:
         self.pose = figure.text(1 - left, 1 - 0.63 / height, "", fontsize=10.5, ha="right", family=MONO, **text)
         self.dot = figure.text(left, 0.33 / height, "●", fontsize=16, va="center")
         self.caption = figure.text(left + 0.25 / width, 0.34 / height, "", fontsize=12.5, **text)
-        legend(figure, 0.34 / height, 6 if width > ROOMY else 3, {"forbidden": FORBIDDEN, "free": FREE})
+        legend(figure, boundary, 0.34 / height, 6 if width > ROOMY else 3, {"forbidden": FORBIDDEN, "free": FREE})
 
     def draw(self, view: View) -> Image:
         """Draw the frame as (height, width, 3) bytes."""
@@ -175,11 +176,10 @@ def caption(contact: Contact | None) -> str:
     return f"{contact.kind} contact: {first} on {second} of {obstacle_name(b)}"
 
 
-def legend(figure: Figure, y: float, columns: int, regions: dict[str, str]) -> None:
-    """Add a legend of the contacts' colours, and of the regions' colours given."""
+def legend(figure: Figure, boundary: Boundary, y: float, columns: int, regions: dict[str, str]) -> None:
+    """Add a legend of the colours of contacts in a boundary, and of the regions' colours given."""
     handles = [
-        Patch(color=VERTEX_EDGE, label="v-e patch"),
-        Patch(color=EDGE_VERTEX, label="e-v patch"),
+        *(Patch(color=COLOURS[kind], label=f"{KINDS[kind]} patch") for kind in contact_kinds(boundary)),
         Line2D([], [], color=HELIX, lw=2.5, label="v-v helix"),
         Line2D([], [], color=EDGE_EDGE, lw=2.5, label="e-e line"),
         *(Patch(facecolor=colour, label=name) for name, colour in regions.items()),

@@ -55,7 +55,7 @@ class Turntable:
         self.figure.text(0.2 / width, 1 - 0.3 / height, title, fontsize=16, weight="bold", **text)
         note = f"{boundary.patch_counts} bound the forbidden space"
         self.figure.text(0.2 / width, 1 - 0.63 / height, note, fontsize=12, **text | {"color": GREY})
-        legend(self.figure, 0.25 / height, 5, {"section at 360°": FORBIDDEN})
+        legend(self.figure, boundary, 0.25 / height, 6, {"section at 360°": FORBIDDEN})
 
     def draw(self, azimuth: float) -> Image:
         """Draw the frame from an azimuth in radians, as (height, width, 3) bytes."""

@@ -146,8 +146,9 @@ def _closest(arcs: ArcScene, pose: Pose, motion: Motion) -> tuple[float, float]:
     while high - low > SHORTEST:
         shares = np.linspace(low, high, SAMPLES)
         poses = motion.sample(pose, shares)
-        below = (arcs.distance(poses[k])[0] for k in range(SAMPLES))
-        best = min(best, min(zip(below, shares.tolist(), strict=True)))
+        bounds = (arcs.distance(poses[k]) for k in range(SAMPLES))
+        distances = ((low + high) / 2 if low else 0.0 for low, high in bounds)
+        best = min(best, min(zip(distances, shares.tolist(), strict=True)))
         width = (high - low) / (SAMPLES - 1)
         low, high = max(0.0, best[1] - width), min(1.0, best[1] + width)
     return best

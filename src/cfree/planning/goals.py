@@ -27,7 +27,7 @@ from cfree.scene.digest import Stamp
 from cfree.scene.goals import Goal, to_goals
 from cfree.scene.scene import Scene
 from cfree.value import Answer, Shown
-from cfree.words import counted
+from cfree.words import coordinate, counted
 
 if TYPE_CHECKING:
     from cfree.planning.options import Options
@@ -181,7 +181,7 @@ def name_of(goals: Sequence[Goal], k: int) -> str:
 
 def no_orientation(name: str, place: ExactPoint, clearance: Fraction = Fraction(0)) -> InvalidPoseError:
     """Return the error of a place at which no orientation is free, or keeps a clearance."""
-    where = f"{name} ({float(place[0]):g}, {float(place[1]):g})"
+    where = f"{name} ({coordinate(float(place[0]))}, {coordinate(float(place[1]))})"
     if not clearance:
         return InvalidPoseError(f"{where}: no orientation is free there; give another place")
     near = f"the robot is nearer to something than {float(clearance):g}"

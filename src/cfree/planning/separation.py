@@ -28,7 +28,7 @@ from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.digest import Stamp, Whole
 from cfree.scene.features import SceneFeatures, unpacked
 from cfree.scene.frame import frame_of
-from cfree.scene.goals import Moved
+from cfree.scene.goals import Moved, text_of
 from cfree.scene.rounded import Cores
 from cfree.scene.scene import Bounds, Scene
 from cfree.value import Answer, Shown, Value
@@ -282,7 +282,7 @@ def separation(
     cells = space.locate([start, goal]).tolist()
     for name, pose, cell in zip(("start", "goal"), (start, goal), cells, strict=True):
         if cell == FORBIDDEN:
-            raise InvalidPoseError(f"{name} ({float(pose.x):g}, {float(pose.y):g}, {pose.theta:g}) is forbidden")
+            raise InvalidPoseError(f"{name} {text_of(pose)} is forbidden")
     if start == goal or space.common_cell(start, goal) is not None:
         return None
     scene = space.boundary.scene

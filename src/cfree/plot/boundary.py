@@ -173,7 +173,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     _draw_fits(space, isolated_lines(boundary))
     set_space(space, window, boundary.scene.units)
     handles = [
-        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in _contact_kinds(boundary)),
+        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in contact_kinds(boundary)),
         Line2D([], [], color=Colours.helix, label="joint" if boundary.scene.curved else "v-v helix"),
         Line2D([], [], color=Colours.edge_edge, label="e-e line"),
         Patch(facecolor=COLOURS[PatchKind.BOUND], edgecolor=GREY, alpha=0.4, label="bounds"),
@@ -294,7 +294,7 @@ def set_ticks(axis: Any, count: int) -> None:
     low, high = axis.get_view_interval()
     ticks = MaxNLocator(count).tick_values(low, high)
     ticks = ticks[np.abs(ticks - (low + high) / 2) < CORNER * (high - low) / 2]
-    axis.set_ticks(ticks, [f"{tick:g}".replace("-", "\N{MINUS SIGN}") for tick in ticks.tolist()])
+    axis.set_ticks(ticks, [number_on_axis(tick) for tick in ticks.tolist()])
 
 
 def new_axes(size: tuple[float, float], place: tuple[float, float, float, float] = (0.1, 0.15, 0.86, 0.77)) -> Axes:
@@ -335,6 +335,12 @@ def space_numbers(ax: Axes) -> None:
     box, inch = ax.get_window_extent(), ax.figure.dpi
     for axis, inches in ((ax.xaxis, box.width / 0.8 / inch), (ax.yaxis, box.height / 0.4 / inch)):
         axis.set_major_locator(MaxNLocator(int(np.clip(inches, 1, 6))))
+        axis.set_major_formatter(lambda value, _: number_on_axis(value))
+
+
+def number_on_axis(value: float) -> str:
+    """Write the number of a tick in full, so that no offset or power of ten stands elsewhere."""
+    return f"{value + 0.0:.12g}".replace("-", "\N{MINUS SIGN}")
 
 
 def with_unit(name: str, units: str) -> str:
@@ -353,7 +359,7 @@ def plain(text: str) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text).replace("$", r"\$")
 
 
-def _contact_kinds(boundary: Boundary) -> list[PatchKind]:
+def contact_kinds(boundary: Boundary) -> list[PatchKind]:
     """Return the kinds of contact patches for a legend: all live ones among round shapes, else both."""
     if not boundary.scene.curved:
         return [PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX]

@@ -29,6 +29,7 @@ from cfree.plot.boundary import around, new_figure, plain, set_window
 from cfree.plot.headed import headed, new_picture, window_of
 from cfree.plot.labels import BODY, Labels
 from cfree.plot.looks import looks, of_polygons, own
+from cfree.plot.names import put_inside
 from cfree.plot.unrolled import Range
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
 from cfree.scene.scene import AnyShape, Scene, polygons_for, size_of
@@ -40,9 +41,6 @@ ROOM = 0.25  # beside all parts, in shares of their extent
 FAINT = 0.25  # opacity of a part on its way
 STEPS, TURNS = 25, 48  # poses of a grid inside of a cage, along a side and around
 ACROSS = 3  # panels beside each other
-PLACES = 15  # of a name in its part, along a side
-BEYOND = 0.2  # cost of a name's area outside of its part, in that of text below it
-SMALL = 12  # pixels: names of smaller parts are beside them
 SHARE = 0.12  # length of a normal, in shares of the picture
 
 
@@ -107,7 +105,7 @@ def plot_immobility(answer: Immobility) -> Figure:
     draw_surroundings(ax, scene)
     for pose in moved:
         draw_robot(ax, scene, pose, faint=True, mark=False)
-    draw_robot(ax, scene, answer.pose, faint=False)
+    draw_robot(ax, scene, answer.pose, faint=False, mark=False)  # an arrow ahead would look like a velocity
     _draw_points(ax, answer.fingers)
     arrow = {"arrowstyle": "->", "color": BARRIER, "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0}
     for contact in answer.contacts:
@@ -115,7 +113,7 @@ def plot_immobility(answer: Immobility) -> Figure:
         u, v = (size * n / np.hypot(*n)).tolist() if n.any() else (0.0, 0.0)
         ax.annotate("", xy=(x + u, y + v), xytext=(x, y), arrowprops=arrow, zorder=8)
         ax.plot(x, y, "o", color=MARK, markersize=5, zorder=8)
-    set_window(ax, window, "")
+    set_window(ax, window, answer.units)
     headed(figure, scene, *answer.sentence().split(": ", 1))
     return figure
 
@@ -276,40 +274,7 @@ def _name(ax: Any, scene: Scene, own: Sequence[str] = ()) -> None:
         part = shapely.get_geometry(shape, 0)
         middle = shapely.maximum_inscribed_circle(part, 1e-2 * math.sqrt(part.area)).coords[0]
         style = {"ha": "center", "va": "center", "fontsize": 9, "color": INK, "path_effects": halo, "zorder": 9}
-        _put_inside(ax, ax.text(*middle, plain(name), **style), part)
-
-
-def _put_inside(ax: Any, text: Any, part: shapely.Geometry) -> None:
-    """Move a name, within its part and in lines if need be, to a place where it covers no other text.
-
-    The name of a part that is too small to be seen, such as a finger that is a point, is above or below it.
-    """
-    ax.apply_aspect()
-    others = shapely.union_all([_box_of(other) for other in ax.texts if other is not text])
-    x0, y0, x1, y1 = part.bounds
-    xs, ys = np.linspace(x0, x1, PLACES), np.linspace(y0, y1, PLACES)
-    grid = shapely.points([(x, y) for x in xs for y in ys])
-    inside = [text.get_position(), *shapely.get_coordinates(grid[shapely.contains(part, grid)]).tolist()]
-    window, own = shapely.box(*ax.get_window_extent().extents), shapely.transform(part, ax.transData.transform)
-    u0, v0, u1, v1 = own.bounds
-    if max(u1 - u0, v1 - v0) < SMALL:
-        beside = [((u0 + u1) / 2, v1 + SMALL), ((u0 + u1) / 2, v0 - SMALL)]
-        inside = ax.transData.inverted().transform(beside).tolist()
-    costs = list[tuple[float, str, Any]]()
-    for form in dict.fromkeys([text.get_text(), text.get_text().replace(" ", "\n")]):
-        text.set_text(form)
-        for place in inside:
-            text.set_position(place)
-            box = _box_of(text)
-            costs.append(((box & others).area + (box - window).area + BEYOND * (box - own).area, form, place))
-    _, form, place = min(costs, key=lambda cost: cost[0])
-    text.set_text(form)
-    text.set_position(place)
-
-
-def _box_of(text: Any) -> shapely.Geometry:
-    """Return the box of a text in pixels."""
-    return shapely.box(*text.get_window_extent().extents)
+        put_inside(ax, ax.text(*middle, plain(name), **style), part)
 
 
 def _swept(scene: Scene, start: Pose, box: Window, degrees: Range) -> Any:

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.libraries import Floats
+from cfree.libraries import Floats, shapely
 from cfree.nesting.checking import overlaps, statement
 from cfree.nesting.layout import Nesting
 from cfree.nesting.nofit import NFP, InnerFit
 from cfree.nesting.rounded import RoundedFit
 from cfree.nesting.writing import fine
 from cfree.palette import CATEGORIES, FORBIDDEN, FREE, INK, LOST, MARK, OBSTACLE_RIM, WALL, paler
+from cfree.plot.names import put_inside
 from cfree.plot.workspace import path_of
 from cfree.scene.scene import AnyShape
 
@@ -46,14 +47,17 @@ def picture_of_nesting(nesting: Nesting) -> Figure:
                 colour = LOST if k in wrong else colours[one.part.name]
                 for shape in one.shapes:
                     _draw(ax, shape, facecolor=colour, edgecolor=OBSTACLE_RIM, linewidth=0.6, alpha=0.9)
-                if len(nesting.placed) <= MOST_LABELS:
-                    x, y = _middle(one.shapes)
-                    ax.text(x, y, str(k), ha="center", va="center", fontsize=7, color=INK)
         ax.set_xlabel(nesting.units)
         _finish(ax)
     share = f"{100 * nesting.density:.1f} % of the used sheets; " if nesting.sheets else ""
     left = sum(part.quantity for part in nesting.left)
     figure.suptitle(f"{share}{statement(found)}{f'; {left} left' if left else ''}", fontsize=11)
+    if len(nesting.placed) <= MOST_LABELS:
+        figure.draw_without_rendering()  # gives the axes their places
+        for ax, sheet in zip(figure.axes, sheets, strict=True):
+            for k, one in enumerate(nesting.placed):
+                if sheet is None or one.sheet == sheet:
+                    _number(ax, k, fine(one.shapes[0])[0].to_shapely())
     return figure
 
 
@@ -89,10 +93,11 @@ def _draw(ax: Axes, shape: AnyShape, **style: Any) -> None:
     ax.add_patch(PathPatch(path_of(rings), **style))
 
 
-def _middle(shapes: tuple[AnyShape, ...]) -> tuple[float, float]:
-    """Return a point inside of the first shape."""
-    point = fine(shapes[0])[0].to_shapely().representative_point()
-    return float(point.x), float(point.y)
+def _number(ax: Axes, k: int, part: shapely.Geometry) -> None:
+    """Write a part's number on it."""
+    point = part.representative_point()
+    text = ax.text(point.x, point.y, str(k), ha="center", va="center", fontsize=7, color=INK)
+    put_inside(ax, text, part)
 
 
 def _finish(ax: Axes) -> None:

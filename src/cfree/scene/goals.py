@@ -13,6 +13,7 @@ from cfree.errors import InvalidPoseError
 from cfree.exact.number import ExactPoint, is_single, to_fraction
 from cfree.exact.pose import Pose, to_pose
 from cfree.libraries import is_array
+from cfree.words import coordinate
 
 Goal = Pose | ExactPoint
 
@@ -52,8 +53,8 @@ def text_of(goal: Goal) -> str:
     ('(0.1, 2, 90 deg)', '(0.5, 3, any)')
     """
     if isinstance(goal, Pose):
-        return f"({float(goal.x):g}, {float(goal.y):g}, {math.degrees(goal.theta):g} deg)"
-    return f"({float(goal[0]):g}, {float(goal[1]):g}, any)"
+        return f"({coordinate(float(goal.x))}, {coordinate(float(goal.y))}, {math.degrees(goal.theta):g} deg)"
+    return f"({coordinate(float(goal[0]))}, {coordinate(float(goal[1]))}, any)"
 
 
 def text_of_move(asked: Goal | None, end: Goal) -> str:

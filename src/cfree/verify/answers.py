@@ -51,7 +51,7 @@ from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_
 from cfree.verify.stuck import HELD, stuck_findings
 from cfree.verify.whole import part_of, whole_of
 from cfree.verify.world import World
-from cfree.words import counted
+from cfree.words import coordinate, counted
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
@@ -268,7 +268,7 @@ def _all_of(scene: Scene, outcome: AllSeparated, report: Callable[[float], objec
     for place in outcome.places:
         there = [proof for proof in outcome.proofs if (proof.goal.x, proof.goal.y) == place]
         about = [proof for proof in there if isinstance(proof, Separated)]
-        where = f"({float(place[0]):g}, {float(place[1]):g})"
+        where = f"({coordinate(float(place[0]))}, {coordinate(float(place[1]))})"
         turned = world
         if world is None and not is_disc_about_reference(scene):
             findings.append(Finding(TURNS, where, "its proofs have no polygons in which the robot turns there"))

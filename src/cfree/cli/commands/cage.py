@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -183,7 +184,7 @@ def _answered(
         from cfree.caging.immobile import immobility
 
         with bar("contacts"):
-            answer = immobility(body, fingers, pose)
+            answer = replace(immobility(body, fingers, pose), units=units)
         code = {"immobile": 0, "mobile": REFUTED}.get(answer.verdict, INCOMPLETE)
         touched = sorted({contact.finger for contact in answer.contacts})
         if as_json:

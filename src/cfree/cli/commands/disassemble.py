@@ -183,7 +183,9 @@ def _of_one(assembly: Assembly, part: str, max_seconds: float | None, *, gap: bo
             miss = missing_gap(part, assembly, progress=progress)
     if as_json:
         facts: Rows = {"leaves": False, "held by": step.holding, "without": blocking.single}
-        facts |= {"gap": None if miss is None else [miss.lo, miss.hi]} if gap else {}
+        if gap:
+            facts["gap"] = None if miss is None else [miss.lo, miss.hi]
+            facts["places"] = [] if miss is None else [str(place) for place in miss.bottlenecks]
         return REFUTED, facts, step, [step]
     rows: Rows = {
         "answer": f"{part} cannot leave, not even on a motion that touches; proved",
@@ -191,7 +193,8 @@ def _of_one(assembly: Assembly, part: str, max_seconds: float | None, *, gap: bo
         "it can leave without": " or ".join(blocking.single) or "no single part",
     }
     if gap:
-        rows["gap"] = "no smaller part of this shape can leave" if miss is None else str(miss)
+        places = "" if miss is None or miss.bottlenecks else "; no single narrow place was found"
+        rows["gap"] = "no smaller part of this shape can leave" if miss is None else f"{miss}{places}"
     return REFUTED, rows, step, [step]
 
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from cfree.analysis.aisles import Kind
     from cfree.analysis.margins import Interval
     from cfree.analysis.reach_map import Which
+    from cfree.formats.shapes import Shapes
     from cfree.scene.scene import Scene
     from cfree.vehicles.vehicle import Vehicle
 
@@ -129,12 +130,12 @@ def aisle(
         from cfree.analysis.aisles import KINDS_WITHOUT_WIDTH, smallest_aisle
         from cfree.analysis.reach_map import turning_circle
         from cfree.cli.report import print_result
-        from cfree.scene.scene import Scene
 
         front: Any = 0
         if vehicle is None and heading is not None:
             front, heading = read_angle(heading, "--heading"), None
-        scene = _driven(Scene(read_machine(machine)), read_vehicle(vehicle, turning_radius, axle, heading, gears))
+        alone = _alone(machine)
+        scene = _driven(alone, read_vehicle(vehicle, turning_radius, axle, heading, gears))
         known: dict[str, Any] = {
             name: None if text is None else read_length(text, f"--{name}")
             for name, text in (("opening", opening), ("aisle", aisle))
@@ -151,8 +152,9 @@ def aisle(
             widths = {name: {"lo": width.lo, "hi": width.hi} for name, width in results.items()}
             print_json({"machine": machine, "widths": widths, "turning_circle": circle})
             return
-        rows = {name: _width(width) for name, width in results.items()}
-        print_result("smallest aisle", Path(machine), rows | {"turning circle": f"{circle:.5g}"}, {}, False)
+        unit = f" {alone.units}" if alone.units else ""
+        rows = {name: _width(width, unit) for name, width in results.items()}
+        print_result("smallest aisle", Path(machine), rows | {"turning circle": f"{circle:.5g}{unit}"}, {}, False)
 
 
 @click.command(cls=drawing.Command, epilog=examples(
@@ -202,15 +204,18 @@ def audit(
         if output is not None:
             check_audit_path(output)
         _refuse_twice([*map(_machine_name, machines)], "--machine", "NAME=FILE")
-        shapes = {_machine_name(text): read_machine(_machine_file(text)) for text in machines}
+        shapes = {text: read_machine(_machine_file(text)) for text in machines}
         loaded, robot = read_shapes(plan)
         if shapes and robot is not None:
             raise ValueError("--robot: and --machine; give one of them")
+        if not shapes and robot is None and not loaded.of("robot"):
+            raise ValueError(f"{plan}: there is no machine; give --machine with a file or a footprint")
         scene = scene_of(loaded, next(iter(shapes.values()), robot), plan)
+        robots = {_machine_name(text): _as_in(loaded, scene, shape, text) for text, shape in shapes.items()}
         scene = without_curves(scene, plan, keep_rounded=True)
         with bar("doors") as progress:
             result = audit(
-                scene, shapes or None, openings=named_openings or None, places=named_places, widest=limit,
+                scene, robots or None, openings=named_openings or None, places=named_places, widest=limit,
                 missing=missing, progress=progress,
             )  # fmt: skip
         if output is not None:
@@ -242,28 +247,48 @@ def audit(
 
 
 def read_machine(text: str) -> Any:
-    """Read the shapes of a machine, from a file or a footprint; polygons around them replace curves but exact ones."""
+    """Read the shapes of a machine from a file, or its footprint."""
     from cfree.formats.drawings.footprints import footprint
     from cfree.formats.drawings.source import Reading
     from cfree.formats.scene_file import read_shapes as read
-    from cfree.scene.scene import Scene
 
     if text.lstrip()[:1] in ("[", "("):
         return [footprint(text)]
     with status() as say:
         say("reading ...")
         shapes = read(text, Reading(curves=True).of_robot)
-    parts = [shape.polygon for shape in shapes.of("robot") or shapes.shapes]
-    if not parts:
+    if not shapes.shapes:
         raise ValueError(f"{text}: nothing in it can be the machine; draw its outline closed")
-    return without_curves(Scene(parts), Path(text), keep_rounded=True).robot
+    return shapes
 
 
-def _width(width: Interval) -> str:
+def _as_in(plan: Shapes, scene: Scene, shapes: Any, text: str) -> Any:
+    """Return the robot that a machine is among the shapes of a plan, in their unit, and report what is new in that."""
+    from cfree.scene.scene import Scene
+
+    file = Path(_machine_file(text))
+    own = drawing.framed(plan).scene(shapes, drawing.pivot())
+    reading.report([note for note in own.reading if note not in scene.reading], file)
+    return without_curves(Scene(own.robot), file, keep_rounded=True).robot
+
+
+def _alone(text: str) -> Scene:
+    """Return a scene of a machine alone; polygons around them replace curves but exact ones."""
+    from cfree.scene.scene import Scene
+
+    shapes, units = read_machine(text), ""
+    if not isinstance(shapes, list):
+        reading.report(shapes.record, Path(text))
+        units = str(shapes.settings.get("units") or "")
+        shapes = [shape.polygon for shape in shapes.of("robot") or shapes.shapes]
+    return without_curves(Scene(shapes, units=units), Path(text), keep_rounded=True, remedy="")
+
+
+def _width(width: Interval, unit: str) -> str:
     if width.hi - width.lo <= EXACT * width.hi:
-        return f"more than {width.hi:.5g}"
+        return f"more than {width.hi:.5g}{unit}"
     low, high = ends(width.lo, width.hi, 5)
-    return f"{low} is too narrow, {high} will do"
+    return f"{low}{unit} is too narrow, {high}{unit} will do"
 
 
 def _driven(scene: Scene, vehicle: Vehicle | Any | None) -> Scene:
