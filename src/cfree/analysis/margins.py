@@ -16,10 +16,12 @@ from cfree.analysis.among_rounds import FARTHEST, Progress, margin_bounds, miss_
 from cfree.analysis.bottleneck import Bottleneck, bottlenecks
 from cfree.arguments import checked
 from cfree.exact.number import ExactPoint
-from cfree.exact.pose import PoseLike
+from cfree.exact.pose import Pose, PoseLike
+from cfree.exact.surd import Surd
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace, free_space
 from cfree.planning.separation import Insets
+from cfree.planning.widest_way import NarrowPlace, WidestWay, widest_way
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, grown
@@ -36,17 +38,26 @@ class Interval:
     Attributes
     ----------
     lo, hi : float
+        If the number is known exactly, the doubles next to it, or twice itself.
     undecided : str
         The reason why they are farther apart than the tolerance, among round shapes; empty if they are not.
+    exact : Surd or None
+        The number sought itself, if it is known. Only a path that touches belongs to it.
+    at : NarrowPlace or None
+        The place that decides it: of a disc.
     """
 
     lo: float
     hi: float
     undecided: str = field(default="", compare=False)
+    exact: Surd | None = None
+    at: NarrowPlace | None = field(default=None, compare=False)
 
     def __repr__(self) -> str:
         why = f", undecided={self.undecided!r}" if self.undecided else ""
-        return f"Interval(lo={self.lo!r}, hi={self.hi!r}{why})"
+        known = "" if self.exact is None else f", exact={self.exact}"
+        where = "" if self.at is None else f", {self.at}"
+        return f"Interval(lo={self.lo!r}, hi={self.hi!r}{why}{known}{where})"
 
 
 @dataclass(frozen=True)
@@ -57,9 +68,11 @@ class NearestMiss:
     ----------
     lo, hi : float
         With an inset of `lo` there is still no path that keeps a distance, with one of `hi` there is. `lo` is 0 if no
-        inset that was tried is too small.
+        inset that was tried is too small. If the inset is known exactly, they are the doubles next to it.
     undecided : str
         The reason why `lo` and `hi` are farther apart than the tolerance, among round shapes; empty if they are not.
+    exact : Surd or None
+        The inset itself, if it is known: with it only a path that touches exists.
     bottlenecks : tuple of Bottleneck
         Places where space opens between the two, in order from start to goal. May be empty: an inset is decided
         exactly, but its places are searched by samples.
@@ -69,9 +82,12 @@ class NearestMiss:
     hi: float
     bottlenecks: tuple[Bottleneck, ...]
     undecided: str = field(default="", compare=False)
+    exact: Surd | None = None
 
     def __str__(self) -> str:
         size = f"an inset of {self.lo:.4g} to {self.hi:.4g} would do{f' ({self.undecided})' if self.undecided else ''}"
+        if self.exact is not None:
+            size = f"an inset of exactly {self.exact} would just do"
         if not self.bottlenecks:
             return size
         places = "; ".join(f"between {place}" for place in self.bottlenecks)
@@ -132,6 +148,8 @@ def nearest_miss(
     start, goal = required(scene, start, goal)
     check_tolerance(tolerance)
     if scene.curved:
+        if way := widest_way(scene, start, goal):
+            return _miss_of_disc(way)
         miss = miss_bounds(scene, start, goal, tolerance, progress)
         return None if miss is None else NearestMiss(*miss)
     if _space(scene).common_cell(start, goal) is not None:
@@ -204,6 +222,9 @@ def max_scale(
     start, goal = required(scene, start, goal)
     check_tolerance(tolerance)
     if scene.curved:
+        way = widest_way(scene, start, goal)
+        if way and not any(way.center):
+            return _known(None if way.radius is None else way.radius.times(1 / way.disc.radius), way.at)
         return Interval(*scale_bounds(scene, start, goal, tolerance, progress))
 
     def is_joined(scale: Fraction) -> bool:
@@ -261,6 +282,10 @@ def max_margin(
     start, goal = required(scene, start, goal)
     check_tolerance(tolerance)
     if scene.curved:
+        if way := widest_way(scene, start, goal):
+            if way.margin is not None and way.margin < 0:
+                raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
+            return _known(way.margin, way.at)
         return Interval(*margin_bounds(scene, start, goal, tolerance, progress))
     if _space(scene).common_cell(start, goal) is None:
         raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
@@ -272,6 +297,30 @@ def max_margin(
     if lo and hi:
         lo, hi = bisected(is_joined, lo, hi, tolerance, progress)
     return Interval(float(lo), math.nextafter(float(hi) * FARTHEST_OUT, math.inf) if hi else math.inf)
+
+
+# --- discs ---
+
+
+def _known(number: Surd | None, at: NarrowPlace | None) -> Interval:
+    """Return a number that is known; None is infinite."""
+    if number is None:
+        return Interval(math.inf, math.inf)
+    return Interval(*number.floats_around, exact=number, at=at)
+
+
+def _miss_of_disc(way: WidestWay) -> NearestMiss | None:
+    """Return the smallest inset of a disc."""
+    if way.margin is None or way.margin >= 0:
+        raise ValueError("start and goal are joined: nothing is missing")
+    if way.radius == 0:
+        return None
+    exact, places = way.margin.times(Fraction(-1)), tuple[Bottleneck, ...]()
+    if way.at and not way.at.end:
+        (x, y), (u, v) = way.at.point, map(float, way.center)
+        (one, other), (name, other_name) = way.at.obstacles, way.at.names
+        places = (Bottleneck(Pose(x - u, y - v), (one, other), (name, other_name)),)
+    return NearestMiss(*exact.floats_around, places, exact=exact)
 
 
 # --- decisions ---
