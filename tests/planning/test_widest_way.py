@@ -48,10 +48,10 @@ def test_a_gap_is_half_as_wide_as_its_sides_are_apart(one: Any, other: Any, radi
 
 def test_a_lattice_of_equal_gaps_has_the_width_of_one() -> None:
     """All gaps of the lattice are tied, and so are some of those beside the workspace."""
-    posts = [Curved.circle((4 * x, 4 * y), 1) for x in range(-3, 4) for y in range(-2, 3)]
-    squares = [box(4 * x - 1, 4 * y - 1, 4 * x + 1, 4 * y + 1)[0] for x in range(-3, 4) for y in range(-2, 3)]
+    posts = [Curved.circle((4 * x, 4 * y), 1) for x in range(-3, 4) for y in (0, 1)]
+    squares = [box(4 * x - 1, 4 * y - 1, 4 * x + 1, 4 * y + 1)[0] for x in range(-3, 4) for y in (0, 1)]
     for obstacles in (posts, squares):
-        for half in (14, 15, "31/2"):
+        for half in (14, "31/2"):
             found = way_among(obstacles, (0, 25, 0), (0, -25, 0), workspace=box(-Fraction(half), -30, half, 30)[0])
             assert found.radius == max(1, (Fraction(half) - 13) / 2)
 

@@ -14,6 +14,13 @@ from fractions import Fraction
 
 from cfree.analysis.among_rounds import FARTHEST, Progress, margin_bounds, miss_bounds, rounded, scale_bounds
 from cfree.analysis.bottleneck import Bottleneck, bottlenecks
+from cfree.analysis.exact_values import (
+    exact_value,
+    only_touches,
+    shrinks_into_itself,
+    widths_and_gaps,
+)
+from cfree.analysis.inset_shapes import exact_inset
 from cfree.arguments import checked
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, PoseLike
@@ -25,7 +32,7 @@ from cfree.planning.widest_way import NarrowPlace, WidestWay, widest_way
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, grown
-from cfree.scene.scene import Scene, required, with_robot
+from cfree.scene.scene import Scene, grown_scene, required, with_robot
 
 BITS = 16  # bits of the numbers that are tried
 BITS_OF_INSET = 48
@@ -142,8 +149,8 @@ def nearest_miss(
     >>> square = [(-1.25, -1.25), (1.25, -1.25), (1.25, 1.25), (-1.25, 1.25)]
     >>> scene = Scene(square, walls, workspace=box)
     >>> miss = nearest_miss(scene, (0, 5, 0), (0, -5, 0))
-    >>> miss.lo <= 0.25 <= miss.hi <= 1.01 * miss.lo, sorted(miss.bottlenecks[0].obstacles)
-    (True, [0, 1])
+    >>> str(miss.exact), sorted(miss.bottlenecks[0].obstacles)
+    ('1/4', [0, 1])
     """
     start, goal = required(scene, start, goal)
     check_tolerance(tolerance)
@@ -172,12 +179,22 @@ def nearest_miss(
     insets = [by for power in known.powers if (by := Fraction(2) ** (known.size + power)) < most]
     least = next(filter(separated, insets), None)
     if least is None:
+        if only_touches(scene, start, goal):
+            return NearestMiss(0.0, 0.0, (), exact=Surd(0))
         return NearestMiss(0.0, float(min([*insets, most])), ())
     lo, hi = bisected(separated, least, most, tolerance, progress)
     one, other = spaces[lo], spaces[hi]
     if one is None or other is None:
         return NearestMiss(0.0, float(hi), ())
-    return NearestMiss(float(lo), float(hi), bottlenecks(one, other, start, goal))
+
+    def exact_scene(by: Fraction) -> Scene | None:
+        robot = [part for shape in scene.robot if isinstance(part := exact_inset(shape, by), Polygon)]
+        return with_robot(scene, robot, scene.bounds) if len(robot) == len(scene.robot) else None
+
+    likely = ((width - gap) / 2 for width, gap in widths_and_gaps(scene))
+    exact = exact_value(exact_scene, lo, hi, likely, (start, goal))
+    below, above = (float(lo), float(hi)) if exact is None else exact.floats_around
+    return NearestMiss(below, above, bottlenecks(one, other, start, goal), exact=exact)
 
 
 @checked
@@ -216,8 +233,8 @@ def max_scale(
     >>> walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
     >>> scene = Scene([(-1, -1), (1, -1), (1, 1), (-1, 1)], walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)])
     >>> found = max_scale(scene, (0, 5, 0), (0, -5, 0))
-    >>> found.lo <= 1 <= found.hi <= 1.01 * found.lo
-    True
+    >>> found
+    Interval(lo=1.0, hi=1.0, exact=1)
     """
     start, goal = required(scene, start, goal)
     check_tolerance(tolerance)
@@ -227,13 +244,21 @@ def max_scale(
             return _known(None if way.radius is None else way.radius.times(1 / way.disc.radius), way.at)
         return Interval(*scale_bounds(scene, start, goal, tolerance, progress))
 
-    def is_joined(scale: Fraction) -> bool:
+    def scaled(scale: Fraction) -> Scene:
         robot = [_mapped(part, lambda p: (scale * p[0], scale * p[1])) for part in scene.robot]
-        return _space(with_robot(scene, robot, scene.bounds)).common_cell(start, goal) is not None
+        return with_robot(scene, robot, scene.bounds)
+
+    def is_joined(scale: Fraction) -> bool:
+        return _space(scaled(scale)).common_cell(start, goal) is not None
 
     lo, hi = bracket(is_joined, Fraction(1))
     if lo and hi:
         lo, hi = bisected(is_joined, lo, hi, tolerance, progress)
+        if shrinks_into_itself(scene.robot):
+            likely = (gap / width for width, gap in widths_and_gaps(scene))
+            exact = exact_value(scaled, lo, hi, likely, (start, goal))
+            if exact is not None:
+                return _known(exact)
     return Interval(float(lo), float(hi) if hi else math.inf)
 
 
@@ -278,6 +303,14 @@ def max_margin(
     >>> found = max_margin(scene, (0, 5, 0), (0, -5, 0), tolerance=0.05)
     >>> found.lo < 1 - 2**0.5 / 8 < found.hi < 1.08 * found.lo      # the triangle's height is 2**0.5 / 4
     True
+    >>> from cfree.curves.curved import Curved
+    >>> posts = [Curved.circle(p, 1) for p in ((0, 0), (3, 2))]
+    >>> scene = Scene(Curved.circle((0, 0), "1/2"), posts, workspace=[(-2, -2), (5, -2), (5, 5), (-2, 5)])
+    >>> found = max_margin(scene, ("-1/2", "7/2", 0), ("7/2", "-1/2", 0))
+    >>> print(found.exact)
+    -3/2 + 1/2 sqrt(13)
+    >>> print(found.at)
+    between obstacle 0, 2 x 2 at (0, 0) and obstacle 1, 2 x 2 at (3, 2) at (1.5, 1)
     """
     start, goal = required(scene, start, goal)
     check_tolerance(tolerance)
@@ -296,13 +329,17 @@ def max_margin(
     lo, hi = bracket(is_joined, Fraction(2) ** (Insets(scene).size - 3))
     if lo and hi:
         lo, hi = bisected(is_joined, lo, hi, tolerance, progress)
+        likely = ((gap - width) / 2 for width, gap in widths_and_gaps(scene))
+        exact = exact_value(lambda c: grown_scene(scene, c), lo, hi * Fraction(FARTHEST_OUT), likely, (start, goal))
+        if exact is not None:
+            return _known(exact)
     return Interval(float(lo), math.nextafter(float(hi) * FARTHEST_OUT, math.inf) if hi else math.inf)
 
 
-# --- discs ---
+# --- known numbers ---
 
 
-def _known(number: Surd | None, at: NarrowPlace | None) -> Interval:
+def _known(number: Surd | None, at: NarrowPlace | None = None) -> Interval:
     """Return a number that is known; None is infinite."""
     if number is None:
         return Interval(math.inf, math.inf)

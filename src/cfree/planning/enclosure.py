@@ -36,6 +36,14 @@ class Feature:
     radius: Fraction
     owner: int
 
+    def may_touch(self, other: Feature) -> bool:
+        """False if the boxes of two features are apart."""
+        by = self.radius + other.radius
+        return all(
+            min(a, b) - by <= max(c, d) and min(c, d) <= max(a, b) + by
+            for a, b, c, d in zip(self.p, self.q, other.p, other.q, strict=True)
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class Encounter:
@@ -168,7 +176,7 @@ def foot(point: ExactPoint, p: ExactPoint, q: ExactPoint) -> tuple[Fraction, Exa
     return cross(d, v) ** 2 / whole, along(p, share / whole, d)
 
 
-def _nearest(f: Feature, g: Feature) -> tuple[Fraction, ExactPoint, ExactPoint]:
+def nearest(f: Feature, g: Feature) -> tuple[Fraction, ExactPoint, ExactPoint]:
     """Return the square of the distance of two segments, and a nearest point of each."""
     if f.p != f.q and g.p != g.q and meet(f.p, f.q, g.p, g.q) is Meeting.CROSS:
         common = crossing_point(f.p, f.q, g.p, g.q)
@@ -179,7 +187,7 @@ def _nearest(f: Feature, g: Feature) -> tuple[Fraction, ExactPoint, ExactPoint]:
 
 
 def _encounter(f: Feature, g: Feature) -> Encounter:
-    square, a, b = _nearest(f, g)
+    square, a, b = nearest(f, g)
     return Encounter(max(Surd(0), Surd.root(square).times(HALF, -(f.radius + g.radius) / 2)), f, g, a, b)
 
 

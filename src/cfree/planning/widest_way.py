@@ -125,7 +125,7 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
     ends = _center_at(start, center), _center_at(goal, center)
     if any(_is_blocked(scene, known, end) for end in ends):
         return WidestWay(disc, Surd(0))
-    features = [*_features_of(known, scene.workspace)]
+    features = [*features_of(known, scene.workspace)]
     if not features:
         return WidestWay(disc, None)
     rooms = [_room_at(end, features) for end in ends]
@@ -144,7 +144,8 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
 # --- features ---
 
 
-def _features_of(shapes: Sequence[Rounded], workspace: Polygon | None) -> Iterator[Feature]:
+def features_of(shapes: Sequence[Rounded], workspace: Polygon | None) -> Iterator[Feature]:
+    """Yield the features of grown cores and of a workspace; those of one owner follow each other."""
     for k, shape in enumerate(shapes):
         if isinstance(shape.core, Polygon):
             yield from (Feature(p, q, shape.radius, k) for p, q in _edges(shape.core))
