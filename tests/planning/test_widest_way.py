@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import fuzz_widest
-from cfree import Curved, Pose, Scene
+from cfree import Curved, Path, Pose, Scene, Separated, UndecidedError, max_margin, plan
 from cfree.curves import Arc
 from cfree.exact.surd import Surd
 from cfree.planning.widest_way import WidestWay, widest_way
@@ -43,7 +43,7 @@ def way_among(obstacles: Any, start: Any = (0, 80, 0), goal: Any = (0, -80, 0), 
 def test_a_gap_is_half_as_wide_as_its_sides_are_apart(one: Any, other: Any, radius: Any) -> None:
     found = way_among([one, other])
     assert found.radius == radius and found.at and found.at.obstacles == (0, 1)
-    assert found.margin is not None and found.margin.times(Fraction(1), Fraction(1, 8)) == radius
+    assert found.margin is not None and found.margin + Fraction(1, 8) == radius
 
 
 def test_a_lattice_of_equal_gaps_has_the_width_of_one() -> None:
@@ -83,3 +83,16 @@ def test_other_scenes_are_left_to_intervals() -> None:
 @pytest.mark.parametrize("seed", [6, 15, 19])
 def test_cells_of_discs_a_little_smaller_and_larger_agree(seed: int) -> None:
     assert fuzz_widest.check(seed)
+
+
+@pytest.mark.slow
+def test_the_largest_clearance_is_decided_at_itself_and_named_where_time_runs_out() -> None:
+    walls = [box(-60, -2, -1, 2)[0], box("4/3", -2, 60, 2)[0]]
+    scene = Scene(POINT, walls, workspace=ROOM, start=(0, 20, 0), goal=(0, -20, 0))
+    largest = max_margin(scene).exact
+    assert largest == Fraction(25, 24)
+    for more, expected in ((0, Path), (Fraction(-1, 2**40), Path), (Fraction(1, 2**40), Separated)):
+        assert isinstance(plan(scene, clearance=largest.p + more, improve=0), expected)
+    with pytest.raises(UndecidedError, match="that a path keeps is exactly 25/24, between obstacle 0") as caught:
+        plan(scene, clearance="1.05", max_seconds=1e-9)
+    assert caught.value.lo <= largest <= caught.value.hi

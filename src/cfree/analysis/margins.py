@@ -241,7 +241,7 @@ def max_scale(
     if scene.curved:
         way = widest_way(scene, start, goal)
         if way and not any(way.center):
-            return _known(None if way.radius is None else way.radius.times(1 / way.disc.radius), way.at)
+            return _known(None if way.radius is None else way.radius / way.disc.radius, way.at)
         return Interval(*scale_bounds(scene, start, goal, tolerance, progress))
 
     def scaled(scale: Fraction) -> Scene:
@@ -352,7 +352,7 @@ def _miss_of_disc(way: WidestWay) -> NearestMiss | None:
         raise ValueError("start and goal are joined: nothing is missing")
     if way.radius == 0:
         return None
-    exact, places = way.margin.times(Fraction(-1)), tuple[Bottleneck, ...]()
+    exact, places = -1 * way.margin, tuple[Bottleneck, ...]()
     if way.at and not way.at.end:
         (x, y), (u, v) = way.at.point, map(float, way.center)
         (one, other), (name, other_name) = way.at.obstacles, way.at.names

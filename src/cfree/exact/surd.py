@@ -83,9 +83,19 @@ class Surd:
                 n, factor = n // (k * k), factor * k
         return cls(0, factor, n)
 
-    def times(self, factor: Fraction, plus: Fraction = Fraction(0)) -> Surd:
-        """Return the number times a rational factor, plus a rational number."""
-        return Surd(self.p * factor + plus, self.q * factor, self.n)
+    def __add__(self, other: int | Fraction) -> Surd:
+        return Surd(self.p + other, self.q, self.n)
+
+    def __sub__(self, other: int | Fraction) -> Surd:
+        return Surd(self.p - other, self.q, self.n)
+
+    def __mul__(self, factor: int | Fraction) -> Surd:
+        return Surd(self.p * factor, self.q * factor, self.n)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: int | Fraction) -> Surd:
+        return Surd(self.p / divisor, self.q / divisor, self.n)
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, int | float | Fraction):

@@ -24,7 +24,7 @@ from cfree.scene.scene import Bounds
 
 HALVINGS = 12  # of the limit: the first growth up to which features are joined
 SLACK = 1e-9  # widening of boxes, relative to all numbers: far more than their rounding
-HALF, ONE, BEYOND = Fraction(1, 2), Fraction(1), 1
+BEYOND = 1  # from bounds to points outside of them
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +188,7 @@ def nearest(f: Feature, g: Feature) -> tuple[Fraction, ExactPoint, ExactPoint]:
 
 def _encounter(f: Feature, g: Feature) -> Encounter:
     square, a, b = nearest(f, g)
-    return Encounter(max(Surd(0), Surd.root(square).times(HALF, -(f.radius + g.radius) / 2)), f, g, a, b)
+    return Encounter(max(Surd(0), (Surd.root(square) - f.radius - g.radius) / 2), f, g, a, b)
 
 
 def _at_rim(f: Feature, bounds: Bounds) -> Iterator[Encounter]:

@@ -23,8 +23,6 @@ from cfree.scene.naming import placed
 from cfree.scene.rounded import Rounded, rounded
 from cfree.scene.scene import Scene
 
-ONE = Fraction(1)
-
 
 @dataclass(frozen=True)
 class NarrowPlace:
@@ -88,7 +86,7 @@ class WidestWay:
     @property
     def margin(self) -> Surd | None:
         """The largest clearance of the robot; below 0 if it does not get there, None if it is infinite."""
-        return None if self.radius is None else self.radius.times(ONE, -self.disc.radius)
+        return None if self.radius is None else self.radius - self.disc.radius
 
 
 def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
@@ -185,4 +183,4 @@ def _room_at(point: ExactPoint, features: Sequence[Feature]) -> tuple[Surd, int]
     for square, f in distances:
         if f.radius not in nearest or square < nearest[f.radius][0]:
             nearest[f.radius] = square, f
-    return min((Surd.root(square).times(ONE, -f.radius), f.owner) for square, f in nearest.values())
+    return min((Surd.root(square) - f.radius, f.owner) for square, f in nearest.values())
