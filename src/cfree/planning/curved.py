@@ -243,7 +243,7 @@ class CurvedQuery:
             raise UndecidedError(message, lo=lo, hi=hi, error=error.error) from None
 
     def _largest(self, ends: Sequence[Goal]) -> tuple[float, float, str] | None:
-        """Return the largest clearance of a disc, between doubles and in words; None if it is infinite, or of others."""
+        """Return the largest clearance of a disc, between doubles and in words; None if infinite, or of others."""
         start, goal = ends if len(ends) == 2 else (None, None)
         way = widest_way(self.near.exact, start, goal) if isinstance(start, Pose) and isinstance(goal, Pose) else None
         if way is None or way.margin is None:
