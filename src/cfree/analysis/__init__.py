@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from cfree.analysis.bottleneck import Bottleneck as Bottleneck
     from cfree.analysis.fits import Fit as Fit
     from cfree.analysis.margins import Interval as Interval
-    from cfree.analysis.margins import NarrowPlace as NarrowPlace
     from cfree.analysis.margins import NearestMiss as NearestMiss
     from cfree.analysis.reach_map import ReachMap as ReachMap
 
@@ -22,7 +21,7 @@ __getattr__, __dir__, __all__ = lazy_names(
         "blockers": "Blocker",
         "bottleneck": "Bottleneck",
         "fits": "Fit",
-        "margins": "Interval NarrowPlace NearestMiss",
+        "margins": "Interval NearestMiss",
         "reach_map": "ReachMap",
     },
 )

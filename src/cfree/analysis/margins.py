@@ -2,8 +2,8 @@
 
 All are found by bisection over exact decisions: start and goal are in one cell of a scene with another robot, or not.
 So both ends of an interval are proved, each for the polygons that were decided. Then a few rational numbers between are
-tried: see `exact_values`. Of a disc the number is computed instead: see `planning.widest_way`. Among other round shapes a path is searched
-on these, and polygons inside of them prove that there is none; see `among_rounds`.
+tried: see `exact_values`. Of a disc the number is computed instead: see `planning.widest_way`. Among other round shapes
+a path is searched on these, and polygons inside of them prove that there is none; see `among_rounds`.
 """
 
 from __future__ import annotations
