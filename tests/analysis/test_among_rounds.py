@@ -63,7 +63,7 @@ def test_the_end_poses_limit_a_scale_exactly() -> None:
     """A round robot beside a disc, at its start: free up to the contact, and no farther."""
     scene = Scene(stadium("1/4", "3/4"), [Curved.circle((3, 0), 1)], start=(0, 0, 0), goal=(0, 9, 0))
     assert is_within(max_scale(scene, tolerance=2.0**-12), 2, 2.0**-12)
-    assert is_within(max_margin(scene, tolerance=2.0**-12), 1, 2.0**-12)
+    assert max_margin(scene, tolerance=2.0**-12).exact == 1
 
 
 @pytest.mark.slow
@@ -108,6 +108,7 @@ def test_an_interval_that_stays_wide_says_why(monkeypatch: pytest.MonkeyPatch) -
 def test_the_nearest_miss_between_discs(robot: Curved) -> None:
     miss = nearest_miss(hall(robot), tolerance=0.1)
     assert miss is not None and miss.lo <= 0.05 <= miss.hi <= 1.1 * miss.lo and not miss.undecided
+    assert miss.exact == Fraction(1, 20)
     (place,) = miss.bottlenecks
     assert 1 in place.obstacles and "obstacle 1, 2 x 2 at (3, 0)" in str(miss)  # found by samples, on one side of it
 
@@ -132,6 +133,7 @@ def test_the_nearest_miss_of_an_open_ring_ends_after_counted_work(monkeypatch: p
     assert "round shapes do not decide" in miss.undecided
 
 
+@pytest.mark.slow
 def test_a_miss_of_nothing_and_one_that_nothing_mends() -> None:
     with pytest.raises(ValueError, match="start and goal are joined"):
         nearest_miss(hall(disc("0.49")))

@@ -42,12 +42,9 @@ def inset_shapes(shapes: Sequence[AnyShape], by: Fraction, error: float, *, outw
 def _inset(shape: AnyShape, by: Fraction, error: float, outward: bool) -> Sequence[AnyShape]:
     if isinstance(shape, Polygon):
         return inset(shape, by)
-    if isinstance(shape.path, Circle) and not shape.holes:
-        center, radius = shape.path.center, shape.path.radius
-        return [Curved.circle(center, radius - by)] if by < radius else []
-    if shape.grown and by < shape.grown:
-        return [Curved(shape.path, shape.holes, grown=shape.grown - by)]
-    if shape.grown:
+    if isinstance(shape.path, Circle) and not shape.holes and by >= shape.path.radius:
+        return []
+    if shape.grown and by >= shape.grown:
         core, left = shape._base(), by - shape.grown
         return inset(core, left) if left else [core]
     exact = exact_inset(shape, by)
@@ -59,7 +56,7 @@ def _inset(shape: AnyShape, by: Fraction, error: float, outward: bool) -> Sequen
 def exact_inset(shape: AnyShape, by: Fraction) -> AnyShape | None:
     """Return a polygon, or a shape of lines and arcs, with all of these moved inwards, exactly.
 
-    None if a number is irrational, a piece vanishes, or parts would overlap.
+    None if a number is irrational, a piece vanishes, or parts would overlap; of a grown shape, if it would vanish.
 
     Examples
     --------
@@ -68,6 +65,11 @@ def exact_inset(shape: AnyShape, by: Fraction) -> AnyShape | None:
     >>> exact_inset(Polygon([(0, 0), (4, 0), (0, 4)]), Fraction(1, 2)) is None
     True
     """
+    if isinstance(shape, Curved) and isinstance(shape.path, Circle) and not shape.holes:
+        center, radius = shape.path.center, shape.path.radius
+        return Curved.circle(center, radius - by) if by < radius else None
+    if isinstance(shape, Curved) and shape.grown:
+        return Curved(shape.path, shape.holes, grown=shape.grown - by) if by < shape.grown else None
     curves = curves_of(shape)
     rings = [_moved(ring, by, is_hole=k > 0) for k, ring in enumerate(curves[1])] if curves else [None]
     outer, *holes = cast(list[Any], rings)

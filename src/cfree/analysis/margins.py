@@ -33,7 +33,7 @@ from cfree.planning.widest_way import NarrowPlace, WidestWay, widest_way
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, grown
-from cfree.scene.scene import Scene, grown_scene, required, with_robot
+from cfree.scene.scene import Scene, grown_scene, required, with_robot, with_shapes
 
 BITS = 16  # bits of the numbers that are tried
 BITS_OF_INSET = 48
@@ -159,7 +159,13 @@ def nearest_miss(
         if way := widest_way(scene, start, goal):
             return _miss_of_disc(way)
         miss = miss_bounds(scene, start, goal, tolerance, progress)
-        return None if miss is None else NearestMiss(*miss)
+        if miss is None:
+            return None
+        below, above, places, why = miss
+        exact = _miss_between(scene, Fraction(below), Fraction(above), (start, goal)) if below else None
+        if exact is not None:
+            return NearestMiss(*exact.floats_around, places, exact=exact)
+        return NearestMiss(below, above, places, why)
     if _space(scene).common_cell(start, goal) is not None:
         raise ValueError("start and goal are joined: nothing is missing")
     spaces: dict[Fraction, FreeSpace | None] = {}
@@ -187,13 +193,7 @@ def nearest_miss(
     one, other = spaces[lo], spaces[hi]
     if one is None or other is None:
         return NearestMiss(0.0, float(hi), ())
-
-    def exact_scene(by: Fraction) -> Scene | None:
-        robot = [part for shape in scene.robot if isinstance(part := exact_inset(shape, by), Polygon)]
-        return with_robot(scene, robot, scene.bounds) if len(robot) == len(scene.robot) else None
-
-    likely = ((width - gap) / 2 for width, gap in widths_and_gaps(scene))
-    exact = exact_value(exact_scene, lo, hi, likely, (start, goal))
+    exact = _miss_between(scene, lo, hi, (start, goal))
     below, above = (float(lo), float(hi)) if exact is None else exact.floats_around
     return NearestMiss(below, above, bottlenecks(one, other, start, goal), exact=exact)
 
@@ -320,7 +320,12 @@ def max_margin(
             if way.margin is not None and way.margin < 0:
                 raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
             return _known(way.margin, way.at)
-        return Interval(*margin_bounds(scene, start, goal, tolerance, progress))
+        below, above, why = margin_bounds(scene, start, goal, tolerance, progress)
+        if below and above < math.inf:
+            exact = _margin_between(scene, Fraction(below), Fraction(above), (start, goal))
+            if exact is not None:
+                return _known(exact)
+        return Interval(below, above, why)
     if _space(scene).common_cell(start, goal) is None:
         raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
 
@@ -330,8 +335,7 @@ def max_margin(
     lo, hi = bracket(is_joined, Fraction(2) ** (Insets(scene).size - 3))
     if lo and hi:
         lo, hi = bisected(is_joined, lo, hi, tolerance, progress)
-        likely = ((gap - width) / 2 for width, gap in widths_and_gaps(scene))
-        exact = exact_value(lambda c: grown_scene(scene, c), lo, hi * Fraction(FARTHEST_OUT), likely, (start, goal))
+        exact = _margin_between(scene, lo, hi * Fraction(FARTHEST_OUT), (start, goal))
         if exact is not None:
             return _known(exact)
     return Interval(float(lo), math.nextafter(float(hi) * FARTHEST_OUT, math.inf) if hi else math.inf)
@@ -359,6 +363,23 @@ def _miss_of_disc(way: WidestWay) -> NearestMiss | None:
         (one, other), (name, other_name) = way.at.obstacles, way.at.names
         places = (Bottleneck(Pose(x - u, y - v), (one, other), (name, other_name)),)
     return NearestMiss(*exact.floats_around, places, exact=exact)
+
+
+def _miss_between(scene: Scene, lo: Fraction, hi: Fraction, ends: tuple[Pose, Pose]) -> Surd | None:
+    """Return the smallest inset, if it is one of those tried."""
+
+    def smaller(by: Fraction) -> Scene | None:
+        robot = [exact_inset(shape, by) for shape in scene.robot]
+        parts = [part for part in robot if part is not None]
+        return with_shapes(scene, parts) if len(parts) == len(robot) else None
+
+    return exact_value(smaller, lo, hi, ((width - gap) / 2 for width, gap in widths_and_gaps(scene)), ends)
+
+
+def _margin_between(scene: Scene, lo: Fraction, hi: Fraction, ends: tuple[Pose, Pose]) -> Surd | None:
+    """Return the largest clearance, if it is one of those tried."""
+    likely = ((gap - width) / 2 for width, gap in widths_and_gaps(scene))
+    return exact_value(lambda radius: grown_scene(scene, radius), lo, hi, likely, ends)
 
 
 # --- decisions ---
