@@ -7,11 +7,12 @@ docs/theory/separations.md, "Misses and margins, exactly".
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
-from cfree.curves.similar import moved_shape
 from cfree.errors import IncompleteError, InvalidPoseError, UnsupportedError
 from cfree.exact.number import ExactPoint, simplest_between
 from cfree.exact.pose import Pose
@@ -22,12 +23,13 @@ from cfree.free.space import free_space
 from cfree.paths.path import Path
 from cfree.planning.enclosure import nearest
 from cfree.planning.plan import plan
-from cfree.planning.widest_way import features_of
+from cfree.planning.widest_way import features_of, place
 from cfree.polygons.polygon import Polygon
 from cfree.scene.rounded import rounded
 from cfree.scene.scene import AnyShape, Scene
 
 TRIES = 3  # numbers that are tried, the simplest first
+DIGITS = 20  # most digits of decimal numbers that are tried
 OFFSETS = 200  # most parallel lines whose distances are tried
 Robot = Callable[[Fraction], Scene | None]
 
@@ -42,15 +44,25 @@ def exact_value(
     scene_at : callable
         Returns the scene with the robot that belongs to a number; None if it has no exact form.
     likely : iterable of Fraction
-        Numbers to try; the simplest between the bounds is one more.
+        Numbers to try; the simplest between the bounds is one more, and so is the shortest decimal number.
     ends : (Pose, Pose)
     """
-    numbers = {simplest_between(lo, hi), *(number for number in likely if lo <= number <= hi)}
+    numbers = {
+        simplest_between(lo, hi),
+        _shortest_between(lo, hi),
+        *(number for number in likely if lo <= number <= hi),
+    }
     for number in sorted(numbers, key=lambda x: (x.denominator, x))[:TRIES]:
         scene = scene_at(number)
         if scene is not None and only_touches(scene, *ends):
             return Surd(number)
     return None
+
+
+def _shortest_between(lo: Fraction, hi: Fraction) -> Fraction:
+    """Return the first decimal number of the fewest digits after the point between two numbers, or the first number."""
+    scales = (10**k for k in range(DIGITS))
+    return next((Fraction(math.ceil(lo * scale), scale) for scale in scales if math.ceil(lo * scale) <= hi * scale), lo)
 
 
 def only_touches(scene: Scene, start: Pose, goal: Pose) -> bool:
@@ -65,17 +77,13 @@ def only_touches(scene: Scene, start: Pose, goal: Pose) -> bool:
 
 def _is_in_contact(scene: Scene, pose: Pose) -> bool:
     """True if the robot touches something at a free pose; False also if a shape has arcs."""
-    robot, obstacles = ([rounded(part) for part in parts] for parts in (_placed(scene.robot, pose), scene.obstacles))
+    robot, obstacles = ([rounded(part) for part in parts] for parts in (scene.robot, scene.obstacles))
     shapes = [shape for shape in (*robot, *obstacles) if shape is not None and not shape.arcs]
     if len(shapes) < len(robot) + len(obstacles) or not isinstance(scene.workspace, Polygon | None):
         return False
-    own = list(features_of(shapes[: len(robot)], None))
-    others = list(features_of(shapes[len(robot) :], scene.workspace))
+    own = [replace(f, p=place(f.p, pose), q=place(f.q, pose)) for f in features_of(shapes[: len(robot)], None)]
+    others = [*features_of(shapes[len(robot) :], scene.workspace)]
     return any(nearest(f, g)[0] == (f.radius + g.radius) ** 2 for f in own for g in others if f.may_touch(g))
-
-
-def _placed(robot: Sequence[AnyShape], pose: Pose) -> list[AnyShape]:
-    return [moved_shape(part, pose) for part in robot]
 
 
 def widths_and_gaps(scene: Scene) -> Iterator[tuple[Fraction, Fraction]]:

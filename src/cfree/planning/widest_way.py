@@ -120,7 +120,7 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
     known = [shape for shape in shapes if shape is not None and not shape.arcs]
     if len(known) < len(shapes) or not isinstance(scene.workspace, Polygon | None):
         return None
-    ends = _center_at(start, center), _center_at(goal, center)
+    ends = place(center, start), place(center, goal)
     if any(_is_blocked(scene, known, end) for end in ends):
         return WidestWay(disc, Surd(0))
     features = [*features_of(known, scene.workspace)]
@@ -171,8 +171,9 @@ def _is_blocked(scene: Scene, shapes: Sequence[Rounded], point: ExactPoint) -> b
     return any(locate(point, _edges(core)) is Location.INSIDE for core in cores)
 
 
-def _center_at(pose: Pose, center: ExactPoint) -> ExactPoint:
-    (x, y), (c, s, w) = center, pose.rotation
+def place(point: ExactPoint, pose: Pose) -> ExactPoint:
+    """Return the place of a point of the robot at a pose."""
+    (x, y), (c, s, w) = point, pose.rotation
     return pose.x + (c * x - s * y) / w, pose.y + (s * x + c * y) / w
 
 
