@@ -6,12 +6,12 @@ import math
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import pytest
 import shapely
 
 import cfree.verify
+import fuzz_exact_values
 from cfree import Pose, Scene, boundary, free_space, load_scene, max_margin, max_scale, nearest_miss, separation
 from cfree.analysis.bottleneck import bottlenecks
 from cfree.analysis.margins import Interval
@@ -79,15 +79,19 @@ def test_a_miss_that_is_too_small_to_see_and_one_that_nothing_mends() -> None:
     miss = nearest_miss(room(1).boundary.scene, INSIDE, OUTSIDE)
     assert miss is not None and miss.exact == miss.lo == miss.hi == 0 and miss.bottlenecks == ()
     assert str(miss) == "an inset of exactly 0 would just do"
-    wider = room("0.9999999999999999999999999999999999999999999999").boundary.scene
-    miss = nearest_miss(wider, INSIDE, OUTSIDE)
-    assert miss is not None and miss.exact == Fraction(1, 2 * 10**46) and 0 < miss.lo < miss.hi < 1e-40
     closed = scene_of(PlainScene([box(0, 0, 1, 1)], [hollow((-5, -5, 5, 5), (-4, -4, 4, 4))]))
     assert nearest_miss(closed, Pose(0, 0), Pose(9, 9)) is None
     with pytest.raises(ValueError, match="start and goal are joined"):
         nearest_miss(closed, Pose(0, 0), Pose(1, 1))
     with pytest.raises(ValueError, match="tolerance 0"):
         nearest_miss(corner("2.6", "0.2"), HERE, THERE, tolerance=0)
+
+
+@pytest.mark.slow
+def test_a_miss_of_less_than_doubles_tell_apart_is_exact() -> None:
+    """The gap is narrower than the square by a number with 46 digits."""
+    miss = nearest_miss(room(1 - Fraction(1, 10**46)).boundary.scene, INSIDE, OUTSIDE)
+    assert miss is not None and miss.exact == Fraction(1, 2 * 10**46) and 0 < miss.lo < miss.hi < 1e-40
 
 
 def test_scales() -> None:
@@ -116,10 +120,9 @@ def test_margins() -> None:
         max_margin(corner("2.6", "0.2"), HERE, THERE)
 
 
-@pytest.mark.parametrize("turned", [(1, 0), (Fraction(3, 5), Fraction(4, 5))])
-def test_numbers_that_are_not_simple_come_from_parallel_edges(turned: tuple[Any, Any]) -> None:
-    """A square of 2.2746 before a gap of 2, upright and turned; the margin of one of 1.0746."""
-    c, s = turned
+def test_numbers_that_are_not_simple_come_from_parallel_edges() -> None:
+    """A square of 2.2746 before a gap of 2, all turned by an angle of 4 : 3; the margin of one of 1.0746."""
+    c, s = Fraction(3, 5), Fraction(4, 5)
 
     def scene(half: str) -> Scene:
         h = Fraction(half)
@@ -141,6 +144,11 @@ def test_a_number_is_exact_only_where_smaller_robots_are_inside_larger_ones() ->
     assert found.exact is None
     inside = Scene(box("-1/2", "-1/2", "1/2", "1/2")[0], workspace=walls, start=(1, "1/2", 0), goal=(5, "1/2", 0))
     assert max_scale(inside).exact == 1
+
+
+@pytest.mark.parametrize("seed", [7, 9])
+def test_robots_a_little_smaller_and_larger_agree_with_exact_numbers(seed: int) -> None:
+    assert "scale" in fuzz_exact_values.check(seed)
 
 
 def test_the_polygon_is_around_the_disc_and_inside_the_other() -> None:

@@ -87,12 +87,12 @@ def test_cells_of_discs_a_little_smaller_and_larger_agree(seed: int) -> None:
 
 @pytest.mark.slow
 def test_the_largest_clearance_is_decided_at_itself_and_named_where_time_runs_out() -> None:
-    walls = [box(-60, -2, -1, 2)[0], box("4/3", -2, 60, 2)[0]]
-    scene = Scene(POINT, walls, workspace=ROOM, start=(0, 20, 0), goal=(0, -20, 0))
+    posts = [Curved.circle((x, 0), 1) for x in (0, 3, 6)]
+    scene = Scene(POINT, posts, workspace=box(0, -3, 6, 3)[0], start=(3, 2, 0), goal=(3, -2, 0))
     largest = max_margin(scene).exact
-    assert largest == Fraction(25, 24)
-    for more, expected in ((0, Path), (Fraction(-1, 2**40), Path), (Fraction(1, 2**40), Separated)):
+    assert largest == Fraction(3, 8)
+    for more, expected in ((0, Path), (Fraction(1, 2**40), Separated)):
         assert isinstance(plan(scene, clearance=largest.p + more, improve=0), expected)
-    with pytest.raises(UndecidedError, match="that a path keeps is exactly 25/24, between obstacle 0") as caught:
-        plan(scene, clearance="1.05", max_seconds=1e-9)
+    with pytest.raises(UndecidedError, match="that a path keeps is exactly 3/8, between obstacle") as caught:
+        plan(scene, clearance="0.376", max_seconds=1e-9)
     assert caught.value.lo <= largest <= caught.value.hi
