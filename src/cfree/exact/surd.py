@@ -19,7 +19,7 @@ from cfree.exact.half_angle import chart_of_direction, tau_in_chart
 from cfree.exact.number import Number, angle, to_fraction
 from cfree.exact.orientation import Order, compare_with_surd
 
-SQUARES = 100  # greatest number whose square is looked for in a radicand
+SQUARES = 100  # least number whose square is not looked for in a radicand
 
 
 @checked
@@ -74,14 +74,19 @@ class Surd:
 
         Examples
         --------
-        >>> print(Surd.root(Fraction(9, 8)))
-        3/4 sqrt(2)
+        >>> print(Surd.root(Fraction(9, 8)), "=", Surd.root(Fraction(9, 8)).reduced)
+        1/8 sqrt(72) = 3/4 sqrt(2)
         """
-        n, factor = square.numerator * square.denominator, Fraction(1, square.denominator)
+        return cls(0, Fraction(1, square.denominator), square.numerator * square.denominator)
+
+    @property
+    def reduced(self) -> Surd:
+        """The same number, without squares of numbers below `SQUARES` in its radicand."""
+        n, q = self.n, self.q
         for k in range(2, SQUARES):
             while n and n % (k * k) == 0:
-                n, factor = n // (k * k), factor * k
-        return cls(0, factor, n)
+                n, q = n // (k * k), q * k
+        return Surd(self.p, q, n)
 
     def __add__(self, other: int | Fraction) -> Surd:
         return Surd(self.p + other, self.q, self.n)

@@ -14,16 +14,19 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from typing import NamedTuple, cast
 
-from cfree.exact.number import ExactPoint
+from cfree.exact.number import ExactPoint, common_denominator
 from cfree.exact.orientation import Meeting, crossing_point, meet
 from cfree.exact.surd import Surd
 from cfree.exact.vectors import along, cross, dot, minus
 from cfree.libraries import Array, np, shapely
 from cfree.scene.scene import Bounds
 
-HALVINGS = 12  # of the limit: the first growth up to which features are joined
+STEPS, RATIO = 18, 1.5  # growths up to which features are joined in turn, up to the limit
+LONGEST = 256  # bits of a common denominator
 SLACK = 1e-9  # widening of boxes, relative to all numbers: far more than their rounding
+NONE, ALL, NOTHING = Fraction(0), Fraction(1), Surd(0)
 BEYOND = 1  # from bounds to points outside of them
 
 
@@ -35,6 +38,10 @@ class Feature:
     q: ExactPoint
     radius: Fraction
     owner: int
+
+    def scaled(self, by: int | Fraction) -> Feature:
+        """Return the feature with all numbers times a factor."""
+        return Feature(_point(self.p, by), _point(self.q, by), _times(self.radius, by), self.owner)
 
     def may_touch(self, other: Feature) -> bool:
         """False if the boxes of two features are apart."""
@@ -67,6 +74,12 @@ class Encounter:
         share = min(1.0, own / math.hypot(u - x, v - y)) if self.a != self.b else 0.0
         return x + share * (u - x), y + share * (v - y)
 
+    def divided(self, scale: int) -> Encounter:
+        """Return the encounter with all numbers divided by one."""
+        by = Fraction(1, scale)
+        one, other = self.one.scaled(by), self.other and self.other.scaled(by)
+        return Encounter(self.growth / scale, one, other, _point(self.a, by), _point(self.b, by))
+
     def crosses(self, ends: tuple[ExactPoint, ExactPoint]) -> bool:
         """True if the path through both crosses the two rays an odd number of times in sum."""
         last = self.corner if self.other is None else self.other.p
@@ -84,25 +97,42 @@ def first_enclosure(
     -----
     Below the limit no feature reaches the points. They are within the bounds, the outside of which does not grow.
     """
-    near, chains = _Near(features), _Chains(len(features) + 1, ends)
-    number = {id(f): k for k, f in enumerate(features)} | {id(None): len(features)}
+    scale = _scale_of(features, bounds, ends)
+    scaled = [f.scaled(scale) for f in features]
+    rim = bounds and cast(Bounds, tuple(_times(c, scale) for c in bounds))
+    near, chains = _Near(features), _Chains(len(features) + 1, (_point(ends[0], scale), _point(ends[1], scale)))
+    limit = limit * scale
     seen = set[tuple[int, int]]()
-    waiting = [met for f in features for met in _at_rim(f, bounds) if met.growth < limit] if bounds else []
-    for halvings in range(HALVINGS, -1, -1):
-        most = math.ldexp(float(limit), -halvings) if halvings else math.inf  # then all that are left
-        new = near.pairs(min(most, math.nextafter(float(limit), math.inf))) - seen
+    waiting = [_Waiting.of(met, k, -1) for k, f in enumerate(scaled) for met in _at_rim(f, rim)] if rim else []
+    for step in range(STEPS, -1, -1):
+        most = float(limit) / RATIO**step if step else math.inf  # then all that are left
+        new = near.pairs(min(most, math.nextafter(float(limit), math.inf)) / scale) - seen
         seen |= new
-        waiting += [met for i, j in new if (met := _encounter(features[i], features[j])).growth < limit]
-        waiting.sort(key=lambda met: (float(met.growth), met.growth, number[id(met.one)], number[id(met.other)]))
-        for count, met in enumerate(waiting):
-            if not met.growth < most:
+        waiting += [_Waiting.of(_encounter(scaled[i], scaled[j]), i, j) for i, j in new]
+        waiting.sort(key=lambda each: each[:4])
+        for count, each in enumerate(waiting):
+            if each.growth >= most or not each.met.growth < limit:
                 waiting = waiting[count:]
                 break
-            if chains.close(number[id(met.one)], number[id(met.other)], met):
-                return met
+            if chains.close(each.one, each.other, each.met):
+                return each.met.divided(scale)
         else:
             waiting = []
     return None
+
+
+class _Waiting(NamedTuple):
+    """An encounter in the order of encounters: by its growth, rounded and then exact."""
+
+    growth: float
+    exact: Surd
+    one: int
+    other: int
+    met: Encounter
+
+    @classmethod
+    def of(cls, met: Encounter, one: int, other: int) -> _Waiting:
+        return cls(float(met.growth), met.growth, one, other, met)
 
 
 class _Near:
@@ -164,16 +194,16 @@ def _is_crossed(u: ExactPoint, v: ExactPoint, end: ExactPoint) -> bool:
 # --- distances ---
 
 
-def foot(point: ExactPoint, p: ExactPoint, q: ExactPoint) -> tuple[Fraction, ExactPoint]:
-    """Return the square of a point's distance from a segment, and the nearest point of it."""
+def foot(point: ExactPoint, p: ExactPoint, q: ExactPoint) -> tuple[Fraction, Fraction]:
+    """Return the square of a point's distance from a segment, and the share of the segment up to the nearest point."""
     d, v = minus(q, p), minus(point, p)
     share, whole = dot(v, d), dot(d, d)
     if share <= 0:
-        return dot(v, v), p
+        return dot(v, v), NONE
     if share >= whole:
         v = minus(point, q)
-        return dot(v, v), q
-    return cross(d, v) ** 2 / whole, along(p, share / whole, d)
+        return dot(v, v), ALL
+    return Fraction(cross(d, v) ** 2, whole), Fraction(share, whole)
 
 
 def nearest(f: Feature, g: Feature) -> tuple[Fraction, ExactPoint, ExactPoint]:
@@ -181,14 +211,18 @@ def nearest(f: Feature, g: Feature) -> tuple[Fraction, ExactPoint, ExactPoint]:
     if f.p != f.q and g.p != g.q and meet(f.p, f.q, g.p, g.q) is Meeting.CROSS:
         common = crossing_point(f.p, f.q, g.p, g.q)
         return Fraction(0), common, common
-    ways = [(square, p, near) for p in {f.p, f.q} for square, near in [foot(p, g.p, g.q)]]
-    ways += [(square, near, p) for p in {g.p, g.q} for square, near in [foot(p, f.p, f.q)]]
-    return min(ways)
+    ways = [(*foot(p, there.p, there.q), k, p) for k, here, there in ((0, f, g), (1, g, f)) for p in (here.p, here.q)]
+    square, share, k, p = min(ways)
+    there = f if k else g
+    at = along(there.p, share, minus(there.q, there.p))
+    return (square, at, p) if k else (square, p, at)
 
 
 def _encounter(f: Feature, g: Feature) -> Encounter:
     square, a, b = nearest(f, g)
-    return Encounter(max(Surd(0), (Surd.root(square) - f.radius - g.radius) / 2), f, g, a, b)
+    n, d = square.numerator, square.denominator
+    half = Surd(Fraction(-f.radius - g.radius, 2), Fraction(1, 2 * d), n * d)  # (sqrt(n / d) - radii) / 2
+    return Encounter(max(NOTHING, half), f, g, a, b)
 
 
 def _at_rim(f: Feature, bounds: Bounds) -> Iterator[Encounter]:
@@ -206,4 +240,23 @@ def _at_rim(f: Feature, bounds: Bounds) -> Iterator[Encounter]:
         (high, (high[0], max(high[1], y1)), (x0 - BEYOND, y1 + BEYOND)),
     ):
         distance = abs(a[0] - b[0]) + abs(a[1] - b[1])
-        yield Encounter(max(Surd(0), Surd(distance - f.radius)), f, None, a, b, corner)
+        yield Encounter(max(NOTHING, Surd(distance - f.radius)), f, None, a, b, corner)
+
+
+# --- integers: much quicker than fractions, and equal to them ---
+
+
+def _scale_of(features: Sequence[Feature], bounds: Bounds | None, ends: Sequence[ExactPoint]) -> int:
+    """Return a number that makes all coordinates and radii whole; 1 if that is very large."""
+    numbers = {c for f in features for c in (*f.p, *f.q, f.radius)} | {c for p in ends for c in p} | {*(bounds or ())}
+    scale = common_denominator(numbers)
+    return scale if scale.bit_length() <= LONGEST else 1
+
+
+def _times(x: Fraction, by: int | Fraction) -> Fraction:
+    product = x * by
+    return cast(Fraction, product.numerator) if product.denominator == 1 else product
+
+
+def _point(p: ExactPoint, by: int | Fraction) -> ExactPoint:
+    return _times(p[0], by), _times(p[1], by)

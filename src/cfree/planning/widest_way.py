@@ -133,10 +133,10 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
     stop = first_enclosure(features, scene.bounds, ends, room)
     if stop is None:
         at = NarrowPlace((float(end[0]), float(end[1])), (owner,), (placed(scene, owner),), name)
-        return WidestWay(disc, room, at)
+        return WidestWay(disc, room.reduced, at)
     both = tuple(BOUNDS if f is None else f.owner for f in (stop.one, stop.other))
     at = NarrowPlace(stop.place, both, tuple(placed(scene, k) for k in both))
-    return WidestWay(disc, stop.growth, at)
+    return WidestWay(disc, stop.growth.reduced, at)
 
 
 # --- features ---
