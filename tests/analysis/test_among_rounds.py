@@ -12,7 +12,7 @@ import shapely
 
 import cfree.verify
 from cfree import Curved, Scene, blockers, boundary, max_margin, max_scale, nearest_miss
-from cfree.analysis import among_rounds
+from cfree.analysis import among_rounds, margins
 from cfree.analysis.among_rounds import Decisions
 from cfree.analysis.blockers import Blockers, _without
 from cfree.analysis.inset_shapes import inset_shapes
@@ -43,10 +43,9 @@ def is_within(found: Interval, truth: float, tolerance: float) -> bool:
     return found.lo <= truth <= found.hi <= (1 + tolerance) * found.lo and not found.undecided
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("radius", ["0.49", "0.5", "0.6", Fraction(1, 2**20)])
 def test_the_largest_scale_of_a_disc_between_discs(radius: Any) -> None:
-    assert is_within(max_scale(hall(disc(radius)), tolerance=0.05), 0.5 / float(Fraction(radius)), 0.05)
+    assert max_scale(hall(disc(radius))).exact == Fraction(1, 2) / Fraction(radius)
 
 
 @pytest.mark.slow
@@ -61,11 +60,10 @@ def test_the_largest_scale_of_a_half_disc_that_goes_through_turned() -> None:
 
 @pytest.mark.slow
 def test_the_end_poses_limit_a_scale_exactly() -> None:
-    """A disc beside a disc, at its start: free up to the contact, and no farther."""
-    scene = Scene(disc(1), [Curved.circle((3, 0), 1)], start=(0, 0, 0), goal=(0, 9, 0))
-    found = max_scale(scene, tolerance=2.0**-12)
-    assert is_within(found, 2, 2.0**-12)
-    assert is_within(max_margin(scene, tolerance=2.0**-12), 1, 2.0**-12)
+    """A round robot beside a disc, at its start: free up to the contact, and no farther."""
+    scene = Scene(stadium("1/4", "3/4"), [Curved.circle((3, 0), 1)], start=(0, 0, 0), goal=(0, 9, 0))
+    assert is_within(max_scale(scene, tolerance=2.0**-12), 2, 2.0**-12)
+    assert max_margin(scene, tolerance=2.0**-12).exact == 1
 
 
 @pytest.mark.slow
@@ -77,24 +75,25 @@ def test_the_largest_scale_of_a_robot_that_lies_on_the_floor_about_its_contact()
     assert found.lo <= 2 <= found.hi and found.lo > 1.9 and found.hi < 2.1
 
 
-@pytest.mark.slow
 def test_the_largest_margin_of_a_disc_between_discs() -> None:
-    assert is_within(max_margin(hall(disc("0.4")), tolerance=0.1), 0.1, 0.1)
+    found = max_margin(hall(disc("0.4")))
+    assert found.exact == Fraction(1, 10) and found.lo < found.exact < found.hi == 0.1
+    assert str(found.at) == "between obstacle 1, 2 x 2 at (3, 0) and obstacle 2, 2 x 2 at (6, 0) at (4.5, 0)"
     with pytest.raises(ValueError, match="not joined without touching"):
         max_margin(hall(disc("0.6")))
 
 
-@pytest.mark.slow
 def test_the_largest_margin_of_a_robot_in_contact_is_0() -> None:
     scene = Scene(disc(1), [Curved.circle((0, -1), 1), Curved.circle((3, 5), 1)], start=(0, 1, 0), goal=(0, 5, 0))
     found = max_margin(scene)
-    assert found.lo == 0 < found.hi < 1e-9
+    assert found.exact == found.lo == found.hi == 0 and str(found.at).endswith("at the start")
 
 
 @pytest.mark.slow
 def test_an_interval_that_stays_wide_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(among_rounds, "WORK", 4_000)
     monkeypatch.setattr(curved, "round_cells", lambda *_: None)
+    monkeypatch.setattr(margins, "widest_way", lambda *_: None)
     found = max_scale(hall(disc("0.49")), tolerance=0.0003)
     assert found.lo <= 0.5 / 0.49 <= found.hi and 1.0003 * found.lo < found.hi < 1.1 * found.lo
     assert "round shapes do not decide" in found.undecided and found.undecided in repr(found)
@@ -109,6 +108,7 @@ def test_an_interval_that_stays_wide_says_why(monkeypatch: pytest.MonkeyPatch) -
 def test_the_nearest_miss_between_discs(robot: Curved) -> None:
     miss = nearest_miss(hall(robot), tolerance=0.1)
     assert miss is not None and miss.lo <= 0.05 <= miss.hi <= 1.1 * miss.lo and not miss.undecided
+    assert miss.exact == Fraction(1, 20)
     (place,) = miss.bottlenecks
     assert 1 in place.obstacles and "obstacle 1, 2 x 2 at (3, 0)" in str(miss)  # found by samples, on one side of it
 
@@ -228,7 +228,6 @@ def test_no_smaller_robot_is_found_where_no_polygon_is_inside_the_robot() -> Non
         cfree.nearest_miss(Scene(Curved([(0, 0), low, high]), [wall], bounds=(-9, -9, 9, 9)), (0, 0, 0), (7, 0, 0))
 
 
-@pytest.mark.slow
 def test_a_margin_of_a_gap_that_is_just_closed_is_refused() -> None:
     walls = [[(0, "0.995"), (6, "0.995"), (6, 9), (0, 9)], [(0, -9), (6, -9), (6, "-0.995"), (0, "-0.995")]]
     room = [(-9, -9), (14, -9), (14, 9), (-9, 9)]

@@ -11,8 +11,11 @@ import pytest
 import shapely
 
 import cfree.verify
+import fuzz_exact_values
 from cfree import Pose, Scene, boundary, free_space, load_scene, max_margin, max_scale, nearest_miss, separation
 from cfree.analysis.bottleneck import bottlenecks
+from cfree.analysis.margins import Interval
+from cfree.exact.surd import Surd
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, SIDES, _around_a_disc
@@ -74,13 +77,21 @@ def test_a_miss_that_is_too_small_to_see_and_one_that_nothing_mends() -> None:
     exact = separation(room(1), INSIDE, OUTSIDE)
     assert exact is not None and exact.of == "interior"
     miss = nearest_miss(room(1).boundary.scene, INSIDE, OUTSIDE)
-    assert miss is not None and miss.lo == 0 < miss.hi < 1e-40 and miss.bottlenecks == ()
+    assert miss is not None and miss.exact == miss.lo == miss.hi == 0 and miss.bottlenecks == ()
+    assert str(miss) == "an inset of exactly 0 would just do"
     closed = scene_of(PlainScene([box(0, 0, 1, 1)], [hollow((-5, -5, 5, 5), (-4, -4, 4, 4))]))
     assert nearest_miss(closed, Pose(0, 0), Pose(9, 9)) is None
     with pytest.raises(ValueError, match="start and goal are joined"):
         nearest_miss(closed, Pose(0, 0), Pose(1, 1))
     with pytest.raises(ValueError, match="tolerance 0"):
         nearest_miss(corner("2.6", "0.2"), HERE, THERE, tolerance=0)
+
+
+@pytest.mark.slow
+def test_a_miss_of_less_than_doubles_tell_apart_is_exact() -> None:
+    """The gap is narrower than the square by a number with 46 digits."""
+    miss = nearest_miss(room(1 - Fraction(1, 10**46)).boundary.scene, INSIDE, OUTSIDE)
+    assert miss is not None and miss.exact == Fraction(1, 2 * 10**46) and 0 < miss.lo < miss.hi < 1e-40
 
 
 def test_scales() -> None:
@@ -100,13 +111,44 @@ def test_margins() -> None:
     gate = [box(-9, -1, -1, 1), box(1, -1, 9, 1)]
     through = scene_of(PlainScene([box(-half, -half, half, half)], gate, workspace=box(-9, -9, 9, 9)))
     found = max_margin(through, Pose(0, 5), Pose(0, -5), tolerance=0.02, progress=shares.append)
-    assert found.lo <= 0.5 <= found.hi <= 1.05 * found.lo
+    assert found == Interval(0.5, 0.5, exact=Surd("1/2"))
     assert shares == sorted(shares) and shares[-1] == 1 and 0 <= shares[0] < 0.5
     near = max_margin(through, Pose("-33/4", 5), Pose(0, 5))  # start is 1/4 from the workspace
-    assert near.lo <= 0.25 <= near.hi
+    assert near.exact == Fraction(1, 4) and near.lo == near.hi == 0.25
     assert max_margin(Scene([(0, 0), (1, 0), (0, 1)]), Pose(0, 0), Pose(1, 1)).hi == math.inf
     with pytest.raises(ValueError, match="start and goal are not joined"):
         max_margin(corner("2.6", "0.2"), HERE, THERE)
+
+
+def test_numbers_that_are_not_simple_come_from_parallel_edges() -> None:
+    """A square of 2.2746 before a gap of 2, all turned by an angle of 4 : 3; the margin of one of 1.0746."""
+    c, s = Fraction(3, 5), Fraction(4, 5)
+
+    def scene(half: str) -> Scene:
+        h = Fraction(half)
+        shapes = [box(-h, -h, h, h), box(-9, -1, -1, 1), box(1, -1, 9, 1), box(-9, -9, 9, 9)]
+        robot, *others = ([(c * x - s * y, s * x + c * y) for x, y in ring] for ring, _ in shapes)
+        return Scene(robot, others[:2], workspace=others[2], start=(-5 * s, 5 * c, 0), goal=(5 * s, -5 * c, 0))
+
+    large = scene("1.1373")
+    miss = nearest_miss(large, tolerance=0.05)
+    assert miss is not None and miss.exact == Fraction("0.1373") and miss.lo <= 0.1373 <= miss.hi
+    assert max_scale(large, tolerance=0.05).exact == 1 / Fraction("1.1373")
+    assert max_margin(scene("0.5373"), tolerance=0.05).exact == Fraction("0.4627")
+
+
+def test_a_number_is_exact_only_where_smaller_robots_are_inside_larger_ones() -> None:
+    """The first is a square about its corner; smaller ones touch as well at its start, in a corner of the workspace."""
+    walls = box(0, 0, 9, 1)[0]
+    found = max_scale(Scene(box(0, 0, 1, 1)[0], workspace=walls, start=(1, 0, 0), goal=(5, 0, 0)))
+    assert found.exact is None
+    inside = Scene(box("-1/2", "-1/2", "1/2", "1/2")[0], workspace=walls, start=(1, "1/2", 0), goal=(5, "1/2", 0))
+    assert max_scale(inside).exact == 1
+
+
+@pytest.mark.parametrize("seed", [7, 9])
+def test_robots_a_little_smaller_and_larger_agree_with_exact_numbers(seed: int) -> None:
+    assert "scale" in fuzz_exact_values.check(seed)
 
 
 def test_the_polygon_is_around_the_disc_and_inside_the_other() -> None:

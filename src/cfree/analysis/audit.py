@@ -88,7 +88,10 @@ class Door:
     def __str__(self) -> str:
         where = ", ".join(near(value, self.width) for value in self.middle)
         place = f"{self.name}, {near(self.width, self.width)} wide at ({where}), {self.rooms[0]} - {self.rooms[1]}"
-        missing = f", {' to '.join(ends(self.missing.lo, self.missing.hi, 3))} too wide" if self.missing else ""
+        missing = ""
+        if self.missing:
+            size = " to ".join(ends(self.missing.lo, self.missing.hi, 3))
+            missing = f", {size if self.missing.exact is None else f'exactly {self.missing.exact}'} too wide"
         return f"{place}: {self.machine} {WORDS[self.result]}{missing}"
 
     @property
@@ -284,7 +287,12 @@ class _Auditor:
             shut = self._with_bars(others)
             misses = [nearest_miss(shut, start, goal, tolerance) for start, goal in pairs]
             known = [miss for miss in misses if miss is not None]
-            return Interval(*(2 * min(getattr(miss, end) for miss in known) for end in ("lo", "hi"))) if known else None
+            if not known:
+                return None
+            exact = [2 * miss.exact for miss in known if miss.exact is not None]
+            if len(exact) == len(known):
+                return Interval(*min(exact).floats_around, exact=min(exact))
+            return Interval(*(2 * min(getattr(miss, end) for miss in known) for end in ("lo", "hi")))
         size = Fraction(2) ** Insets(self.scene).size
         most = deepest(self._smaller, size)
 

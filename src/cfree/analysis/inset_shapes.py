@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any, cast
 
 from cfree.collision.arcs import Curve, curves_of
 from cfree.curves.curved import Curved
@@ -41,22 +42,43 @@ def inset_shapes(shapes: Sequence[AnyShape], by: Fraction, error: float, *, outw
 def _inset(shape: AnyShape, by: Fraction, error: float, outward: bool) -> Sequence[AnyShape]:
     if isinstance(shape, Polygon):
         return inset(shape, by)
-    if isinstance(shape.path, Circle) and not shape.holes:
-        center, radius = shape.path.center, shape.path.radius
-        return [Curved.circle(center, radius - by)] if by < radius else []
-    if shape.grown and by < shape.grown:
-        return [Curved(shape.path, shape.holes, grown=shape.grown - by)]
-    if shape.grown:
+    if isinstance(shape.path, Circle) and not shape.holes and by >= shape.path.radius:
+        return []
+    if shape.grown and by >= shape.grown:
         core, left = shape._base(), by - shape.grown
         return inset(core, left) if left else [core]
+    exact = exact_inset(shape, by)
+    if exact is not None:
+        return [exact]
+    return [part for polygon in polygons_for(shape, error, outward) for part in inset(polygon, by)]
+
+
+def exact_inset(shape: AnyShape, by: Fraction) -> AnyShape | None:
+    """Return a polygon, or a shape of lines and arcs, with all of these moved inwards, exactly.
+
+    None if a number is irrational, a piece vanishes, or parts would overlap; of a grown shape, if it would vanish.
+
+    Examples
+    --------
+    >>> exact_inset(Polygon([(0, 0), (4, 0), (0, 3)]), Fraction(1, 2)).exact_vertices[1]
+    (Fraction(5, 2), Fraction(1, 2))
+    >>> exact_inset(Polygon([(0, 0), (4, 0), (0, 4)]), Fraction(1, 2)) is None
+    True
+    """
+    if isinstance(shape, Curved) and isinstance(shape.path, Circle) and not shape.holes:
+        center, radius = shape.path.center, shape.path.radius
+        return Curved.circle(center, radius - by) if by < radius else None
+    if isinstance(shape, Curved) and shape.grown:
+        return Curved(shape.path, shape.holes, grown=shape.grown - by) if by < shape.grown else None
     curves = curves_of(shape)
     rings = [_moved(ring, by, is_hole=k > 0) for k, ring in enumerate(curves[1])] if curves else [None]
-    if all(rings):
-        try:
-            return [Curved(rings[0] or (), [ring or () for ring in rings[1:]])]
-        except InvalidPolygonError:  # parts of it would overlap
-            pass
-    return [part for polygon in polygons_for(shape, error, outward) for part in inset(polygon, by)]
+    outer, *holes = cast(list[Any], rings)
+    if not outer or not all(holes):
+        return None
+    try:
+        return type(shape)(outer, holes)
+    except InvalidPolygonError:  # parts of it would overlap
+        return None
 
 
 def _moved(ring: Sequence[Curve], by: Fraction, *, is_hole: bool) -> list[ExactPoint | Arc] | None:

@@ -12,14 +12,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import total_ordering
 
 from cfree.arguments import checked
 from cfree.exact.half_angle import chart_of_direction, tau_in_chart
 from cfree.exact.number import Number, angle, to_fraction
 from cfree.exact.orientation import Order, compare_with_surd
 
+SQUARES = 100  # least number whose square is not looked for in a radicand
+
 
 @checked
+@total_ordering
 @dataclass(frozen=True, slots=True, init=False, eq=False)
 class Surd:
     """The number p + q sqrt(n).
@@ -33,7 +37,7 @@ class Surd:
 
     Notes
     -----
-    Equality compares the numbers, not their representations.
+    Equality and order are those of the numbers, not of their representations; also with rational ones and floats.
 
     Examples
     --------
@@ -42,6 +46,8 @@ class Surd:
     -1 + sqrt(2) 0.41421356237309503 Order.AFTER
     >>> Surd(0, 1, 8) == Surd(0, 2, 2), Surd(1, 2, 9)
     (True, Surd(p=Fraction(7, 1), q=Fraction(0, 1), n=0))
+    >>> Surd(0, 1, 2) < Surd(3, -1, 2) < 1.6, Surd("1/4") == 0.25
+    (True, True)
     """
 
     p: Fraction
@@ -62,13 +68,66 @@ class Surd:
         before = str(self.p) if self.p else ""
         return f"{before} {'-' if self.q < 0 else '+'} {root}".removeprefix(" + ").strip()
 
+    @classmethod
+    def root(cls, square: Fraction) -> Surd:
+        """Return the square root of a number that is not negative.
+
+        Examples
+        --------
+        >>> print(Surd.root(Fraction(9, 8)), "=", Surd.root(Fraction(9, 8)).reduced)
+        1/8 sqrt(72) = 3/4 sqrt(2)
+        """
+        return cls(0, Fraction(1, square.denominator), square.numerator * square.denominator)
+
+    @property
+    def reduced(self) -> Surd:
+        """The same number, without squares of numbers below `SQUARES` in its radicand."""
+        n, q = self.n, self.q
+        for k in range(2, SQUARES):
+            while n and n % (k * k) == 0:
+                n, q = n // (k * k), q * k
+        return Surd(self.p, q, n)
+
+    def __add__(self, other: int | Fraction) -> Surd:
+        return Surd(self.p + other, self.q, self.n)
+
+    def __sub__(self, other: int | Fraction) -> Surd:
+        return Surd(self.p - other, self.q, self.n)
+
+    def __mul__(self, factor: int | Fraction) -> Surd:
+        return Surd(self.p * factor, self.q * factor, self.n)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: int | Fraction) -> Surd:
+        return Surd(self.p / divisor, self.q / divisor, self.n)
+
     def __eq__(self, other: object) -> bool:
+        if isinstance(other, int | float | Fraction):
+            return self.q == 0 and self.p == other
         if not isinstance(other, Surd):
             return NotImplemented
         return self._key == other._key
 
+    def __lt__(self, other: Surd | float | Fraction) -> bool:
+        if isinstance(other, int | float | Fraction):
+            return other > 0 if math.isinf(other) else self.compare(other) is Order.BEFORE
+        if not isinstance(other, Surd):
+            return NotImplemented
+        if other.q == 0:
+            return self.compare(other.p) is Order.BEFORE
+        if self.q == 0:
+            return other.compare(self.p) is Order.AFTER
+        bits = 64
+        while self != other:
+            (a, b), (c, d) = self.neighbours(bits), other.neighbours(bits)
+            if b <= c or d <= a:
+                return b <= c
+            bits *= 2
+        return False
+
     def __hash__(self) -> int:
-        return hash(self._key)
+        return hash(self._key if self.q else self.p)
 
     def __float__(self) -> float:
         """Round to the nearest double."""
@@ -101,6 +160,19 @@ class Surd:
         root = math.isqrt(factor * factor * self.n)
         low = (whole + root if factor > 0 else whole - root - 1) // d
         return Fraction(low, 1 << bits), Fraction(low + 1, 1 << bits)
+
+    @property
+    def floats_around(self) -> tuple[float, float]:
+        """The greatest double that is not above the number, and the least that is not below.
+
+        Examples
+        --------
+        >>> Surd("1/4").floats_around, Surd(0, 1, 2).floats_around
+        ((0.25, 0.25), (1.414213562373095, 1.4142135623730951))
+        """
+        near = float(self)
+        below = near if self >= near else math.nextafter(near, -math.inf)
+        return below, near if self <= near else math.nextafter(near, math.inf)
 
     @property
     def _key(self) -> tuple[Fraction, bool, Fraction]:

@@ -12,6 +12,7 @@ from cfree.lazy import lazy_names
 if TYPE_CHECKING:
     from cfree.planning.separation import Pieces as Pieces
     from cfree.planning.unreachable import BoxGrid as BoxGrid
+    from cfree.planning.widest_way import NarrowPlace as NarrowPlace
     from cfree.scene.goals import Moved as Moved
 
 __getattr__, __dir__, __all__ = lazy_names(
@@ -20,5 +21,6 @@ __getattr__, __dir__, __all__ = lazy_names(
         "moved_ends": "Moved",
         "separation": "Pieces",
         "unreachable": "BoxGrid",
+        "widest_way": "NarrowPlace",
     },
 )

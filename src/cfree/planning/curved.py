@@ -54,6 +54,7 @@ from cfree.planning.separation import Separated
 from cfree.planning.stuck import Stuck
 from cfree.planning.true_shapes import TruePlanner, TrueShapes
 from cfree.planning.unreachable import Unreachable
+from cfree.planning.widest_way import widest_way
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Goal
 from cfree.scene.rounded import is_disc_about_reference
@@ -237,11 +238,19 @@ class CurvedQuery:
         except UndecidedError as error:
             if not self.options.clearance or error.path is not None:
                 raise
-            lo, hi = self._around(ask, error.error)
-            message = f"{error}; the largest clearance that a path keeps is between {lo:.8g} and {hi:.8g}"
+            lo, hi, largest = self._largest(ends) or self._around(ask, error.error)
+            message = f"{error}; the largest clearance that a path keeps is {largest}"
             raise UndecidedError(message, lo=lo, hi=hi, error=error.error) from None
 
-    def _around(self, ask: Ask, error: float) -> tuple[float, float]:
+    def _largest(self, ends: Sequence[Goal]) -> tuple[float, float, str] | None:
+        """Return the largest clearance of a disc, between doubles and in words; None if infinite, or of others."""
+        start, goal = ends if len(ends) == 2 else (None, None)
+        way = widest_way(self.near.exact, start, goal) if isinstance(start, Pose) and isinstance(goal, Pose) else None
+        if way is None or way.margin is None:
+            return None
+        return *way.margin.floats_around, f"exactly {way.margin}, {way.at}"
+
+    def _around(self, ask: Ask, error: float) -> tuple[float, float, str]:
         """Bound the largest clearance by queries for a smaller and a larger one, in the scenes that gave answers."""
         lo, hi = self._interval
         for outward, (planner, options) in self._decided.items():
@@ -253,7 +262,7 @@ class CurvedQuery:
                     lo = max(lo, math.nextafter(float(other), 0.0))  # rounded down
                 elif not outward and answer is not None and not isinstance(answer, Path):
                     hi = min(hi, math.nextafter(float(other), math.inf))  # rounded up
-        return lo, hi
+        return lo, hi, f"between {lo:.8g} and {hi:.8g}"
 
     def _refuse(self, ends: Sequence[Goal]) -> None:
         """Refuse ends that are forbidden among lines and circular arcs, or nearer to something than the clearance."""

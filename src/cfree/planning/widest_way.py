@@ -1,0 +1,187 @@
+"""The largest disc that gets from one place to another, exactly, and where it is stopped.
+
+All features of the obstacles, segments and discs, grow at one rate. Where two of them meet, halfway between their
+nearest points, they join to a chain; when a chain first closes around start or goal alone, no disc as large as that
+passes. docs/theory/separations.md, "The widest way of a disc", has the proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import pairwise
+
+from cfree.exact.number import ExactPoint
+from cfree.exact.orientation import Location, locate
+from cfree.exact.pose import Pose
+from cfree.exact.surd import Surd
+from cfree.planning.enclosure import Feature, first_enclosure, foot
+from cfree.polygons.polygon import Polygon
+from cfree.scene.features import BOUNDS, WORKSPACE
+from cfree.scene.naming import placed
+from cfree.scene.rounded import Rounded, rounded
+from cfree.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class NarrowPlace:
+    """The place that decides how large a disc gets from start to goal.
+
+    Attributes
+    ----------
+    point : (float, float)
+        The middle of the disc there, rounded.
+    obstacles : tuple of int
+        The two that it is between, or the one beside the start or goal; -1 is the bounds, -2 the workspace.
+    names : tuple of str
+        Their names in words, with size and place.
+    end : str
+        "start" or "goal" if that pose itself has no more room.
+
+    Examples
+    --------
+    >>> print(NarrowPlace((0.5, 2.0), (3, 7), ("obstacle 3", "obstacle 7")))
+    between obstacle 3 and obstacle 7 at (0.5, 2)
+    """
+
+    point: tuple[float, float]
+    obstacles: tuple[int, ...]
+    names: tuple[str, ...] = field(compare=False, repr=False)
+    end: str = ""
+
+    def __str__(self) -> str:
+        x, y = self.point
+        if self.end:
+            return f"beside {self.names[0]} at the {self.end}"
+        one, other = self.names
+        where = f"between parts of {one}" if one == other else f"between {one} and {other}"
+        return f"{where} at ({x:.6g}, {y:.6g})"
+
+
+@dataclass(frozen=True)
+class WidestWay:
+    """The largest disc about one point of a robot that gets from start to goal.
+
+    Attributes
+    ----------
+    disc : Rounded
+        The robot.
+    radius : Surd or None
+        That of the largest disc; 0 if there is none, None if all discs get there.
+    at : NarrowPlace or None
+        The place that stops larger ones.
+    """
+
+    disc: Rounded
+    radius: Surd | None
+    at: NarrowPlace | None = None
+
+    @property
+    def center(self) -> ExactPoint:
+        """The middle of the robot, in its frame."""
+        assert not isinstance(self.disc.core, Polygon), "it is a point"
+        return self.disc.core[0]
+
+    @property
+    def margin(self) -> Surd | None:
+        """The largest clearance of the robot; below 0 if it does not get there, None if it is infinite."""
+        return None if self.radius is None else self.radius - self.disc.radius
+
+
+def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
+    """Find the largest disc that gets from start to goal.
+
+    Returns
+    -------
+    WidestWay, or None
+        None if the robot is not one disc, about its reference point if there are bounds; or if shapes are not polygons,
+        grown polygons or discs, and the workspace a polygon.
+
+    Examples
+    --------
+    >>> from cfree.curves.curved import Curved
+    >>> posts = [Curved.circle((x, x), 1) for x in (0, 3)]
+    >>> walls = [(-3, -3), (6, -3), (6, 6), (-3, 6)]
+    >>> scene = Scene(Curved.circle((0, 0), "1/4"), posts, workspace=walls)
+    >>> way = widest_way(scene, Pose("9/2", "-3/2"), Pose("-3/2", "9/2"))
+    >>> print(way.radius, "=", float(way.radius), "margin", way.margin)
+    -1 + 3/2 sqrt(2) = 1.1213203435596426 margin -5/4 + 3/2 sqrt(2)
+    >>> print(way.at)
+    between obstacle 0, 2 x 2 at (0, 0) and obstacle 1, 2 x 2 at (3, 3) at (1.5, 1.5)
+    """
+    disc = rounded(scene.robot[0]) if len(scene.robot) == 1 else None
+    if disc is None or isinstance(disc.core, Polygon) or len(disc.core) > 1:
+        return None
+    (center,) = disc.core
+    if scene.bounds and any(center):
+        return None
+    shapes = [rounded(shape) for shape in scene.obstacles]
+    known = [shape for shape in shapes if shape is not None and not shape.arcs]
+    if len(known) < len(shapes) or not isinstance(scene.workspace, Polygon | None):
+        return None
+    ends = place(center, start), place(center, goal)
+    if any(_is_blocked(scene, known, end) for end in ends):
+        return WidestWay(disc, Surd(0))
+    features = [*features_of(known, scene.workspace)]
+    if not features:
+        return WidestWay(disc, None)
+    rooms = [_room_at(end, features) for end in ends]
+    (room, owner), end, name = min(zip(rooms, ends, ("start", "goal"), strict=True), key=lambda each: each[0][0])
+    if room <= 0:
+        return WidestWay(disc, Surd(0))
+    stop = first_enclosure(features, scene.bounds, ends, room)
+    if stop is None:
+        at = NarrowPlace((float(end[0]), float(end[1])), (owner,), (placed(scene, owner),), name)
+        return WidestWay(disc, room.reduced, at)
+    both = tuple(BOUNDS if f is None else f.owner for f in (stop.one, stop.other))
+    at = NarrowPlace(stop.place, both, tuple(placed(scene, k) for k in both))
+    return WidestWay(disc, stop.growth.reduced, at)
+
+
+# --- features ---
+
+
+def features_of(shapes: Sequence[Rounded], workspace: Polygon | None) -> Iterator[Feature]:
+    """Yield the features of grown cores and of a workspace; those of one owner follow each other."""
+    for k, shape in enumerate(shapes):
+        if isinstance(shape.core, Polygon):
+            yield from (Feature(p, q, shape.radius, k) for p, q in _edges(shape.core))
+        else:
+            yield Feature(shape.core[0], shape.core[-1], shape.radius, k)
+    if workspace is not None:
+        yield from (Feature(p, q, Fraction(0), WORKSPACE) for p, q in _edges(workspace))
+
+
+def _edges(polygon: Polygon) -> Iterator[tuple[ExactPoint, ExactPoint]]:
+    for ring in polygon.exact_rings:
+        yield from pairwise([*ring, ring[0]])
+
+
+def _is_blocked(scene: Scene, shapes: Sequence[Rounded], point: ExactPoint) -> bool:
+    """True if a point is inside the polygon of an obstacle, or outside of the workspace or the bounds."""
+    x, y = point
+    if scene.bounds:
+        x0, y0, x1, y1 = scene.bounds
+        if not (x0 <= x <= x1 and y0 <= y <= y1):
+            return True
+    if isinstance(scene.workspace, Polygon) and locate(point, _edges(scene.workspace)) is Location.OUTSIDE:
+        return True
+    cores = (shape.core for shape in shapes if isinstance(shape.core, Polygon))
+    return any(locate(point, _edges(core)) is Location.INSIDE for core in cores)
+
+
+def place(point: ExactPoint, pose: Pose) -> ExactPoint:
+    """Return the place of a point of the robot at a pose."""
+    (x, y), (c, s, w) = point, pose.rotation
+    return pose.x + (c * x - s * y) / w, pose.y + (s * x + c * y) / w
+
+
+def _room_at(point: ExactPoint, features: Sequence[Feature]) -> tuple[Surd, int]:
+    """Return the distance of a point from the features, and the owner of the nearest."""
+    distances = ((foot(point, f.p, f.q)[0], f) for f in features)
+    nearest = dict[Fraction, tuple[Fraction, Feature]]()  # by radius
+    for square, f in distances:
+        if f.radius not in nearest or square < nearest[f.radius][0]:
+            nearest[f.radius] = square, f
+    return min((Surd.root(square) - f.radius, f.owner) for square, f in nearest.values())
