@@ -74,6 +74,14 @@ def test_a_corner_in_a_reflex_corner_is_a_helix() -> None:
     assert math.isclose(angle_range(sharp, L_SHAPE, VertexVertex(0, 3)).phi_range, math.pi / 2 - math.atan(0.5))
 
 
+def test_a_wrong_index_is_named_with_the_count() -> None:
+    square = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+    with pytest.raises(IndexError, match=r"VertexEdge\(i=0, j=4\): the obstacle has 4 .* from 0 to 3"):
+        angle_range(square, square, VertexEdge(0, 4))
+    with pytest.raises(IndexError, match="the robot has 4"):
+        edge_edge_range(square, square, EdgeEdge(-1, 0))
+
+
 @pytest.mark.parametrize("contact", [VertexEdge(3, 0), VertexVertex(3, 3)])
 def test_a_reflex_vertex_has_no_patch(contact: VertexEdge | VertexVertex) -> None:
     assert contact not in (*contacts(L_SHAPE, L_SHAPE), *contact_curves(L_SHAPE, L_SHAPE))

@@ -167,6 +167,8 @@ def angle_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> AngleRan
     ValueError
         If there is none: a v-e or e-v contact at a reflex vertex, or a v-v contact with
         2 pi - rho_i - omega_j <= 0.
+    IndexError
+        If a polygon has no such vertex or edge.
 
     Notes
     -----
@@ -190,6 +192,8 @@ def end_directions(robot: Polygon, obstacle: Polygon, contact: Contact) -> tuple
     ------
     ValueError
         If the contact type is never a contact, as in `angle_range`.
+    IndexError
+        If a polygon has no such vertex or edge.
 
     Notes
     -----
@@ -202,6 +206,7 @@ def end_directions(robot: Polygon, obstacle: Polygon, contact: Contact) -> tuple
     >>> end_directions(square, square, VertexEdge(0, 0))
     ((-1, 0), (0, -1))
     """
+    _check_indices(robot, obstacle, contact)
     if not _occurs(robot, obstacle, contact):
         raise ValueError(f"{contact} is never a contact: its corners leave no angle; see contacts()")
     return _ends(robot, obstacle, contact)
@@ -210,6 +215,11 @@ def end_directions(robot: Polygon, obstacle: Polygon, contact: Contact) -> tuple
 @checked
 def edge_edge_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tuple[float, float] | None:
     """Closed range of t on the segment C(t) of an e-e contact, None if it is empty.
+
+    Raises
+    ------
+    IndexError
+        If a polygon has no such edge.
 
     Notes
     -----
@@ -222,6 +232,7 @@ def edge_edge_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tup
     >>> edge_edge_range(double, square, EdgeEdge(0, 0))
     (0.0, 3.0)
     """
+    _check_indices(robot, obstacle, contact)
     i, j = contact.i, contact.j
     from_a, from_b = not robot.convex[i], not obstacle.convex[j]
     to_a, to_b = not robot.convex[robot.next[i]], not obstacle.convex[obstacle.next[j]]
@@ -243,6 +254,13 @@ def edge_edge_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tup
 def direction_against(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> IntPoint:
     """Exact direction (cos, sin), up to length, in which two edges run against each other, in contact or not."""
     return _against(robot.edge_numerators[contact.i], obstacle.edge_numerators[contact.j])
+
+
+def _check_indices(robot: Polygon, obstacle: Polygon, contact: Contact) -> None:
+    for name, polygon, k in (("robot", robot, contact.i), ("obstacle", obstacle, contact.j)):
+        count = len(polygon.convex)
+        if not 0 <= k < count:
+            raise IndexError(f"{contact}: the {name} has {count} vertices and edges; count from 0 to {count - 1}")
 
 
 def _occurs(robot: Polygon, obstacle: Polygon, contact: Contact) -> bool:
