@@ -36,9 +36,9 @@ RESULTS = """
     Clearance Compacted Contact ContactEdge Critical DepthCell Disassembly Door EdgeEdgeSegment EdgeFeature Escape
     FewestFingers FirstContact Fit FreeSpace Gap GaussBonnet Geodesic Helix Homology Immobility InnerFit
     Intersection IntersectionCurve Interval Leaving LocalGeometry Loop Mesh NFP NearestMiss OffsetSurface Overlap
-    PartMotion Pieces Puncture RationalHelix RationalRange RationalSegment RationalSurface ReachMap RoundedFit
-    Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed TopologyChange Triple TripleContact
-    Unreachable
+    NarrowPlace PartMotion Pieces Puncture RationalHelix RationalRange RationalSegment RationalSurface ReachMap
+    RoundedFit Separated ShapeFeatures Shapes SharedLine Slice Stuck Surface Tiling Timed TopologyChange Triple
+    TripleContact Unreachable
 """.split()  # noqa: SIM905
 
 

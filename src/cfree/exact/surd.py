@@ -69,7 +69,8 @@ class Surd:
         return f"{before} {'-' if self.q < 0 else '+'} {root}".removeprefix(" + ").strip()
 
     @classmethod
-    def root(cls, square: Fraction) -> Surd:
+    @checked
+    def root(cls, square: Number) -> Surd:
         """Return the square root of a number that is not negative.
 
         Examples
@@ -77,7 +78,8 @@ class Surd:
         >>> print(Surd.root(Fraction(9, 8)), "=", Surd.root(Fraction(9, 8)).reduced)
         1/8 sqrt(72) = 3/4 sqrt(2)
         """
-        return cls(0, Fraction(1, square.denominator), square.numerator * square.denominator)
+        n, d = to_fraction(square).as_integer_ratio()
+        return cls(0, Fraction(1, d), n * d)
 
     @property
     def reduced(self) -> Surd:
