@@ -123,8 +123,9 @@ def aisle(
 ) -> None:  # fmt: skip
     """Find the smallest aisle in which a machine does a manoeuvre.
 
-    MACHINE is a file with its outline, or a footprint "[[x, y], ...]". At the upper width there is a motion, at the
-    lower width none, for any number of manoeuvres: both are proved.
+    MACHINE is a file of shapes, all of which are the machine unless some have the role robot; or a footprint
+    "[[x, y], ...]". At the upper width there is a motion, at the lower width none, for any number of manoeuvres: both
+    are proved.
     """
     with one_line_faults():
         from cfree.analysis.aisles import KINDS_WITHOUT_WIDTH, smallest_aisle
@@ -167,7 +168,7 @@ def aisle(
 @drawing.drawing
 @reading.strict
 @click.option("--machine", "machines", multiple=True, metavar="[NAME=]FILE",
-              help='A machine: a file with its outline, or a footprint "[[x, y], ...]"; repeat for several.',
+              help='A machine: a file of its shapes, or a footprint "[[x, y], ...]"; repeat for several.',
               show_default="the plan's robot")  # fmt: skip
 @click.option("--place", "places", multiple=True, metavar="NAME=X,Y", help="Name the room of this point.")
 @click.option("--opening", "openings", multiple=True, metavar="NAME=X,Y,U,V",
