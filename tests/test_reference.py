@@ -154,6 +154,7 @@ def test_the_core_and_the_reference_agree(family: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_core_and_the_reference_agree_where_several_surfaces_meet(family: str) -> None:
     asked: Counter[str] = Counter()

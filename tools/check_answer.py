@@ -161,6 +161,12 @@ def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
 # (pi / 2), and r = theta - k pi / 2, which counts as 0 if it is at most an ulp of the double theta. Then tau is that of
 # r, plus k right angles; that of r is the fraction of least denominator within 2^-53 t of the double t = tan(r / 2).
 
+def coordinate(x: Fraction) -> str:
+    """Write a coordinate with three decimals, or with six digits if these are more, and 16 at most."""
+    value = float(x)
+    before = math.floor(math.log10(abs(value))) + 1 if value else 0
+    return f"{value:.{min(16, max(6, before + 3))}g}"
+
 @dataclass
 class Pose:
     """r = (x, y), and tau; that of a goal may be "any"."""
@@ -177,8 +183,9 @@ class Pose:
 
     def __str__(self) -> str:
         if self.tau == "any":
-            return f"({float(self.x):g}, {float(self.y):g}, any)"
-        return f"({float(self.x):g}, {float(self.y):g}, {math.degrees(float(angle_to(self.tau)) % math.tau):g} deg)"
+            return f"({coordinate(self.x)}, {coordinate(self.y)}, any)"
+        degrees = math.degrees(float(angle_to(self.tau)) % math.tau)
+        return f"({coordinate(self.x)}, {coordinate(self.y)}, {degrees:g} deg)"
 
 def tau_sum(one: Fraction | None, other: Fraction | None) -> Fraction | None:
     """Tangent of half the sum of two angles."""

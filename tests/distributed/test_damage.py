@@ -96,6 +96,7 @@ def check_damage(name: str, sound: Sharded, file: Path, kind: str, folder: Path)
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_damaged_file_is_mended_by_asking_again(kind: str, made: tuple[str, Sharded], tmp_path: Path) -> None:
     name, sound = made

@@ -178,6 +178,7 @@ def test_slices_are_exact(kind: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("kind", fuzz.KINDS)
 def test_slices_of_the_kinds_that_are_fuzzed_are_exact(kind: str) -> None:
     compared = 0

@@ -48,6 +48,7 @@ def check_against_flood(plain: PlainScene, space: FreeSpace, steps: int) -> int:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 def test_cells_are_those_of_a_flood(kind: str) -> None:
     for seed in range(1):
@@ -56,6 +57,7 @@ def test_cells_are_those_of_a_flood(kind: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("path", SMALL, ids=lambda path: path.stem)
 def test_cells_of_examples_are_those_of_a_flood(path: Path) -> None:
     scene = load_scene(path)

@@ -202,6 +202,7 @@ def least_by_shapely(scene: Scene, path: Path) -> float:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 def test_verdicts_are_those_of_slices(kind: str) -> None:
     counts = {True: 0, False: 0}

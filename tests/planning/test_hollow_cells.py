@@ -147,6 +147,7 @@ def test_a_core_with_concave_arcs_is_its_shape_and_in_no_other_by_a_hair(name: s
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(5))
 def test_proofs_in_random_hollow_cages_are_given_where_a_flood_finds_no_way(seed: int) -> None:
     scene = random_hollow_cage(seed)

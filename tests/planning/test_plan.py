@@ -161,6 +161,7 @@ def test_sizes_and_places_do_not_matter(size: Fraction, offset: int) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 def test_decisions_are_those_of_a_flood(kind: str) -> None:
     for seed in range(1):

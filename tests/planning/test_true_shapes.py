@@ -43,6 +43,7 @@ def dumbbell(frame: Frame, robot: Any, half: Fraction, off: Fraction = HALF) -> 
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("turn", TURNS[:2])
 @pytest.mark.parametrize("robot", [Curved.circle((0, 0), 1), stadium(1, 1), rounded(-2, -1, 2, 1, HALF)])
 def test_a_robot_fits_a_corridor_of_its_own_width(robot: Curved, turn: Fraction) -> None:
@@ -258,6 +259,7 @@ def test_it_is_drawn_and_filmed(tmp_path: FilePath) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(12))
 def test_random_scenes_of_known_truth(seed: int) -> None:
     assert fault(seed)[1] == ""
@@ -326,6 +328,7 @@ def test_a_place_in_a_closed_ring_is_proved_out_of_reach() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("vehicle", "objective"),
     [

@@ -20,6 +20,7 @@ from answers import corridor, distances, rounded, separations, tee, text_of
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "mutate", [*OF_PATHS, *OF_SLIDES, *OF_SEPARATIONS, *OF_DISTANCES], ids=lambda mutate: mutate.__name__
 )

@@ -43,12 +43,14 @@ def check(scene: Scene) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("path", [p for p in POLYGONS if p.stem not in LARGE], ids=lambda path: path.stem)
 def test_slices_have_the_euler_characteristic_of_the_surfaces_on_all_small_example_scenes(path: Path) -> None:
     check(load_scene(path))
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "count"),
     [

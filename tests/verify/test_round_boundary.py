@@ -53,6 +53,7 @@ def test_boundaries_of_random_rounded_scenes_are_verified(seed: int) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("make", "seed"), [*((random_arcs, k) for k in range(2, 8)), *((random_concave, k) for k in range(10))]
 )
@@ -341,6 +342,7 @@ NO_BRANCH = (0, 2, 4)
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda f: f.__name__)
 def test_a_changed_boundary_is_refuted(mutant: Callable[[Boundary, random.Random], Boundary]) -> None:
     for seed, scene in {0: MIXED, 2: IN_BOUNDS, 4: random_arcs(4), 5: random_concave(5)}.items():

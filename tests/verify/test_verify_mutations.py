@@ -32,6 +32,7 @@ def good(file: str) -> Boundary:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("mutate", OF_TRAPEZOIDS, ids=lambda mutate: mutate.__name__)
 def test_one_wrong_thing_is_detected(mutate: Mutation) -> None:
     tried = 0
@@ -44,6 +45,7 @@ def test_one_wrong_thing_is_detected(mutate: Mutation) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("mutate", OF_ISOLATED_PARTS, ids=lambda mutate: mutate.__name__)
 def test_a_wrong_isolated_part_is_detected(mutate: Mutation) -> None:
     tried = 0

@@ -138,7 +138,8 @@ def mesh_of(scene: Scene, error: float = 0.02) -> tuple[dict[str, Any], np.ndarr
     return mesh, values(mesh, "xyz").reshape(-1, 3), values(mesh, "corners").reshape(-1, 3)
 
 
-@pytest.mark.parametrize("name", [*SCENES][::2])
+@pytest.mark.long
+@pytest.mark.parametrize("name", SCENES)
 def test_meshes_of_rounded_shapes_are_closed(name: str) -> None:
     _, xyz, corners = mesh_of(SCENES[name])
     # one vertex for all patches at a point, and for both ends of the turn
@@ -221,9 +222,10 @@ def test_a_slice_in_a_round_hole_has_its_radius_below_0() -> None:
 
 
 NAMED = ("kind", "robot_vertex", "obstacle", "obstacle_vertex")
-PICKED = [*SCENES][::4]
+PICKED = [*SCENES][::2]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PICKED)
 def test_picked_poses_are_in_contact(name: str) -> None:
     mesh, xyz, corners = mesh_of(SCENES[name], 0.2)

@@ -32,6 +32,7 @@ def test_small_bombs_are_read_or_refused_with_one_error(name: str, tmp_path: Pat
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", BOMB)
 def test_bombs_of_thousands_of_parts_are_read_or_refused(name: str, tmp_path: Path) -> None:
     assert not result_of(BOMB[name], tmp_path, most=3_000)[2]

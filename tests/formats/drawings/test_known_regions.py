@@ -20,6 +20,7 @@ def test_no_obstacle_is_smaller_than_drawn_and_no_workspace_larger(way: int, tmp
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("way", range(len(WAYS)), ids=[name for _, name in WAYS])
 def test_many_drawings_are_read_as_large_as_they_are_drawn(way: int, tmp_path: Path) -> None:
     for turn in range(500, 515):

@@ -418,6 +418,7 @@ def test_an_end_that_misses_its_begin_by_its_digits_closes_the_outline(tmp_path:
     ],
 )  # fmt: skip
 @pytest.mark.slow
+@pytest.mark.long
 def test_hostile_files_are_refused_or_read_with_counted_work(body: str, message: str | None, tmp_path: Path) -> None:
     import time
 

@@ -33,6 +33,7 @@ def apart(filled: NDArray[np.bool_], painted: NDArray[np.float64]) -> int:
     return int(np.count_nonzero(inner & (filled != (painted > 0.5))))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("renderer", rendered.PACKAGES)
 @pytest.mark.parametrize("name", svg_drawings.WAYS)
 def test_renderers_fill_what_is_read(name: str, renderer: str, tmp_path: Path) -> None:
