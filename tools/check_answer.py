@@ -163,9 +163,8 @@ def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
 
 def coordinate(x: Fraction) -> str:
     """Write a coordinate with three decimals, or with six digits if these are more, and 16 at most."""
-    value = float(x)
-    before = math.floor(math.log10(abs(value))) + 1 if value else 0
-    return f"{value:.{min(16, max(6, before + 3))}g}"
+    before = math.floor(math.log10(abs(float(x)))) + 1 if float(x) else 0
+    return f"{float(x):.{min(16, max(6, before + 3))}g}"
 
 @dataclass
 class Pose:
@@ -182,10 +181,8 @@ class Pose:
         return (-ONE, ZERO) if t is None else ((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t))
 
     def __str__(self) -> str:
-        if self.tau == "any":
-            return f"({coordinate(self.x)}, {coordinate(self.y)}, any)"
-        degrees = math.degrees(float(angle_to(self.tau)) % math.tau)
-        return f"({coordinate(self.x)}, {coordinate(self.y)}, {degrees:g} deg)"
+        turn = "any" if self.tau == "any" else f"{math.degrees(float(angle_to(self.tau)) % math.tau):g} deg"
+        return f"({coordinate(self.x)}, {coordinate(self.y)}, {turn})"
 
 def tau_sum(one: Fraction | None, other: Fraction | None) -> Fraction | None:
     """Tangent of half the sum of two angles."""
