@@ -346,6 +346,7 @@ def is_renamed(good: Any, bad: Any) -> bool:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("mutate", MUTATIONS, ids=lambda f: f.__name__)
 def test_changed_answers_are_refused(mutate: Any, tmp_path: FilePath) -> None:
     rng = random.Random(mutate.__name__)

@@ -94,6 +94,7 @@ def changed(proof: Unreachable, slice_row_column: tuple[int, int, int], *, to: b
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_changed_proofs_by_boxes_are_refuted(tmp_path: Any) -> None:
     proof = unreachable_in(ALLEY)
     grid, file = proof.grid, tmp_path / "proof.json"

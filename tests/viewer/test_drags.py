@@ -21,6 +21,7 @@ def dragged(browser: Any) -> Iterator[Dragged]:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["paper_fig9", "comb_hook", "sofa_corner", "five_convex", "degenerate_two_part_robot"])
 def test_dragged_goals_get_the_verdict_of_python(dragged: Dragged, name: str) -> None:
     dragged.open(SCENES / f"{name}.json")

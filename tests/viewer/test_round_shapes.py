@@ -168,6 +168,7 @@ def colours(tried: Tried) -> set[tuple[int, int, int]]:
     return {tuple(map(int, colour)) for colour in found[counts > 5]}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("opened", ROUNDED, indirect=True)
 def test_rounded_shapes_have_their_own_boundary_slices_and_legend(
     opened: Tried, request: pytest.FixtureRequest

@@ -90,6 +90,7 @@ def edited(page: Any) -> None:
     settled(page)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("who", BODIES)
 def test_a_body_follows_the_finger_that_drags_it(page: Any, who: str) -> None:
     x, y = point(page, who)
@@ -143,6 +144,7 @@ def test_handles_come_again_with_the_next_edit(page: Any) -> None:
         assert page.locator(".handles *").count() == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("handle", [".obstacle", ".handles [data-spot='0 0']", ".handles .knob"])
 def test_an_obstacle_follows_the_finger_and_goes_back_when_cancelled(page: Any, handle: str) -> None:
     edited(page)
