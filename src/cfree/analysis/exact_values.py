@@ -21,9 +21,9 @@ from cfree.exact.vectors import cross, dot, unit
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import free_space
 from cfree.paths.path import Path
-from cfree.planning.enclosure import nearest
+from cfree.planning.enclosure import Feature, nearest
 from cfree.planning.plan import plan
-from cfree.planning.widest_way import features_of, place
+from cfree.planning.widest_way import features_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.rounded import rounded
 from cfree.scene.scene import AnyShape, Scene
@@ -81,9 +81,14 @@ def _is_in_contact(scene: Scene, pose: Pose) -> bool:
     shapes = [shape for shape in (*robot, *obstacles) if shape is not None and not shape.arcs]
     if len(shapes) < len(robot) + len(obstacles) or not isinstance(scene.workspace, Polygon | None):
         return False
-    own = [replace(f, p=place(f.p, pose), q=place(f.q, pose)) for f in features_of(shapes[: len(robot)], None)]
+    own = [_moved(f, pose) for f in features_of(shapes[: len(robot)], None)]
     others = [*features_of(shapes[len(robot) :], scene.workspace)]
     return any(nearest(f, g)[0] == (f.radius + g.radius) ** 2 for f in own for g in others if f.may_touch(g))
+
+
+def _moved(feature: Feature, pose: Pose) -> Feature:
+    p, q = pose.apply_exact([feature.p, feature.q])
+    return replace(feature, p=p, q=q)
 
 
 def widths_and_gaps(scene: Scene) -> Iterator[tuple[Fraction, Fraction]]:

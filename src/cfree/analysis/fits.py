@@ -241,8 +241,7 @@ def _lists_all_fits(scene: Scene) -> bool:
     cores = known_cores(scene)
     if not cores.has_concave:
         return True
-    is_disc = len(cores.robot) == 1 and not isinstance(cores.robot[0].core, Polygon) and len(cores.robot[0].core) == 1
-    return is_disc or _is_convex(scene.workspace)
+    return (len(cores.robot) == 1 and cores.robot[0].is_disc) or _is_convex(scene.workspace)
 
 
 def _is_convex(hole: Any) -> bool:

@@ -6,6 +6,8 @@ from fractions import Fraction
 
 from cfree.exact.number import ExactPoint, rational_root
 
+NONE, ALL = Fraction(0), Fraction(1)
+
 
 def minus(p: ExactPoint, q: ExactPoint) -> ExactPoint:
     """Return the vector to a point from another one."""
@@ -31,3 +33,15 @@ def unit(v: ExactPoint) -> ExactPoint | None:
     """Return the unit vector in a direction, None if it is irrational or the vector is zero."""
     length = rational_root(dot(v, v))
     return (v[0] / length, v[1] / length) if length else None
+
+
+def foot(point: ExactPoint, p: ExactPoint, q: ExactPoint) -> tuple[Fraction, Fraction]:
+    """Return the square of a point's distance from a segment, and the share of the segment up to the nearest point."""
+    d, v = minus(q, p), minus(point, p)
+    share, whole = dot(v, d), dot(d, d)
+    if share <= 0:
+        return dot(v, v), NONE
+    if share >= whole:
+        v = minus(point, q)
+        return dot(v, v), ALL
+    return Fraction(cross(d, v) ** 2, whole), Fraction(share, whole)

@@ -14,6 +14,7 @@ from cfree.curves.similar import moved_shape
 from cfree.exact.half_angle import Angle
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose
+from cfree.exact.vectors import along, foot, minus
 from cfree.lazy import registered
 from cfree.nesting.outlines import Outlines, outlines
 from cfree.nesting.rounded import RoundedFit, rounded_fit
@@ -74,7 +75,7 @@ class _Fit:
         """Return the position in contact that is nearest to a position, exactly; None if there is none."""
         x, y = position
         place = to_fraction(x), to_fraction(y)
-        feet = [_foot(place, p, q) for p, q in self.edges]
+        feet = [along(p, foot(place, p, q)[1], minus(q, p)) for p, q in self.edges]
         return min((*feet, *self.points), key=lambda p: _square(p, place), default=None)
 
     def to_shapely(self) -> BaseGeometry:
@@ -246,14 +247,6 @@ def polygons_in(shapes: Sequence[AnyShape]) -> list[Polygon] | None:
 
 def _backwards(ring: Ring) -> Ring:
     return ring[:1] + ring[:0:-1]
-
-
-def _foot(position: ExactPoint, p: ExactPoint, q: ExactPoint) -> ExactPoint:
-    """Return the point of a segment that is nearest to a position."""
-    dx, dy = q[0] - p[0], q[1] - p[1]
-    share = ((position[0] - p[0]) * dx + (position[1] - p[1]) * dy) / (dx * dx + dy * dy)
-    share = min(max(share, Fraction(0)), Fraction(1))
-    return p[0] + share * dx, p[1] + share * dy
 
 
 def _square(p: ExactPoint, q: ExactPoint) -> Fraction:

@@ -19,14 +19,14 @@ from typing import NamedTuple, cast
 from cfree.exact.number import ExactPoint, common_denominator
 from cfree.exact.orientation import Meeting, crossing_point, meet
 from cfree.exact.surd import Surd
-from cfree.exact.vectors import along, cross, dot, minus
+from cfree.exact.vectors import along, cross, foot, minus
 from cfree.libraries import Array, np, shapely
 from cfree.scene.scene import Bounds
 
 STEPS, RATIO = 18, 1.5  # growths up to which features are joined in turn, up to the limit
 LONGEST = 256  # bits of a common denominator
 SLACK = 1e-9  # widening of boxes, relative to all numbers: far more than their rounding
-NONE, ALL, NOTHING = Fraction(0), Fraction(1), Surd(0)
+NOTHING = Surd(0)
 BEYOND = 1  # from bounds to points outside of them
 
 
@@ -192,18 +192,6 @@ def _is_crossed(u: ExactPoint, v: ExactPoint, end: ExactPoint) -> bool:
 
 
 # --- distances ---
-
-
-def foot(point: ExactPoint, p: ExactPoint, q: ExactPoint) -> tuple[Fraction, Fraction]:
-    """Return the square of a point's distance from a segment, and the share of the segment up to the nearest point."""
-    d, v = minus(q, p), minus(point, p)
-    share, whole = dot(v, d), dot(d, d)
-    if share <= 0:
-        return dot(v, v), NONE
-    if share >= whole:
-        v = minus(point, q)
-        return dot(v, v), ALL
-    return Fraction(cross(d, v) ** 2, whole), Fraction(share, whole)
 
 
 def nearest(f: Feature, g: Feature) -> tuple[Fraction, ExactPoint, ExactPoint]:

@@ -16,7 +16,8 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.orientation import Location, locate
 from cfree.exact.pose import Pose
 from cfree.exact.surd import Surd
-from cfree.planning.enclosure import Feature, first_enclosure, foot
+from cfree.exact.vectors import foot
+from cfree.planning.enclosure import Feature, first_enclosure
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.naming import placed
@@ -80,8 +81,7 @@ class WidestWay:
     @property
     def center(self) -> ExactPoint:
         """The middle of the robot, in its frame."""
-        assert not isinstance(self.disc.core, Polygon), "it is a point"
-        return self.disc.core[0]
+        return self.disc.points[0]
 
     @property
     def margin(self) -> Surd | None:
@@ -111,16 +111,17 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
     between obstacle 0, 2 x 2 at (0, 0) and obstacle 1, 2 x 2 at (3, 3) at (1.5, 1.5)
     """
     disc = rounded(scene.robot[0]) if len(scene.robot) == 1 else None
-    if disc is None or isinstance(disc.core, Polygon) or len(disc.core) > 1:
+    if disc is None or not disc.is_disc:
         return None
-    (center,) = disc.core
+    (center,) = disc.points
     if scene.bounds and any(center):
         return None
     shapes = [rounded(shape) for shape in scene.obstacles]
     known = [shape for shape in shapes if shape is not None and not shape.arcs]
     if len(known) < len(shapes) or not isinstance(scene.workspace, Polygon | None):
         return None
-    ends = place(center, start), place(center, goal)
+    (p,), (q,) = start.apply_exact([center]), goal.apply_exact([center])
+    ends = p, q
     if any(_is_blocked(scene, known, end) for end in ends):
         return WidestWay(disc, Surd(0))
     features = [*features_of(known, scene.workspace)]
@@ -169,12 +170,6 @@ def _is_blocked(scene: Scene, shapes: Sequence[Rounded], point: ExactPoint) -> b
         return True
     cores = (shape.core for shape in shapes if isinstance(shape.core, Polygon))
     return any(locate(point, _edges(core)) is Location.INSIDE for core in cores)
-
-
-def place(point: ExactPoint, pose: Pose) -> ExactPoint:
-    """Return the place of a point of the robot at a pose."""
-    (x, y), (c, s, w) = point, pose.rotation
-    return pose.x + (c * x - s * y) / w, pose.y + (s * x + c * y) / w
 
 
 def _room_at(point: ExactPoint, features: Sequence[Feature]) -> tuple[Surd, int]:

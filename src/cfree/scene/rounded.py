@@ -97,6 +97,16 @@ class Rounded:
         return any(not arc.is_convex for arc in self.arcs)
 
     @property
+    def is_disc(self) -> bool:
+        """True if the core is one point."""
+        return len(self.points) == 1
+
+    @property
+    def points(self) -> Sequence[ExactPoint]:
+        """The core's vertices."""
+        return self.core.exact_vertices if isinstance(self.core, Polygon) else self.core
+
+    @property
     def handle(self) -> _core.Polygon:
         """The core's form of `core`."""
         if isinstance(self.core, Polygon):
@@ -169,7 +179,7 @@ def _radii_by_place(shapes: Iterable[Rounded]) -> tuple[RadiiByPlace, RadiiByPla
     convex, concave = defaultdict[ExactPoint, set[Fraction]](set), defaultdict[ExactPoint, set[Fraction]](set)
     for shape in shapes:
         beyond = {arc.beyond[0] for arc in shape.arcs if arc.beyond}
-        for corner in shape.core.exact_vertices if isinstance(shape.core, Polygon) else shape.core:
+        for corner in shape.points:
             if corner not in beyond:
                 convex[corner].add(shape.radius)
         for arc in shape.arcs:
