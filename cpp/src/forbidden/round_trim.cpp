@@ -569,11 +569,8 @@ void RoundTrimmer::on_circle(const Pillar& pillar, const Sample& at, Cover& out)
         clip_between(with_branch(circle, -1), with_branch(circle, 1), at, out);
         return;
     }
-    // the centre is inside the ungrown pillar
-    for (const Edge& edge : pillar.edges) {
-        watch_edge(edge, out);
-        out.watched.push_back({with_branch(edge.line, -1), {}, 1, true});
-    }
+    // the centre is inside the ungrown pillar: if an edge is supported by another vertex, its line moves outwards
+    for (const Edge& edge : pillar.edges) out.watched.push_back({with_branch(edge.line, -1), {}, 1, true});
     out.bands.push_back(quadrant());
 }
 
