@@ -124,7 +124,6 @@ void RoundTrimmer::cede_circle(const Feature& owner) {
 }
 
 void RoundTrimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& part) {
-    Pillar pillar;
     cover_by(p, k, slices, part, [&](const Sample& at, Cover& out) {
         pillar.arcs.clear(), pillar.edges.clear();
         if (!shape(p, k, at, pillar)) return false;
@@ -242,7 +241,6 @@ void RoundTrimmer::cover_by(Index p, Index k, const Slices& slices, const Slices
     while (first <= last && slices.at[last] > hi) --last;
     if (first > last) return;
     todo.assign(1, {limit(first), limit(last + 1)});
-    Cover found;
     while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();

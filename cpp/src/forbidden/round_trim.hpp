@@ -115,7 +115,10 @@ private:
     const bool has_concave;    // true if a shape has concave ones
     const bool is_concave;     // true if the surface is of one: its circle is free inside
     bool is_critical = false;  // true if the sample is itself a critical angle
-    std::vector<int> signs;    // of joint_signs
+    // Of the last state, kept for their memory.
+    Pillar pillar;
+    std::vector<int> signs;  // of joint_signs
+    Cover found;
 };
 
 }  // namespace cfree
