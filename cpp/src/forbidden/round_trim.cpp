@@ -810,6 +810,12 @@ int RoundTrimmer::order_of_end(Index event, Index end_of_band, Index curve, int 
     return is_parallel(end, p) || is_parallel(other, q) ? here.order(on, end, other) : order_at(event, end_of_band, curve);
 }
 
+void RoundTrimmer::bounds(Area& area) const {
+    const double lo = events[area.from].lo, hi = events[area.to].hi;
+    const auto lower = orders.range(curves[area.lower].feature, lo, hi), upper = orders.range(curves[area.upper].feature, lo, hi);
+    area.t_min = lower[0], area.lower_max = lower[1], area.upper_min = upper[0], area.t_max = upper[1];
+}
+
 double RoundTrimmer::extreme(const Curve& c, double lo, double hi, bool want_max) const {
     return orders.range(c.feature, lo, hi)[want_max ? 1 : 0];
 }

@@ -105,6 +105,7 @@ private:
     bool crosses_at(const Band& band, Index event) override;
     int order_at(Index event, Index p, Index q) override;
     int order_of_end(Index event, Index end_of_band, Index curve, int beyond) override;
+    void bounds(Area& area) const override;
     double extreme(const Curve& curve, double lo, double hi, bool want_max) const override;
 
     int sign_of(const Feature& first, const Feature& second, const Sample& at);

@@ -105,7 +105,8 @@ private:
     std::array<ContactCurve, 2> curves;
 };
 
-// The same where shapes are grown. Its curves begin and end like square roots; the error is that of halving, and of rounding.
+// The same where shapes are grown. Its curves begin and end like square roots; the error is that of halving, and of rounding: the
+// ends move as far as their crossings are ill-conditioned, and where curves nearly touch like its square root.
 Integral round_flux(const Boundary& boundary, const Limits& limits, Index which, Vec<double> origin) {
     const auto [from, to] = angles_of(boundary, which);
     const Feature contact = boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(which)]);
@@ -124,7 +125,13 @@ Integral round_flux(const Boundary& boundary, const Limits& limits, Index which,
     const auto f = over_roots(area, from, to);
     const double coarse = over_nodes(f, 0, 1);
     Integral found = integral(f, 0, 1, coarse, 0.1 * size * size * (to - from));
-    found.error += 32 * rounded * size * size * (to - from);
+    const double slip = 32 * rounded * size;
+    const auto moved = [&](double theta) {
+        double sum = 0;
+        for (const Limits::Meeting& end : limits.meetings(which, theta)) sum += std::min(slip / end.sine, std::sqrt(slip * size));
+        return sum;
+    };
+    found.error += slip * size * (to - from) + size * over_nodes(over_roots(moved, from, to), 0, 1);
     return found;
 }
 

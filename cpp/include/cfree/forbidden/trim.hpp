@@ -7,6 +7,7 @@
 #pragma once
 #include <algorithm>
 #include <initializer_list>
+#include <limits>
 #include <vector>
 
 #include "cfree/predicates/predicates.hpp"
@@ -95,6 +96,7 @@ protected:
     struct Area {
         Index from, to, lower, upper;  // two events, two curves
         double t_min, t_max;           // bounds of its t
+        double lower_max = std::numeric_limits<double>::infinity(), upper_min = -lower_max;  // of its curves, if known
     };
     // An edge of the pillar: an obstacle edge with a robot vertex, or a robot edge with an obstacle vertex.
     struct PillarEdge {
@@ -218,7 +220,7 @@ protected:
     Index curve_of(const Feature& feature, bool flipped);
     Feature normal_form(const Feature& feature) const;
     virtual double extreme(const Curve& curve, double lo, double hi, bool want_max) const;
-    void bounds(Area& area) const;
+    virtual void bounds(Area& area) const;
     // Treatment of a band, and of a state in which the line does not pass through the pillar.
     virtual void take(const Band& band) { subtract(band); }
     virtual void pass(const State&, const Span&) {}
