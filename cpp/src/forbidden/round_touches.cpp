@@ -17,6 +17,17 @@ struct RoundTrimmer::Touch {
     bool turns;        // true in that of the robot
 };
 
+// Ring vertices of some pieces of the obstacles, each once.
+static std::vector<Index> ring_vertices(const Shape& O, const std::vector<Index>& pieces) {
+    std::vector<Index> result;
+    for (const Index k : pieces)
+        for (Index p = O.piece[k]; p < O.piece[k + 1]; ++p)
+            if (O.piece_vertex[p] < O.ring_vertices) result.push_back(O.piece_vertex[p]);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+}
+
 std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>& pieces) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Feature& own = surface.contact;
@@ -46,12 +57,7 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
     };
     // around one place of the robot
     if (own.kind != Kind::edge_vertex) {
-        std::vector<Index> near;  // vertices of the pieces
-        for (const Index k : pieces)
-            for (Index p = O.piece[k]; p < O.piece[k + 1]; ++p)
-                if (O.piece_vertex[p] < O.ring_vertices) near.push_back(O.piece_vertex[p]);
-        std::sort(near.begin(), near.end());
-        near.erase(std::unique(near.begin(), near.end()), near.end());
+        const std::vector<Index> near = ring_vertices(O, pieces);
         const bool is_reference = A.layer[i] == reference_layer;
         const Int mine = A.radius_of(i).exact + (is_circle_here ? O.radius_of(j).exact : O.radius_of(O.v[j]).exact);
         for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {
@@ -84,8 +90,32 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
     return result;
 }
 
+// Angles at which an edge that is parallel to the patch's at every angle touches it from the free side: free space is
+// pinched along a segment there.
+void RoundTrimmer::find_pinches(const std::vector<Index>& pieces) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature& own = surface.contact;
+    const auto find_touches_of = [&](const Feature& circle) {
+        const auto [a, b, c] = RoundSurfaces<Approx>(scene).tangency(own, circle, 1);  // a + b cos + c sin has a double root
+        const double most = a.m + b.m + c.m;
+        if (std::abs(a.v * a.v - b.v * b.v - c.v * c.v) > 1e-9 * most * most) return;
+        for (const Event& root : decide.event_roots({circle.kind, circle.robot, circle.obstacle, 1}, {}, events[0], events[1]).at)
+            if (root.is_touch) pinches.push_back(intern(root));
+    };
+    for (const Index v : ring_vertices(O, pieces)) {
+        const bool is_parallel = own.kind == Kind::vertex_edge && O.makes_surfaces(v) && O.direction[v] == O.direction[own.obstacle];
+        if (!is_parallel && (own.kind != Kind::edge_vertex || !O.convex[v])) continue;
+        for (Index i = 0; i < A.ring_vertices; ++i) {
+            if (A.layer[i] != O.layer[v]) continue;
+            if (is_parallel && A.convex[i]) find_touches_of({Kind::vertex_vertex, i, O.v[v]});
+            if (!is_parallel && A.makes_surfaces(i) && A.direction[i] == A.direction[own.robot]) find_touches_of({Kind::vertex_vertex, A.v[i], v});
+        }
+    }
+}
+
 void RoundTrimmer::split_at_touches(const std::vector<Index>& pieces) {
     if (live.empty()) return;
+    if (is_line(surface.contact)) find_pinches(pieces);
     const auto split_between = [&](Index from, Index to, const Feature& feature) {
         const Index t = curve_of(feature, false);
         Area seam{from, to, t, t, 0, 1};

@@ -24,12 +24,14 @@ public:
                       const Slices::Part& part);
     // Subtract what another pair of vertices with the same circle owns of the quadrant.
     void cede_circle(const Feature& owner);
-    // Cut what is live along curves that others touch from the free side at every angle; these are of the pieces near the patch.
+    // Cut what is live where others touch from the free side: along curves, at every angle, or at one angle along a segment. These are
+    // of the pieces near the patch.
     void split_at_touches(const std::vector<Index>& pieces);
 
 private:
     struct Touch;
     std::vector<Touch> touches(const std::vector<Index>& pieces) const;
+    void find_pinches(const std::vector<Index>& pieces);
     // A pillar at a sample: arcs[k] is followed counter-clockwise by edges[k]. A point has one arc and no edge.
     struct Arc {
         Index s, v;
