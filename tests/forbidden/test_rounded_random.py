@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import Any
 
@@ -175,3 +176,47 @@ def test_surfaces_around_little_have_a_ray() -> None:
     pocket = among(shape([(0, 0), (1, 0), (0, 2)], "1/2"), shape([(0, 0), (3, 0), (0, 4)], 2))
     walls = core([(x, "-1/2"), (x + 12, "-1/2"), (x + 12, 6), (x, 6)])
     assert counts(built(pocket._replace(workspace=walls))).cells == 3
+
+
+@pytest.mark.parametrize("turn", [(1, 0), (0, 1), *TURNS[1:3]])
+@pytest.mark.parametrize(
+    ("robot", "obstacles", "euler"),
+    [
+        (shape([(0, 0), (1, 0)], "1/2"), [shape([(0, 0), (-1, 0)], "1/2"), shape([(-3, 3), (7, 3), (7, 4)], "1/2")], -4),
+        (shape([(0, 0), (1, 0)], 0), [shape([(0, 0), (2, 0)], "3/4"), shape([("3/2", -4), ("5/2", -2), ("3/2", -2)], "1/4")], -4),
+        (shape([(0, 0), (0, "3/2")], "1/4"), [shape([(2, HALF), ("7/2", HALF)], "1/4"), shape([(3, "-5/2"), (5, -2), (3, -2)], "1/4")], -4),
+    ],
+)  # fmt: skip
+def test_surfaces_part_where_an_edge_touches_a_patch_at_one_angle(
+    robot: Shape, obstacles: list[Shape], euler: int, turn: Any
+) -> None:
+    """A gap as wide as the robot is long, at two orientations: two tori are joined twice, wherever the charts end."""
+    space = built(all_mapped(among(robot, *obstacles), turn=turn))
+    assert euler_numbers(space.cells) == [euler]
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("bits", [10, 30, 49, 60])
+def test_circles_that_are_nearly_one_are_told_apart_by_their_branches(bits: int, sign: int) -> None:
+    """Near 90 degrees two circles of nearly one radius have nearly one centre, and cross a third one on both sides."""
+    radius = 1 + Fraction(sign, 2**bits)
+    robot, discs = shape([(0, 0), (2, 1), (1, 1), (1, 2)], 1), (shape([(0, 0)], 1), shape([(-1, -1)], radius))
+    assert not list(surface_faults(built(among(robot, *discs))))
+
+
+def test_errors_of_volumes_count_circles_that_nearly_touch() -> None:
+    """Three discs around a hole, two of which nearly touch: their crossing is known to half a double's digits."""
+    radius, gap = Fraction(5, 4), Fraction(1, 2**50)
+    for size in (Fraction(1), Fraction(7, 3), Fraction(1, 3)):
+        discs = [shape([(x * size, y * size)], size / 4) for x, y in ((0, 0), (2 * radius - gap, 0), (radius, 2))]
+        space = built(among(shape([(0, 0)], size), *discs))
+        (volume, error) = (column[np.isfinite(column)].min() / float(size) ** 2 for column in space.space.volumes())
+        expected = 2 * math.pi * hole_of_three_circles(float(radius), 2.0)
+        assert abs(volume - expected) <= error < 1e-5
+
+
+def hole_of_three_circles(r: float, height: float) -> float:
+    """Area between circles of radius r about (0, 0) and (2 r, 0), which touch, and one about (r, height)."""
+    half = math.hypot(r, height) / 2
+    lens = 2 * (r * r * math.acos(half / r) - half * math.sqrt(r * r - half * half))
+    return r * height - r * r * math.pi / 2 + lens  # the triangle of the centres less its sectors; half of each lens is in it

@@ -273,10 +273,10 @@ def location_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:
 
 
 def free_beside(pose: Pose, truth: Truth, r: Draw) -> Pose | None:
-    """A free pose very near, if some are tried."""
+    """A free pose very near, if some are tried; the robot turns about its middle."""
     for _ in range(30):
         x, y, tau = (v + r.on(-100, 100, 1) * Fraction(1, 2**26) for v in (pose.x, pose.y, pose.tau))
-        other = Pose(x, y, max(Fraction(-1), min(Fraction(1), tau)), pose.chart)
+        other = turned_to(Pose(x, y, pose.tau, pose.chart), max(Fraction(-1), min(Fraction(1), tau)), truth)
         if truth.sign(*other[:2], other.turn) == 1:
             return other
     return None
@@ -300,6 +300,11 @@ def moved_freely(pose: Pose, truth: Truth, r: Draw) -> Pose:
     tau = max(Fraction(-1), min(Fraction(1), tau))
     if tau == pose.tau:
         return pose
+    return turned_to(pose, tau, truth)
+
+
+def turned_to(pose: Pose, tau: Fraction, truth: Truth) -> Pose:
+    """Turn a pose about the robot's middle."""
     before, after = (mapped((truth.middle,), turn=rotation(t, pose.chart))[0] for t in (pose.tau, tau))  # type: ignore[arg-type]
     return Pose(pose.x + before[0] - after[0], pose.y + before[1] - after[1], tau, pose.chart)
 
@@ -331,10 +336,20 @@ def minkowski(shape: Any, turned: list[tuple[float, float]], core: Core, part: C
 
 
 def triangles(points: list[tuple[float, float]]) -> list[list[tuple[float, float]]]:
-    if len(points) < 3:
+    """The points themselves, of a convex shape, or triangles of it."""
+    if len(points) < 3 or is_convex(points):
         return [points]
     pieces = shapely.constrained_delaunay_triangles(shapely.Polygon(points))
     return [list(t.exterior.coords)[:-1] for t in pieces.geoms]
+
+
+def is_convex(points: list[tuple[float, float]]) -> bool:
+    """True if a polygon is certainly convex."""
+    turns = [
+        (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
+        for a, b, c in zip(points, points[1:] + points[:1], points[2:] + points[:2], strict=True)
+    ]
+    return all(turn > 0 for turn in turns) or all(turn < 0 for turn in turns)
 
 
 def slice_faults(space: Built, truth: Truth, r: Draw) -> Iterator[str]:

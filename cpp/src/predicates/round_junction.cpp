@@ -34,10 +34,17 @@ static std::array<Code, 2> touch_name(const Scene& scene, const Feature& x, cons
 
 void RoundJunction::know_touch(const Feature& on, const Feature& other) { touching.push_back(touch_name(scene, on, other)); }
 
-void RoundJunction::know_meeting(const Feature& on, const Feature& first, const Feature& second, double from, double to) {
-    MeetingNames::Name name{code(scene, on), code(scene, first), code(scene, second)};
+// Name of the meeting of two curves on a surface. Three lines meet in one point of each; a circle's branch is that on this surface
+// alone, so no two of the three may change places.
+static MeetingNames::Name name_on(const Scene& scene, const Feature& on, const Feature& first, const Feature& second) {
+    const bool are_lines = is_line(on) && is_line(first) && is_line(second);
+    MeetingNames::Name name{are_lines ? code(scene, on) : ~code(scene, on), code(scene, first), code(scene, second)};
     std::sort(name.begin(), name.end());
-    known.insert(name);
+    return name;
+}
+
+void RoundJunction::know_meeting(const Feature& on, const Feature& first, const Feature& second, double from, double to) {
+    known.insert(name_on(scene, on, first, second));
     if (!is_center(second)) meetings.push_back({bare_name(scene, {on, first, second}), from, to});
 }
 
@@ -111,9 +118,8 @@ bool RoundJunction::are_one_curve(const Spot& p, const Spot& q) {
 
 // True if features that meet here prove two places equal: two curves; joints of a circle with parallel lines, in one quadrant.
 bool RoundJunction::is_known(const Feature& surface, const Spot& p, const Spot& q) const {
-    MeetingNames::Name name{code(scene, surface), p.code, q.code};
-    std::sort(name.begin(), name.end());
-    if (known.contains(name) || do_cross(p, q)) return true;
+    const bool are_on_it = (is_line(p.curve) && is_line(q.curve) && is_line(surface)) || (have_one_edge(p.on, surface) && have_one_edge(q.on, surface));
+    if ((are_on_it && known.contains(name_on(scene, surface, p.curve, q.curve))) || do_cross(p, q)) return true;
     if (!is_circle(surface) || !is_smooth(scene, p.curve, surface) || !is_smooth(scene, q.curve, surface)) return false;
     if (p.curve.kind == q.curve.kind) return false;
     const auto [ve, ev] = by_kind(p.curve, q.curve);
