@@ -181,11 +181,23 @@ def test_surfaces_around_little_have_a_ray() -> None:
 @pytest.mark.parametrize(
     ("robot", "obstacles", "euler"),
     [
-        (shape([(0, 0), (1, 0)], "1/2"), [shape([(0, 0), (-1, 0)], "1/2"), shape([(-3, 3), (7, 3), (7, 4)], "1/2")], -4),
-        (shape([(0, 0), (1, 0)], 0), [shape([(0, 0), (2, 0)], "3/4"), shape([("3/2", -4), ("5/2", -2), ("3/2", -2)], "1/4")], -4),
-        (shape([(0, 0), (0, "3/2")], "1/4"), [shape([(2, HALF), ("7/2", HALF)], "1/4"), shape([(3, "-5/2"), (5, -2), (3, -2)], "1/4")], -4),
+        (
+            shape([(0, 0), (1, 0)], "1/2"),
+            [shape([(0, 0), (-1, 0)], "1/2"), shape([(-3, 3), (7, 3), (7, 4)], "1/2")],
+            -4,
+        ),
+        (
+            shape([(0, 0), (1, 0)], 0),
+            [shape([(0, 0), (2, 0)], "3/4"), shape([("3/2", -4), ("5/2", -2), ("3/2", -2)], "1/4")],
+            -4,
+        ),
+        (
+            shape([(0, 0), (0, "3/2")], "1/4"),
+            [shape([(2, HALF), ("7/2", HALF)], "1/4"), shape([(3, "-5/2"), (5, -2), (3, -2)], "1/4")],
+            -4,
+        ),
     ],
-)  # fmt: skip
+)
 def test_surfaces_part_where_an_edge_touches_a_patch_at_one_angle(
     robot: Shape, obstacles: list[Shape], euler: int, turn: Any
 ) -> None:
