@@ -98,7 +98,7 @@ void RoundTrimmer::find_pinches(const std::vector<Index>& pieces) {
     const auto find_touches_of = [&](const Feature& circle) {
         const auto [a, b, c] = RoundSurfaces<Approx>(scene).tangency(own, circle, 1);  // a + b cos + c sin has a double root
         const double most = a.m + b.m + c.m;
-        if (std::abs(a.v * a.v - b.v * b.v - c.v * c.v) > 1e-9 * most * most) return;
+        if (std::abs(a.v * a.v - b.v * b.v - c.v * c.v) > 8 * round_error * most * most + tiny) return;  // certainly not
         for (const Event& root : decide.event_roots({circle.kind, circle.robot, circle.obstacle, 1}, {}, events[0], events[1]).at)
             if (root.is_touch) pinches.push_back(intern(root));
     };

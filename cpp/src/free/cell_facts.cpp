@@ -105,8 +105,8 @@ private:
     std::array<ContactCurve, 2> curves;
 };
 
-// The same where shapes are grown. Its curves begin and end like square roots; the error is that of halving, and of rounding: the
-// ends move as far as their crossings are ill-conditioned, and where curves nearly touch like its square root.
+// The same where shapes are grown. Its curves begin and end like square roots; the error is that of halving, and of rounding, which
+// moves an end by its own size over the sine of the crossing, or where curves nearly touch by its square root.
 Integral round_flux(const Boundary& boundary, const Limits& limits, Index which, Vec<double> origin) {
     const auto [from, to] = angles_of(boundary, which);
     const Feature contact = boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(which)]);
