@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
-from math import lcm
+from math import inf, lcm, nextafter
 from typing import TYPE_CHECKING
 
+import numpy as np
 from flint import fmpz_poly
 
 from cfree.exact.algebraic import sign
@@ -19,6 +20,7 @@ from cfree.verify.trapezoids import Trapezoid
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
+    from cfree.forbidden.columns import Trapezoids
 
 
 def chart_of(pose: Pose) -> tuple[int, Fraction]:
@@ -27,6 +29,16 @@ def chart_of(pose: Pose) -> tuple[int, Fraction]:
     if tau is not None and -1 <= tau < 1:
         return 0, tau
     return 1, Fraction(0) if tau is None else -1 / tau
+
+
+def around(table: Trapezoids, pose: Pose) -> list[int]:
+    """Numbers of the pieces whose angles may hold that of a pose."""
+    rows = np.zeros(len(table), bool)
+    for chart, root in Turn.of(*chart_of(pose)).in_charts():
+        tau = float(root.lo)
+        rows |= (table.chart == chart) & (table.from_lo <= nextafter(tau, inf)) & (nextafter(tau, -inf) <= table.to_hi)
+    numbers: list[int] = np.flatnonzero(rows).tolist()
+    return numbers
 
 
 def is_inside(pose: Pose, scale: int, pieces: Iterable[Trapezoid]) -> bool:

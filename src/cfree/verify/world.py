@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 Directed = tuple[list[Vector], NDArray[np.int64], NDArray[np.int64]]
 Name = tuple[int, int, int]  # kind, robot feature, obstacle feature
+VERTEX_EDGE, EDGE_VERTEX, HELIX, PARALLEL = 1, 2, 3, 4  # kinds
 Feature = tuple[str, str, int]  # of "robot" or "obstacles", "vertex" or "edge", number
 
 
@@ -173,46 +174,52 @@ class World:
         """Contact surface that a patch of the file is part of."""
         kind, i, j = name
         a, b = corner_of(self.robot, i), corner_of(self.obstacles, j)
-        if kind == 1 and a == (ZERO, ZERO, ZERO) and b in self.bound_corners:
+        if kind == VERTEX_EDGE and a == (ZERO, ZERO, ZERO) and b in self.bound_corners:
             return Surface(ZERO, ZERO, b[1], minus(b[2], b[1]))
         if a not in self._contacts[id(self.robot)] or b not in self._contacts[id(self.obstacles)]:
             raise Fault("its features are no features of one robot polygon and one obstacle")
-        if not is_convex(a if kind == 1 else b):
+        if not is_convex(a if kind == VERTEX_EDGE else b):
             raise Fault("a contact at a reflex vertex")
-        return vertex_edge(a, b[1], b[2]) if kind == 1 else edge_vertex(a[1], a[2], b)
+        return vertex_edge(a, b[1], b[2]) if kind == VERTEX_EDGE else edge_vertex(a[1], a[2], b)
 
     def curve(self, surface: Surface, name: Name) -> tuple[Form, Form]:
         """Numerator and denominator of the curve that a pair of features names on a surface."""
+        return helix(surface, *self.vertices(name)) if name[0] == HELIX else cut(surface, self.surface(name))
+
+    def surface(self, name: Name) -> Surface:
+        """Surface that a pair of features names, for its lines alone."""
         kind, i, j = name
-        if kind == 3:
-            return helix(surface, self._vertex(self.robot, i), self._vertex(self.obstacles, j))
-        if kind not in (1, 2):
+        if kind == VERTEX_EDGE:
+            b, end = self.edge(self.obstacles, j)
+            return Surface(self.vertex(self.robot, i), ZERO, b, minus(end, b))
+        if kind != EDGE_VERTEX:
             raise Fault("a curve without a name")
-        if kind == 1:
-            b, end = self._edge(self.obstacles, j)
-            return cut(surface, Surface(self._vertex(self.robot, i), ZERO, b, minus(end, b)))
-        a, end = self._edge(self.robot, i)
-        return cut(surface, Surface(a, minus(end, a), self._vertex(self.obstacles, j), ZERO))
+        a, end = self.edge(self.robot, i)
+        return Surface(a, minus(end, a), self.vertex(self.obstacles, j), ZERO)
+
+    def vertices(self, name: Name) -> tuple[Vector, Vector]:
+        """Two vertices that a helix is named by."""
+        return self.vertex(self.robot, name[1]), self.vertex(self.obstacles, name[2])
 
     def angle(self, surface: Surface, name: Name) -> Form:
         """Form that is zero at the angle that one pair of features names."""
         kind, i, j = name
-        if kind == 3:
-            a, b = self._vertex(self.robot, i), self._vertex(self.obstacles, j)
+        if kind == HELIX:
+            a, b = self.vertices(name)
             return surface.form(minus(b, surface.b), minus(a, surface.a))
-        if kind != 4:
+        if kind != PARALLEL:
             raise Fault("an angle whose name is neither a helix nor a pair of edges")
-        (a, a_end), (b, b_end) = self._edge(self.robot, i), self._edge(self.obstacles, j)
+        (a, a_end), (b, b_end) = self.edge(self.robot, i), self.edge(self.obstacles, j)
         g, f = minus(a_end, a), minus(b_end, b)
         return 0, cross(g, f), -dot(g, f)
 
-    def _vertex(self, shape: ShapeFeatures, k: int) -> Vector:
-        if self.auxiliary is None or _is_own(shape, k):
+    def vertex(self, shape: ShapeFeatures, k: int) -> Vector:
+        if self.auxiliary is None or is_own(shape, k):
             return shape.vertices[k]
         return self._foreign(shape, "vertex", k)[0]
 
-    def _edge(self, shape: ShapeFeatures, k: int) -> tuple[Vector, Vector]:
-        if self.auxiliary is None or _is_own(shape, k):
+    def edge(self, shape: ShapeFeatures, k: int) -> tuple[Vector, Vector]:
+        if self.auxiliary is None or is_own(shape, k):
             return shape.vertices[int(shape.v[k])], shape.vertices[int(shape.w[k])]
         first, last = self._foreign(shape, "edge", k)
         return first, last
@@ -281,7 +288,7 @@ def corner_of(shape: Any, k: int) -> Corner:
     return previous, shape.vertices[k], shape.vertices[int(shape.w[k])]
 
 
-def _is_own(shape: ShapeFeatures, k: int) -> bool:
+def is_own(shape: ShapeFeatures, k: int) -> bool:
     """True if it is a feature of a polygon of the scene, or of its bounds."""
     return bool(k < len(shape.owner_vertex) and shape.owner_vertex[k] >= 0)
 
