@@ -7,19 +7,23 @@ it is one of them, or where another line crosses it. A curve is a place on the l
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import lru_cache, partial
+from collections import defaultdict
+from collections.abc import Callable
+from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from flint import fmpz_poly
 
+from cfree.exact.algebraic import sign
 from cfree.verify.columns import Columns, Ints, Span
-from cfree.verify.surfaces import Vector, cross, minus
+from cfree.verify.polygons import primitive
+from cfree.verify.surfaces import ZERO, Vector, cross, minus
 from cfree.verify.world import EDGE_VERTEX, HELIX, PARALLEL, VERTEX_EDGE, is_own, name_of
 
 if TYPE_CHECKING:
     from cfree.verify.trapezoids import Trapezoid
-    from cfree.verify.world import World
 
 Points = tuple[frozenset[int], frozenset[int]]  # vertices of the robot, and of the obstacles
 Edge = tuple[Vector, Vector]
@@ -46,7 +50,7 @@ def odd_ends(columns: Columns, trapezoid: Callable[[int], Trapezoid]) -> int:
 
 def _unnamed(columns: Columns) -> list[tuple[int, bool, bool, bool]]:
     """Ends of sides that no equal name cancels: piece, if at its stop, if of its upper curve, and if along that."""
-    names, t = Names(columns.reader.world), columns.table
+    names, t = Names(columns), columns.table
     left: dict[Any, tuple[int, bool, bool, bool]] = {}
 
     def toggle(name: Any, end: tuple[int, bool, bool, bool]) -> None:
@@ -77,49 +81,91 @@ def numbered(columns: Columns) -> list[Ints]:
 
     Notes
     -----
-    Each has a polynomial's only root in its interval. One polynomial that is monotone on an interval around two of them
-    has one root there.
+    Each is the only root of a polynomial in its interval. A polynomial that is monotone around two of them has
+    one root there at most. So they are equal if both are of one polynomial, or of two with a common divisor that
+    changes its sign there.
     """
-    both = columns.start, columns.stop
     chart = np.tile(columns.table.chart, 2)
-    lo, hi, ends = (np.concatenate([getattr(angles, name) for angles in both]) for name in ("lo", "hi", "ends"))
-    rows = np.concatenate([angles.rows for angles in both])
+    lo, hi, ends, rows = (
+        np.concatenate([getattr(angles, name) for angles in (columns.start, columns.stop)])
+        for name in ("lo", "hi", "ends", "rows")
+    )
     known: dict[Any, int] = {}
     keys = zip(chart.tolist(), rows.tolist(), strict=True)
     poly = np.array([known.setdefault((c, *row), len(known)) for c, row in keys], np.int64)
     order = np.lexsort((lo, poly))
     one, other = order[:-1], order[1:]
-    same = (poly[one] == poly[other]) & (Span(lo[one], np.maximum(hi[one], hi[other])).signs(rows[one], 1) != 0)
+    span = Span(lo[one], np.maximum(hi[one], hi[other]))
     number = np.empty(len(poly), np.int64)
-    number[order] = np.cumsum(np.append(True, ~same)[: len(poly)])
+    number[order] = np.cumsum(np.append(True, (poly[one] != poly[other]) | (span.signs(rows[one], 1) == 0)))
+    order = np.lexsort((lo, chart))
+    one, other = order[:-1], order[1:]
+    near = (chart[one] == chart[other]) & (lo[other] <= hi[one]) & (poly[one] != poly[other])
+    one, other = one[near], other[near]
+    span = Span(lo[one], np.maximum(hi[one], hi[other]))
+    monotone = (span.signs(rows[one], 1) != 0) & (span.signs(rows[other], 1) != 0)
+    for i, j in zip(one[monotone].tolist(), other[monotone].tolist(), strict=True):
+        if number[i] != number[j]:
+            divisor = fmpz_poly(rows[i].tolist()).gcd(fmpz_poly(rows[j].tolist()))
+            common = [int(c) for c in divisor.coeffs()]
+            if sign(common, Fraction(lo[i])) * sign(common, Fraction(max(hi[i], hi[j]))) < 0:
+                number[number == number[j]] = number[i]
     number = np.where(ends != 0, -1 - (chart == (ends < 0)), number)  # the charts share their ends
-    return [number[: len(number) // 2], number[len(number) // 2 :]]
+    return [number[: len(poly) // 2], number[len(poly) // 2 :]]
 
 
 class Names:
-    """Names of lines, curves and places in a world."""
+    """Names of lines, curves and places on the contacts of pieces."""
 
-    def __init__(self, world: World) -> None:
-        self.world = world
+    def __init__(self, columns: Columns) -> None:
+        self.world = columns.reader.world
+        self._shapes = self.world.robot, self.world.obstacles
         self._numbers: tuple[dict[Vector, int], dict[Vector, int]] = {}, {}
+        self._lines: tuple[dict[Any, set[int]], dict[Any, set[int]]] = defaultdict(set), defaultdict(set)
         self.points = lru_cache(maxsize=None)(self._points)
         self.crossing = lru_cache(maxsize=None)(self._crossing)
         self.curve = lru_cache(maxsize=None)(self._curve)
+        edges: list[set[Edge]] = [set(), set()]
+        for kind, *both in map(name_of, columns.names):
+            for which, k in enumerate(both):
+                edges[which].update([self._edge(which, k)] if kind == 2 - which else self._around(which, k))
+        for which, its in enumerate(edges):
+            for edge in its:
+                self._lines[which][line_of(edge)].update(self._number(which, point) for point in edge)
+
+    def _number(self, which: int, point: Vector) -> int:
+        return self._numbers[which].setdefault(point, len(self._numbers[which]))
+
+    def _edge(self, which: int, k: int) -> Edge:
+        return self.world.edge(self._shapes[which], k)
+
+    def _around(self, which: int, k: int) -> list[Edge]:
+        """Edges that begin or end at a vertex of the robot, or of the obstacles."""
+        shape = self._shapes[which]
+        if not is_own(shape, k):
+            return []
+        p = shape.vertices[k]
+        return [(shape.vertices[int(shape.previous[k])], p), (p, shape.vertices[int(shape.w[k])])]
+
+    def _along(self, which: int, edge: Edge) -> frozenset[int]:
+        """Vertices of the robot, or of the obstacles, that are on one line with an edge."""
+        return frozenset(self._lines[which][line_of(edge)])
 
     def _points(self, code: int) -> Points:
         """Points that are on the line of a surface, or on a helix, at every angle."""
-        kind, i, j = name_of(code)
-        world, (robot, obstacles) = self.world, self._numbers
-        a = world.edge(world.robot, i) if kind == EDGE_VERTEX else (world.vertex(world.robot, i),)
-        b = world.edge(world.obstacles, j) if kind == VERTEX_EDGE else (world.vertex(world.obstacles, j),)
-        return frozenset(robot.setdefault(p, len(robot)) for p in a), frozenset(
-            obstacles.setdefault(p, len(obstacles)) for p in b
+        kind, *both = name_of(code)
+        a, b = (
+            self._along(which, self._edge(which, k))
+            if kind == 2 - which
+            else frozenset([self._number(which, self.world.vertex(self._shapes[which], k))])
+            for which, k in enumerate(both)
         )
+        return a, b
 
     def _curve(self, contact: int, code: int) -> Any:
         """Name of a curve."""
         one, other = self.points(contact), self.points(code)
-        return common(one, other) or frozenset((one, other))
+        return other if is_helix(code) else common(one, other) or frozenset((one, other))
 
     def line(self, contact: int, angle: int) -> Points:
         """Name of a contact's line at an angle, which is named by one pair, or by none."""
@@ -130,22 +176,16 @@ class Names:
         return (a, b | d) if c <= a else (a | c, b) if d <= b else (a, b)
 
     def _crossing(self, code: int, angle: int) -> Points:
-        """Name of the line of a surface at an angle: with the other ends of edges that are parallel to it there."""
-        (a, b), (kind, i, j), (of, e, f) = self.points(code), name_of(code), name_of(angle)
-        robot, obstacles = (partial(self.world.edge, shape) for shape in (self.world.robot, self.world.obstacles))
-        if of == PARALLEL and kind == VERTEX_EDGE and parallel(obstacles(j), obstacles(f)):
-            return a.union(*self._along(0, i, robot(e))), b
-        if of == PARALLEL and kind == EDGE_VERTEX and parallel(robot(i), robot(e)):
-            return a, b.union(*self._along(1, j, obstacles(f)))
-        return a, b
-
-    def _along(self, which: int, k: int, edge: Edge) -> Iterator[set[int]]:
-        """Yield the neighbours of a vertex of the robot, or of the obstacles, along a parallel edge."""
-        shape, numbers = (self.world.robot, self.world.obstacles)[which], self._numbers[which]
-        for neighbour in (int(shape.previous[k]), int(shape.w[k])) if is_own(shape, k) else ():
-            other = shape.vertices[neighbour]
-            if parallel((shape.vertices[k], other), edge):
-                yield {numbers.setdefault(other, len(numbers))}
+        """Name of the line of a surface at an angle: with edges that are parallel to it there."""
+        points, (kind, *ends), (of, *edges) = self.points(code), name_of(code), name_of(angle)
+        if of != PARALLEL or kind not in (VERTEX_EDGE, EDGE_VERTEX):
+            return points
+        still, free = (1, 0) if kind == VERTEX_EDGE else (0, 1)  # the shape of its edge, and that of its vertex
+        if not parallel(self._edge(still, ends[still]), self._edge(still, edges[still])):
+            return points
+        others = [edge for edge in self._around(free, ends[free]) if parallel(edge, self._edge(free, edges[free]))]
+        along = points[free].union(*(self._along(free, edge) for edge in others))
+        return (along, points[1]) if free == 0 else (points[0], along)
 
     def place(self, line: Points, code: int, first: int, second: int) -> Points:
         """Name of the place of a curve on a contact's line at an angle, where no curve named has a pole."""
@@ -159,6 +199,13 @@ class Names:
 
 def is_helix(code: int) -> bool:
     return name_of(code)[0] == HELIX
+
+
+def line_of(edge: Edge) -> tuple[Vector, int]:
+    """Key, equal for edges on one line."""
+    p, q = edge
+    u = primitive(minus(q, p)) if p != q else ZERO
+    return u, cross(u, p)
 
 
 def parallel(one: Edge, other: Edge) -> bool:

@@ -41,6 +41,8 @@ class Columns:
     ----------
     contact : (N,) uint64
         Their contacts, packed like the names of curves.
+    names : set of int
+        Names of surfaces, those of contacts among them.
     start, stop : Angles
     named : (N,) bool
         True if it is certain that both angles are what they are named by, and both curves have no pole between them.
@@ -79,6 +81,8 @@ class Columns:
         limits = np.array([(*s.limits, ALWAYS, ALWAYS)[:2] for s in self.surfaces], object)
         self._limits = limits.reshape(-1, 2, 3).transpose(1, 0, 2)
         others = [_surface(world.surface, code) for code in names.tolist()]
+        known = zip((*contacts.tolist(), *names.tolist()), (*surfaces, *others), strict=True)
+        self.names = {code for code, surface in known if surface is not NOWHERE}
         forms = meeting(_in_columns(surfaces, on), _in_columns(others, by))
         self._forms = [np.stack(form, axis=1) for form in forms]
         for k in np.flatnonzero(names[by] >> np.uint64(61) == HELIX).tolist():
