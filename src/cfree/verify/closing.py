@@ -17,7 +17,7 @@ import numpy as np
 from flint import fmpz_poly
 
 from cfree.exact.algebraic import sign
-from cfree.verify.columns import Columns, Ints, Span
+from cfree.verify.columns import Angles, Columns, Span
 from cfree.verify.polygons import primitive
 from cfree.verify.surfaces import ZERO, Vector, cross, minus
 from cfree.verify.world import EDGE_VERTEX, HELIX, PARALLEL, VERTEX_EDGE, is_own, name_of
@@ -61,35 +61,31 @@ def _unnamed(columns: Columns) -> list[tuple[int, bool, bool, bool]]:
 
     pieces = np.flatnonzero(columns.named).tolist()
     contact, chart, codes = columns.contact.tolist(), t.chart.tolist(), (t.lower.tolist(), t.upper.tolist())
-    for is_stop, (angles, numbers) in enumerate(zip((columns.start, columns.stop), numbered(columns), strict=True)):
-        first, second, number, meet = (
-            column.tolist() for column in (angles.first, angles.second, numbers, angles.meet)
-        )
+    angles, numbers = columns.angles, numbered(columns.angles)
+    pairs = [
+        (one, other) if meet else (0, 0) if other else (one, 0)
+        for one, other, meet in zip(angles.first.tolist(), angles.second.tolist(), angles.meet.tolist(), strict=True)
+    ]
+    for is_stop, ends in ((False, columns.start.tolist()), (True, columns.stop.tolist())):
         for k in pieces:
-            pair = (first[k], second[k]) if meet[k] else (0, 0) if second[k] else (first[k], 0)
-            line = names.line(contact[k], pair[0] if not pair[1] else 0)
-            for is_upper in (0, 1):
+            pair, number = pairs[ends[k]], numbers[ends[k]]
+            for is_upper in (False, True):
                 code = codes[is_upper][k]
-                toggle((chart[k], names.curve(contact[k], code), number[k]), (k, bool(is_stop), bool(is_upper), True))
-                place = names.place(line, code, *pair)
-                toggle((line, place, number[k]), (k, bool(is_stop), bool(is_upper), False))
+                toggle((chart[k], names.curve(contact[k], code), number), (k, is_stop, is_upper, True))
+                toggle((names.place(contact[k], code, *pair), number), (k, is_stop, is_upper, False))
     return list(left.values())
 
 
-def numbered(columns: Columns) -> list[Ints]:
-    """Numbers of the angles of both ends: equal numbers are of equal angles.
+def numbered(angles: Angles) -> list[int]:
+    """Numbers of angles: equal numbers are of equal angles.
 
     Notes
     -----
-    Each is the only root of a polynomial in its interval. A polynomial that is monotone around two of them has
-    one root there at most. So they are equal if both are of one polynomial, or of two with a common divisor that
+    Each is a polynomial's only root in its interval. A polynomial that is monotone on an interval around two of them
+    has one root there at most. So they are equal if both are of one polynomial, or of two with a common divisor that
     changes its sign there.
     """
-    chart = np.tile(columns.table.chart, 2)
-    lo, hi, ends, rows = (
-        np.concatenate([getattr(angles, name) for angles in (columns.start, columns.stop)])
-        for name in ("lo", "hi", "ends", "rows")
-    )
+    chart, lo, hi, rows, ends = angles.chart, angles.lo, angles.hi, angles.rows, angles.ends
     known: dict[Any, int] = {}
     keys = zip(chart.tolist(), rows.tolist(), strict=True)
     poly = np.array([known.setdefault((c, *row), len(known)) for c, row in keys], np.int64)
@@ -97,7 +93,8 @@ def numbered(columns: Columns) -> list[Ints]:
     one, other = order[:-1], order[1:]
     span = Span(lo[one], np.maximum(hi[one], hi[other]))
     number = np.empty(len(poly), np.int64)
-    number[order] = np.cumsum(np.append(True, (poly[one] != poly[other]) | (span.signs(rows[one], 1) == 0)))
+    parted = (poly[one] != poly[other]) | (span.signs(rows[one], 1) == 0)
+    number[order] = np.append(0, np.cumsum(parted))[: len(poly)]
     order = np.lexsort((lo, chart))
     one, other = order[:-1], order[1:]
     near = (chart[one] == chart[other]) & (lo[other] <= hi[one]) & (poly[one] != poly[other])
@@ -110,8 +107,8 @@ def numbered(columns: Columns) -> list[Ints]:
             common = [int(c) for c in divisor.coeffs()]
             if sign(common, Fraction(lo[i])) * sign(common, Fraction(max(hi[i], hi[j]))) < 0:
                 number[number == number[j]] = number[i]
-    number = np.where(ends != 0, -1 - (chart == (ends < 0)), number)  # the charts share their ends
-    return [number[: len(poly) // 2], number[len(poly) // 2 :]]
+    result: list[int] = np.where(ends != 0, -1 - (chart == (ends < 0)), number).tolist()  # the charts share their ends
+    return result
 
 
 class Names:
@@ -122,9 +119,11 @@ class Names:
         self._shapes = self.world.robot, self.world.obstacles
         self._numbers: tuple[dict[Vector, int], dict[Vector, int]] = {}, {}
         self._lines: tuple[dict[Any, set[int]], dict[Any, set[int]]] = defaultdict(set), defaultdict(set)
+        self._names: dict[Any, int] = {}
         self.points = lru_cache(maxsize=None)(self._points)
         self.crossing = lru_cache(maxsize=None)(self._crossing)
         self.curve = lru_cache(maxsize=None)(self._curve)
+        self.place = lru_cache(maxsize=None)(self._place)
         edges: list[set[Edge]] = [set(), set()]
         for kind, *both in map(name_of, columns.names):
             for which, k in enumerate(both):
@@ -162,10 +161,13 @@ class Names:
         )
         return a, b
 
-    def _curve(self, contact: int, code: int) -> Any:
-        """Name of a curve."""
+    def _name(self, what: Any) -> int:
+        return self._names.setdefault(what, len(self._names))
+
+    def _curve(self, contact: int, code: int) -> int:
+        """Name of a curve on a contact."""
         one, other = self.points(contact), self.points(code)
-        return other if is_helix(code) else common(one, other) or frozenset((one, other))
+        return self._name(other if is_helix(code) else common(one, other) or frozenset((one, other)))
 
     def line(self, contact: int, angle: int) -> Points:
         """Name of a contact's line at an angle, which is named by one pair, or by none."""
@@ -187,14 +189,14 @@ class Names:
         along = points[free].union(*(self._along(free, edge) for edge in others))
         return (along, points[1]) if free == 0 else (points[0], along)
 
-    def place(self, line: Points, code: int, first: int, second: int) -> Points:
-        """Name of the place of a curve on a contact's line at an angle, where no curve named has a pole."""
-        if second:  # both of them are there
+    def _place(self, contact: int, code: int, first: int, second: int) -> int:
+        """Name of a line at an angle and the place of a curve on it, if no curve named here has a pole."""
+        if second:  # both of these are there
             code, first = min(first, second) if code in (first, second) else code, 0
+        line, other = self.line(contact, first), self.crossing(code, first)
         if is_helix(first) and common(self.points(first), self.points(code)):
-            return self.points(first)
-        other = self.crossing(code, first)
-        return common(line, other) or other
+            return self._name((line, self.points(first)))
+        return self._name((line, common(line, other) or other))
 
 
 def is_helix(code: int) -> bool:

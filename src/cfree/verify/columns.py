@@ -6,7 +6,7 @@ angles of a piece. Others are monotone, and vanish at one of these, as its name 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from math import comb
 from typing import TYPE_CHECKING, Any
@@ -30,7 +30,7 @@ DEGREE = 4  # at most
 NOWHERE = Surface(ZERO, ZERO, ZERO, ZERO)  # what names no surface
 NEVER: Form = 0, 0, 0
 ALWAYS: Form = -1, 0, 0  # a limit that always holds
-ERROR = 2.0**-28
+ERROR, LEAST = 2.0**-28, 2.0**-1000
 BITS, NARROW, STEPS = 192, 160, 4  # of places by Newton's method
 
 
@@ -43,7 +43,9 @@ class Columns:
         Their contacts, packed like the names of curves.
     names : set of int
         Names of surfaces, those of contacts among them.
-    start, stop : Angles
+    angles : Angles
+    start, stop : (N,) int64
+        Numbers of their angles.
     named : (N,) bool
         True if it is certain that both angles are what they are named by, and both curves have no pole between them.
     proved : (N,) bool
@@ -54,16 +56,15 @@ class Columns:
         kind, robot, obstacle = (column.astype(np.uint64) for column in reader.contacts)
         self.reader, self.table = reader, reader.table
         self.contact: Codes = kind << np.uint64(61) | robot << np.uint64(31) | obstacle
-        self._sign = 1 - 2 * self.table.chart.astype(object)
         self._resolve()
-        self.start, self.stop = Angles(self, "from"), Angles(self, "to")
-        self.named: Mask = self.start.proved & self.stop.proved
-        self.proved: Mask = self.named.copy()
-        self._prove(np.flatnonzero(self.proved))
-        if not self.proved.all():  # narrower intervals may decide
-            more = np.flatnonzero(self.start.proved & self.stop.proved & ~self.proved)
-            for angles in (self.start, self.stop):
-                angles.narrow(more)
+        self.angles = Angles(self)
+        self.start, self.stop = self.angles.numbers
+        sound = self.angles.proved[self.start] & self.angles.proved[self.stop]
+        self.named, self.proved = sound.copy(), sound.copy()
+        self._prove(np.flatnonzero(sound))
+        more = np.flatnonzero(sound & ~self.proved)
+        if len(more):  # narrower intervals may decide
+            self.angles.narrow(np.unique([self.start[more], self.stop[more]]))
             self._prove(more)
 
     def _resolve(self) -> None:
@@ -93,35 +94,48 @@ class Columns:
             for form, value in zip(self._forms, both, strict=True):
                 form[k] = value
 
-    def row(self, column: str) -> Ints:
-        """Numbers of pairs of a contact and the name in a column."""
+    def forms(self, piece: int) -> Iterator[tuple[Form, Form]]:
+        """Yield numerator and denominator of the two curves of a piece."""
+        for column in ("lower", "upper"):
+            n, d = (tuple(form[self._rows[column][piece]].tolist()) for form in self._forms)
+            yield n, d
+
+    def angles_named(self, names: Codes, pieces: Ints) -> Rows:
+        """Forms of angles that one pair of features names, on the contacts of pieces."""
+        forms = np.zeros((len(names), 3), object)
+        for k, (code, piece) in enumerate(zip(names.tolist(), pieces.tolist(), strict=True)):
+            try:
+                forms[k] = self.reader.world.angle(self.surfaces[piece], name_of(code))
+            except (Fault, IndexError):
+                continue
+        return forms
+
+    def rows(self, column: str) -> Ints:
+        """Numbers of the forms of the curves that a column names."""
         return self._rows[column]
 
-    def curve(self, column: str) -> list[Rows]:
-        """Numerators and denominators of the curves that a column names; a denominator of 0 is no curve."""
-        return [self.polynomial(form[self._rows[column]]) for form in self._forms]
-
-    def polynomial(self, forms: Rows) -> Rows:
-        """(1 + tau^2) times a form of each piece, in its chart."""
-        a, b, c = forms.T
-        return np.stack([a + self._sign * b, 2 * self._sign * c, a - self._sign * b], axis=1)
+    def curves(self, rows: Ints, chart: NDArray[np.uint8]) -> list[Rows]:
+        """Numerators and denominators of curves in charts; a denominator of 0 is no curve."""
+        return [polynomials(form[rows], chart) for form in self._forms]
 
     def _prove(self, some: Ints) -> None:
-        """Find those of some pieces, all proved before, of which all is certain.
+        """Find those of some pieces, with angles that are proved, of which all is certain.
 
         Notes
         -----
         Start is before stop. From start to stop contacts are in their range, and 0 <= lower <= upper <= 1 has no pole.
         """
-        (n, d), (m, e) = (tuple(poly[some] for poly in self.curve(column)) for column in ("lower", "upper"))
+        chart, angles = self.table.chart[some], self.angles
+        (n, d), (m, e) = (self.curves(self._rows[column][some], chart) for column in ("lower", "upper"))
         sign, other = self._signs(d, some), self._signs(e, some)
         self.named[some] = sign * other != 0
-        result = self.named[some] & self._resolved[some] & (self.start.above[some] < self.stop.below[some])
+        in_order = angles.above[self.start[some]] < angles.below[self.stop[some]]
+        result = self.named[some] & self._resolved[some] & in_order
         for poly, its in ((n, sign), (e - m, other)):
             result &= (self._signs(poly, some, inside=True) * its > 0) | ~poly.any(axis=1)
         result &= self._signs(times(m, d) - times(n, e), some, inside=True) * sign * other > 0
         for limit in self._limits:
-            result &= self._signs(self.polynomial(limit)[some], some, inside=True) < 0
+            result &= self._signs(polynomials(limit[some], chart), some, inside=True) < 0
         self.proved[some] = result
 
     def _signs(self, poly: Rows, pieces: Ints, *, inside: bool = False) -> Ints:
@@ -132,53 +146,72 @@ class Columns:
         Of a monotone polynomial the signs at both ends decide, or if it vanishes at one of them that at the other. One
         that vanishes at both is negative between them if its second derivative is positive.
         """
-        span = Span(self.start.lo[pieces], self.stop.hi[pieces])
+        angles, start, stop = self.angles, self.start[pieces], self.stop[pieces]
+        span = Span(angles.lo[start], angles.hi[stop])
         signs: Ints = span.signs(poly)
         some = np.flatnonzero((signs == 0) & poly.any(axis=1))
         if not len(some):
             return signs
-        poly, pieces, span = poly[some], pieces[some], span.some(some)
-        first, last = signs_at(poly, self.start.below[pieces]), signs_at(poly, self.stop.above[pieces])
+        poly, span, start, stop = poly[some], span.some(some), start[some], stop[some]
+        first, last = signs_at(poly, angles.below[start]), signs_at(poly, angles.above[stop])
         result = np.where(first == last, first, 0)
         slopes, at_both = span.signs(poly, 1), np.zeros(len(some), bool)
         if inside:
             rows = primitive(poly)
-            at_start, at_stop = (angles.is_root(rows, pieces) for angles in (self.start, self.stop))
+            at_start, at_stop = angles.is_root(rows, start), angles.is_root(rows, stop)
             result, at_both = np.where(at_start, last, np.where(at_stop, first, result)), at_start & at_stop
         signs[some] = np.where(at_both, -span.signs(poly, 2), np.where(slopes != 0, result, 0))
         return signs
 
 
 class Angles:
-    """One end of all pieces.
+    """The ends of all pieces, each once.
 
     Attributes
     ----------
-    first, second : (N,) uint64
+    numbers : (2, N) int64
+        Those of the angles at which pieces start and stop.
+    first, second : (A,) uint64
         Their names.
-    lo, hi : (N,) float64
-    rows : (N, 5)
+    chart : (A,) uint8
+    lo, hi : (A,) float64
+    rows : (A, 5)
         Primitive polynomials with a root there.
-    ends : (N,) int64
+    ends : (A,) int64
         -1 or 1 at the end of a chart, else 0.
-    below, above : (N,)
-        Doubles or fractions, with the angle in between: these or nearer ones.
-    proved : (N,) bool
+    below, above : (A,)
+        Doubles or fractions, with the angle in between: `lo` and `hi`, or nearer ones.
+    proved : (A,) bool
         True if a root is the only one in its interval, and in the chart, for certain.
-    meet : (N,) bool
+    meet : (A,) bool
         True if its two curves have no pole in the interval, for certain.
     """
 
-    def __init__(self, columns: Columns, end: str) -> None:
-        first, second, lo, hi, place = (getattr(columns.table, f"{end}_{name}") for name in NAMES)
-        self.first, self.second, self.lo, self.hi = first, second, lo, hi
+    def __init__(self, columns: Columns) -> None:
+        t = columns.table
+        first, second, lo, hi, place = (
+            np.concatenate([getattr(t, f"{end}_{name}") for end in ("from", "to")]) for name in NAMES
+        )
+        by, other = (
+            np.concatenate([columns.rows(f"{end}_{name}") for end in ("from", "to")]) for name in ("first", "second")
+        )
+        chart, known = np.tile(t.chart, 2), dict[Any, int]()
+        keys = zip(*(column.tolist() for column in (by, other, lo, hi, place, chart)), strict=True)
+        self.numbers: Ints = np.array([known.setdefault(key, len(known)) for key in keys], np.int64).reshape(2, -1)
+        _, once = np.unique(self.numbers, return_index=True)
+        self.first, self.second, self.chart = first[once], second[once], chart[once]
+        place, by, other = place[once], by[once], other[once]
+        sound = (lo[once] > -2) & (lo[once] <= hi[once]) & (hi[once] < 2)
+        self.lo, self.hi = lo, hi = np.where(sound, lo[once], 0.0), np.where(sound, hi[once], 0.0)
         self.below, self.above = lo.astype(object), hi.astype(object)
-        (n, d), (m, e) = columns.curve(f"{end}_first"), columns.curve(f"{end}_second")
-        span, is_pair = Span(lo, hi), second != 0
+        (n, d), (m, e) = (columns.curves(rows, self.chart) for rows in (by, other))
+        span, is_pair, is_end = Span(lo, hi), self.second != 0, self.first == 0
         self.meet: Mask = is_pair & (span.signs(d) * span.signs(e) != 0)
         self.rows = times(n, e) - times(m, d)
-        self.rows[~is_pair, :3] = columns.polynomial(self._forms(columns, end, ~is_pair))[~is_pair]
-        is_end = first == 0
+        single = np.flatnonzero(~is_pair & ~is_end)
+        forms = columns.angles_named(self.first[single], once[single] % max(1, len(t)))
+        self.rows[single] = 0
+        self.rows[single, :3] = polynomials(forms, self.chart[single])
         whole = np.where(is_end & (abs(lo) == 1), lo, 0).astype(np.int64)
         self.rows[is_end] = 0
         self.rows[is_end, 0], self.rows[is_end, 1] = -whole[is_end], 1
@@ -186,9 +219,9 @@ class Angles:
         at_end = {k: (values_at(self.rows, k) == 0) & (lo <= k) & (k <= hi) for k in (-1, 1)}
         self.ends: Ints = at_end[1].astype(np.int64) - at_end[-1]
         in_chart = ((lo >= -1) | at_end[-1]) & ((hi <= 1) | at_end[1])
-        named = ~is_end | ((lo == hi) & (whole != 0) & ~is_pair)
-        self.proved: Mask = named & (place == 0) & in_chart & (lo <= hi)
-        self.proved &= (span.signs(self.rows, 1) != 0) & (signs_at(self.rows, lo) * signs_at(self.rows, hi) <= 0)
+        named = np.where(is_pair, d.any(axis=1) & e.any(axis=1), ~is_end | ((lo == hi) & (whole != 0)))
+        self.proved: Mask = sound & named.astype(bool) & (place == 0) & in_chart & (span.signs(self.rows, 1) != 0)
+        self.proved &= signs_at(self.rows, lo) * signs_at(self.rows, hi) <= 0
 
     def narrow(self, some: Ints) -> None:
         """Narrow the intervals of some angles, by Newton's method: where the sign still changes the root is."""
@@ -209,25 +242,11 @@ class Angles:
         inside[inside] = signs_at(rows[inside], below[inside]) * signs_at(rows[inside], above[inside]) < 0
         self.below[some[inside]], self.above[some[inside]] = below[inside], above[inside]
 
-    def _forms(self, columns: Columns, end: str, which: Mask) -> Rows:
-        """Forms of the angles that one pair of features names."""
-        forms = np.zeros((len(which), 3), object)
-        rows, known = columns.row(f"{end}_first"), dict[int, Form]()
-        for k in np.flatnonzero(which & (self.first != 0)).tolist():
-            if (form := known.get(rows[k])) is None:
-                try:
-                    form = columns.reader.world.angle(columns.surfaces[k], name_of(int(self.first[k])))
-                except (Fault, IndexError):
-                    form = NEVER
-                known[rows[k]] = form
-            forms[k] = form
-        return forms
-
-    def is_root(self, rows: Rows, some: Ints) -> Mask:
-        """True if a polynomial, primitive, vanishes at the angle of a piece, for certain."""
-        ends = self.ends[some]
-        at_end = np.where(ends == 1, values_at(rows, 1), values_at(rows, -1)) == 0
-        vanishes: Mask = np.where(ends != 0, at_end, (rows == self.rows[some]).all(axis=1)).astype(bool)
+    def is_root(self, poly: Rows, angles: Ints) -> Mask:
+        """True if primitive polynomials vanish at angles, for certain."""
+        ends = self.ends[angles]
+        at_end = np.where(ends == 1, values_at(poly, 1), values_at(poly, -1)) == 0
+        vanishes: Mask = np.where(ends != 0, at_end, (poly == self.rows[angles]).all(axis=1)).astype(bool)
         return vanishes
 
 
@@ -236,14 +255,14 @@ class Span:
 
     Notes
     -----
-    Coefficients are divided by the greatest. For a degree of at most 4 and |tau| < 2, no coefficient of a Taylor
-    polynomial is greater than 2^6, and no sum here than 2^12. Each takes fewer than 100 operations, and is off by less
-    than 2^-34. `ERROR` is more.
+    Coefficients are rounded, and divided by the greatest. For a degree of at most 4 and |tau| < 2, no coefficient of a
+    Taylor polynomial is greater than 2^6, and no sum here than 2^12. Each takes fewer than 100 operations, and is off
+    by less than 2^-34. `ERROR` is more.
     """
 
     def __init__(self, lo: Floats, hi: Floats) -> None:
         self.lo, self.hi = lo, hi
-        self._middle, self._radius = (lo + hi) / 2, (hi - lo) / 2 + 2.0**-50
+        self._middle, self._radius = (lo + hi) / 2, abs(hi - lo) / 2 + 2.0**-50
 
     def some(self, rows: Ints) -> Span:
         return Span(self.lo[rows], self.hi[rows])
@@ -263,8 +282,11 @@ class Span:
 
     def _taylor(self, poly: Rows) -> list[Floats]:
         """Coefficients at the middle."""
-        most = abs(poly).max(axis=1, initial=1)
-        c = list((poly / most[:, None]).astype(float).T)
+        try:
+            rounded = poly.astype(float)
+        except OverflowError:
+            rounded = (poly / abs(poly).max(axis=1, initial=1)[:, None]).astype(float)
+        c = list((rounded / np.maximum(abs(rounded).max(axis=1, initial=0), LEAST)[:, None]).T)
         for k in range(len(c) - 1):
             for j in range(len(c) - 2, k - 1, -1):
                 c[j] = c[j] + self._middle * c[j + 1]
@@ -283,6 +305,13 @@ def _in_columns(surfaces: Sequence[Surface], rows: Ints) -> Surface:
     table = np.array([(*s.a, *s.g, *s.b, *s.q) for s in surfaces], object).reshape(-1, 8)[rows]
     a, b, c, d, e, f, g, h = table.T
     return Surface((a, b), (c, d), (e, f), (g, h))
+
+
+def polynomials(forms: Rows, chart: NDArray[np.uint8]) -> Rows:
+    """(1 + tau^2) times forms, in charts."""
+    (a, b, c), sign = forms.T, 1 - 2 * chart.astype(object)
+    b = sign * b
+    return np.stack([a + b, 2 * sign * c, a - b], axis=1)
 
 
 def times(p: Rows, q: Rows) -> Rows:

@@ -89,7 +89,7 @@ def _one_side(proof: Separated, columns: Columns, trapezoid: Callable[[int], Tra
     inside, scale = [], columns.reader.world.scale
     for name, pose in (("start", proof.start), ("goal", proof.goal)):
         try:
-            inside.append(is_inside(pose, scale, map(trapezoid, around(columns.table, pose))))
+            inside.append(is_inside(pose, scale, map(trapezoid, around(columns, pose, scale))))
         except Fault as fault:
             yield Finding(SIDES, name, str(fault))
     if len(inside) == 2 and inside[0] == inside[1]:
