@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from math import comb
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +31,7 @@ DEGREE = 4  # at most
 NOWHERE = Surface(ZERO, ZERO, ZERO, ZERO)  # what names no surface
 NEVER: Form = 0, 0, 0
 ALWAYS: Form = -1, 0, 0  # a limit that always holds
+WIDE, PARTS = 0.25, 4  # intervals that are cut where doubles decide nothing
 ERROR, LEAST = 2.0**-28, 2.0**-1000
 BITS, NARROW, STEPS = 192, 160, 4  # of places by Newton's method
 
@@ -143,24 +145,30 @@ class Columns:
 
         Notes
         -----
-        Of a monotone polynomial the signs at both ends decide, or if it vanishes at one of them that at the other. One
-        that vanishes at both is negative between them if its second derivative is positive.
+        Of a monotone polynomial the signs at both ends decide, or if it vanishes at one of them that at the other. A
+        convex one is negative between places where it is not positive.
         """
         angles, start, stop = self.angles, self.start[pieces], self.stop[pieces]
         span = Span(angles.lo[start], angles.hi[stop])
         signs: Ints = span.signs(poly)
+        wide = np.flatnonzero((signs == 0) & (span.hi - span.lo > WIDE))
+        if len(wide):
+            of_parts = np.array([part.signs(poly[wide]) for part in span.some(wide).parts()])
+            signs[wide] = np.where((of_parts == of_parts[0]).all(axis=0), of_parts[0], 0)
         some = np.flatnonzero((signs == 0) & poly.any(axis=1))
         if not len(some):
             return signs
         poly, span, start, stop = poly[some], span.some(some), start[some], stop[some]
         first, last = signs_at(poly, angles.below[start]), signs_at(poly, angles.above[stop])
-        result = np.where(first == last, first, 0)
-        slopes, at_both = span.signs(poly, 1), np.zeros(len(some), bool)
+        slope, bend = span.signs(poly, 1), span.signs(poly, 2)
         if inside:
             rows = primitive(poly)
-            at_start, at_stop = angles.is_root(rows, start), angles.is_root(rows, stop)
-            result, at_both = np.where(at_start, last, np.where(at_stop, first, result)), at_start & at_stop
-        signs[some] = np.where(at_both, -span.signs(poly, 2), np.where(slopes != 0, result, 0))
+            first[angles.is_root(rows, start)] = last[angles.is_root(rows, stop)] = 0
+            of_monotone = np.where(first == 0, last, np.where((last == 0) | (last == first), first, 0))
+            is_beyond = (bend * first <= 0) & (bend * last <= 0)
+        else:
+            of_monotone, is_beyond = np.where(first == last, first, 0), (bend * first < 0) & (bend * last < 0)
+        signs[some] = np.where(slope != 0, of_monotone, np.where(is_beyond, -bend, 0))
         return signs
 
 
@@ -266,6 +274,11 @@ class Span:
 
     def some(self, rows: Ints) -> Span:
         return Span(self.lo[rows], self.hi[rows])
+
+    def parts(self) -> list[Span]:
+        """Return parts that cover each interval."""
+        ends = [self.lo + (self.hi - self.lo) * (k / PARTS) for k in range(PARTS)] + [self.hi]
+        return [Span(lo, hi) for lo, hi in pairwise(ends)]
 
     def signs(self, poly: Rows, order: int = 0) -> Ints:
         """Signs of a derivative on the whole closed interval; 0 if it is not certain that there is one.
