@@ -96,7 +96,7 @@ def answer(
 
     Notes
     -----
-    A separation takes about 1 ms a piece; a path takes a few for each motion and each convex piece near it.
+    A separation takes about 0.1 ms a piece; a path takes a few for each motion and each convex piece near it.
 
     Examples
     --------

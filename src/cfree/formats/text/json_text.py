@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 from typing import Any
 
@@ -23,11 +24,15 @@ def read_json(findings: Findings) -> Any:
 
     Syntax errors are raised; other faults that the decoder accepts are noted.
     """
-    return with_numbers(read_literals(findings))
+    return _decoded(findings, number_of)
 
 
 def read_literals(findings: Findings) -> Any:
     """Read JSON with numbers as written, see `read_json`."""
+    return _decoded(findings, Literal)
+
+
+def _decoded(findings: Findings, number: Callable[[str], Any]) -> Any:
     irregular = False
 
     def constant(literal: str) -> Decimal:
@@ -45,8 +50,8 @@ def read_literals(findings: Findings) -> Any:
     try:
         data = json.loads(
             findings.text,
-            parse_float=Literal,
-            parse_int=Literal,
+            parse_float=number,
+            parse_int=number,
             parse_constant=constant,
             object_pairs_hook=unique,
         )
@@ -75,7 +80,7 @@ def with_numbers(data: Any) -> Any:
     return whole[0]
 
 
-def number_of(literal: Literal) -> int | Decimal | str:
+def number_of(literal: str) -> int | Decimal | str:
     """Return the number of a literal; one that no coordinate may be stays text, which its reader refuses."""
     if len(literal) > MAX_DIGITS:
         return str(literal)
