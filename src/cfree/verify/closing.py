@@ -19,7 +19,7 @@ from flint import fmpz_poly
 from cfree.exact.algebraic import sign
 from cfree.verify.columns import Angles, Columns, Span
 from cfree.verify.polygons import primitive
-from cfree.verify.surfaces import ZERO, Vector, cross, minus
+from cfree.verify.surfaces import Vector, cross, minus
 from cfree.verify.world import EDGE_VERTEX, HELIX, PARALLEL, VERTEX_EDGE, is_own, name_of
 
 if TYPE_CHECKING:
@@ -203,10 +203,12 @@ def is_helix(code: int) -> bool:
     return name_of(code)[0] == HELIX
 
 
-def line_of(edge: Edge) -> tuple[Vector, int]:
-    """Key, equal for edges on one line."""
+def line_of(edge: Edge) -> Any:
+    """Key, equal for edges on one line; an edge without length is on none but its own."""
     p, q = edge
-    u = primitive(minus(q, p)) if p != q else ZERO
+    if p == q:
+        return p
+    u = primitive(minus(q, p))
     return u, cross(u, p)
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from cfree.verify.surfaces import ZERO, Fault, Form, Surface, helix, meeting
 from cfree.verify.trapezoids import NAMES
-from cfree.verify.world import HELIX, Name, name_of
+from cfree.verify.world import EDGE_VERTEX, HELIX, VERTEX_EDGE, Name, name_of
 
 if TYPE_CHECKING:
     from cfree.verify.trapezoids import Reader
@@ -62,6 +62,7 @@ class Columns:
         self.angles = Angles(self)
         self.start, self.stop = self.angles.numbers
         sound = self.angles.proved[self.start] & self.angles.proved[self.stop]
+        sound &= np.isin(kind, (VERTEX_EDGE, EDGE_VERTEX))
         self.named, self.proved = sound.copy(), sound.copy()
         self._prove(np.flatnonzero(sound))
         more = np.flatnonzero(sound & ~self.proved)
