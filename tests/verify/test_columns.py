@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -70,6 +71,16 @@ def test_few_pieces_and_ends_are_left_to_exact_numbers() -> None:
             end = root.value in (1, -1)
             named.setdefault(number, set()).add((end, angles.chart[k] == (root.value == -1)) if end else root.key)
         assert all(len(keys) == 1 for keys in named.values())
+
+
+def test_contacts_of_other_kinds_have_no_names() -> None:
+    scene, proof = separations()[0]
+    for wrong in (0, 3, 9):
+        kind = proof.pieces.kind.copy()
+        kind[0] = wrong
+        small = Scene(proof.robot, scene.obstacles)
+        columns = Columns(_reader(replace(proof.pieces, kind=kind), small))
+        assert not columns.named[0] and columns.named[1:].all()
 
 
 def test_signs_on_intervals_are_exact() -> None:
