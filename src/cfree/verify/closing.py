@@ -20,7 +20,7 @@ from cfree.exact.algebraic import sign
 from cfree.verify.columns import Angles, Columns, Span
 from cfree.verify.polygons import primitive
 from cfree.verify.surfaces import Vector, cross, minus
-from cfree.verify.world import EDGE_VERTEX, HELIX, PARALLEL, VERTEX_EDGE, is_own, name_of
+from cfree.verify.world import EDGE_VERTEX, HELIX, PARALLEL, VERTEX_EDGE, name_of
 
 if TYPE_CHECKING:
     from cfree.verify.trapezoids import Trapezoid
@@ -52,13 +52,6 @@ def _unnamed(columns: Columns) -> list[tuple[int, bool, bool, bool]]:
     """Ends of sides that no equal name cancels: piece, if at its stop, if of its upper curve, and if along that."""
     names, t = Names(columns), columns.table
     left: dict[Any, tuple[int, bool, bool, bool]] = {}
-
-    def toggle(name: Any, end: tuple[int, bool, bool, bool]) -> None:
-        if name in left:
-            del left[name]
-        else:
-            left[name] = end
-
     pieces = np.flatnonzero(columns.named).tolist()
     contact, chart, codes = columns.contact.tolist(), t.chart.tolist(), (t.lower.tolist(), t.upper.tolist())
     angles, numbers = columns.angles, numbered(columns.angles)
@@ -71,8 +64,12 @@ def _unnamed(columns: Columns) -> list[tuple[int, bool, bool, bool]]:
             pair, number = pairs[ends[k]], numbers[ends[k]]
             for is_upper in (False, True):
                 code = codes[is_upper][k]
-                toggle((chart[k], names.curve(contact[k], code), number), (k, is_stop, is_upper, True))
-                toggle((names.place(contact[k], code, *pair), number), (k, is_stop, is_upper, False))
+                line = chart[k], names.curve(contact[k], code), number
+                if left.pop(line, None) is None:
+                    left[line] = k, is_stop, is_upper, True
+                place = names.place(contact[k], code, *pair), number
+                if left.pop(place, None) is None:
+                    left[place] = k, is_stop, is_upper, False
     return list(left.values())
 
 
@@ -141,7 +138,7 @@ class Names:
     def _around(self, which: int, k: int) -> list[Edge]:
         """Edges that begin or end at a vertex of the robot, or of the obstacles."""
         shape = self._shapes[which]
-        if not is_own(shape, k):
+        if not self.world.is_own(shape, k):
             return []
         p = shape.vertices[k]
         return [(shape.vertices[int(shape.previous[k])], p), (p, shape.vertices[int(shape.w[k])])]

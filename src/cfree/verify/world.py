@@ -252,15 +252,24 @@ class World:
         return 0, cross(g, f), -dot(g, f)
 
     def vertex(self, shape: ShapeFeatures, k: int) -> Vector:
-        if self.auxiliary is None or is_own(shape, k):
+        if self.auxiliary is None or self.is_own(shape, k):
             return shape.vertices[k]
         return self._foreign(shape, "vertex", k)[0]
 
     def edge(self, shape: ShapeFeatures, k: int) -> tuple[Vector, Vector]:
-        if self.auxiliary is None or is_own(shape, k):
+        if self.auxiliary is None or self.is_own(shape, k):
             return shape.vertices[int(shape.v[k])], shape.vertices[int(shape.w[k])]
         first, last = self._foreign(shape, "edge", k)
         return first, last
+
+    def is_own(self, shape: ShapeFeatures, k: int) -> bool:
+        """True if it is a feature of a polygon of the scene, or of its bounds."""
+        own = self._own[id(shape)]
+        return k < len(own) and own[k]
+
+    @cached_property
+    def _own(self) -> dict[int, list[bool]]:
+        return {id(shape): (shape.owner_vertex >= 0).tolist() for shape in (self.robot, self.obstacles)}
 
     def _foreign(self, shape: ShapeFeatures, kind: str, k: int) -> list[Vector]:
         side = "robot" if shape is self.robot else "obstacles"
@@ -330,11 +339,6 @@ def edge_vertex(a: Vector, end: Vector, corner: Corner) -> Surface:
 def corner_of(shape: Any, k: int) -> Corner:
     previous = shape.vertices[int(shape.previous[k])]
     return previous, shape.vertices[k], shape.vertices[int(shape.w[k])]
-
-
-def is_own(shape: ShapeFeatures, k: int) -> bool:
-    """True if it is a feature of a polygon of the scene, or of its bounds."""
-    return bool(k < len(shape.owner_vertex) and shape.owner_vertex[k] >= 0)
 
 
 def name_of(code: int) -> Name:
