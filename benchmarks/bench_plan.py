@@ -20,6 +20,7 @@ from measure import POLYGONS, Report
 from ompl_rival import SIMPLIFY, Runs, rival
 
 import cfree
+import cfree.verify
 from cfree.formats.scene_file import scene_from_text, scene_text
 from cfree.scene.scene import robot_radius
 
@@ -45,6 +46,7 @@ class Row:
     default_to_first: float
     motions_to_waypoints: float
     length_to_rival: float
+    verify_to_first: float  # of proofs
 
 
 def run(quick: bool) -> list[Report]:
@@ -82,11 +84,13 @@ def run(quick: bool) -> list[Report]:
 def figures(report: Report, rows: list[Row]) -> None:
     """Medians and worst ratios; the scenes that are worse than they should be."""
     joined = [row for row in rows if row.is_path]
-    separated = [row for row in rows if not row.is_path and row.obstacles >= MANY]
+    proved = [row for row in rows if not row.is_path]
+    separated = [row for row in proved if row.obstacles >= MANY]
     for what, chosen, ratio, most, worst in (  # no target for the worst: None
         ("first path, in RRTConnect's time", joined, "first_to_rival", 0.7, 2),
         (f"proof, in its whole boundary's time, {MANY} obstacles or more", separated, "first_to_boundary", 0.5, 2.5),
         ("default path, in the first one's time", joined, "default_to_first", 3, None),
+        ("verify of a proof, in the time of proving it", proved, "verify_to_first", 2, 2),
         ("motions, to OMPL's simplified waypoints", joined, "motions_to_waypoints", 1.5, None),
         ("length, to OMPL's simplified", joined, "length_to_rival", 1.05, None),
     ):
@@ -119,6 +123,9 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> Row:
         statistics.median(spent(call, fresh()) for _ in range(ROUNDS))
         for call in (lambda s: cfree.plan(s, improve=0), cfree.plan, cfree.boundary)
     )
+    verify = math.nan
+    if not is_path:
+        verify = statistics.median(spent(lambda s: cfree.verify.answer(s, answer), fresh()) for _ in range(ROUNDS))
     runs = rival(fresh, CAP, RUNS) if is_path else Runs()
     theirs, waypoints, length = (median(values) for values in (runs.seconds, runs.waypoints, runs.lengths))
     ours = math.nan
@@ -129,7 +136,7 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> Row:
     motions = len(answer.motions) if isinstance(answer, cfree.Path) else 0
     free = isinstance(answer, cfree.Path) and answer.is_free(cfree.MotionChecker(scene))
     row = Row(name, len(scene.obstacles), is_path, free, first / theirs, first / boundary,
-              default / first if is_path else math.nan, motions / waypoints, ours / length)  # fmt: skip
+              default / first if is_path else math.nan, motions / waypoints, ours / length, verify / first)  # fmt: skip
     clip = str(runs.clip) + (f" +{runs.undecided}?" if runs.undecided else "")
     solved = (f"{runs.solved}/{len(runs.seconds)}", clip) if is_path else ("", "")
     times = (_number(1e3 * seconds) for seconds in (first, default, boundary, theirs))

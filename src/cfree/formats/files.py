@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from os import PathLike, fspath
 from pathlib import Path as FilePath
@@ -143,11 +144,16 @@ def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Pro
         refuse_other_kinds(fspath(path))
         if is_drawing(path):
             return load_scene(path)
-        findings = Findings(fspath(path), read_text(FilePath(path)))
-        data = None if is_wkt(findings) else read_literals(findings)
-        if isinstance(data, Mapping) and "answer" in data:
-            from cfree.formats.answers.answer_format import answer_from_json
+        text = read_text(FilePath(path))
+        findings = Findings(fspath(path), text)
+        if is_wkt(findings):
+            return read_wkt(findings).scene()
+        if re.search(r'"answer"|\\u', text):  # a key may be written with escapes
+            data = read_literals(findings)
+            if isinstance(data, Mapping) and "answer" in data:
+                from cfree.formats.answers.answer_format import answer_from_json
 
-            return answer_from_json(findings, with_numbers(data)).answer
-        content = read_wkt(findings) if data is None else read_json_file(findings, data)
+                return answer_from_json(findings, with_numbers(data)).answer
+            findings = Findings(fspath(path), text)
+        content = read_json_file(findings)
         return content if isinstance(content, Scene) else content.scene()

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 
 from cfree.formats.drawings.source import Progress, Reading, Source, shapes_of
-from cfree.formats.scenes.scene_values import Fault, scene_from_plain
+from cfree.formats.scenes.scene_values import Fault, scene_from_plain, shape_at_once
 from cfree.formats.shapes import Shapes
 from cfree.formats.text.archive import is_archive
 from cfree.formats.text.findings import Findings, InvalidFileError, read_text, whole
-from cfree.formats.text.json_text import read_literals, with_numbers
+from cfree.formats.text.json_text import read_literals, read_members, with_numbers
 from cfree.scene.reading import together
 from cfree.scene.scene import Scene, with_reading
 
@@ -54,9 +54,7 @@ def read_file(
         shapes: Shapes = reader(Source(file, reading=reading, progress=progress))
         return shapes
     findings = Findings(file, read_text(Path(file)))
-    return (
-        read_wkt(findings, reading) if is_wkt(findings) else read_json_file(findings, read_literals(findings), reading)
-    )
+    return read_wkt(findings, reading) if is_wkt(findings) else read_json_file(findings, reading)
 
 
 def refuse_other_kinds(file: str) -> None:
@@ -119,10 +117,13 @@ def quick_scene(data: object) -> Scene | None:
     return scene and with_reading(scene, notes)
 
 
-def read_json_file(findings: Findings, data: object, reading: Reading | None = None) -> Shapes | Scene:
-    """Read a scene, GeoJSON, or a nesting instance from JSON with literals."""
+def read_json_file(findings: Findings, reading: Reading | None = None) -> Shapes | Scene:
+    """Read a scene, GeoJSON, or a nesting instance from JSON."""
     source = Source(findings.file, reading=reading)
     source.findings = findings
+    if not source.reading.repair and not findings and (scene := quick_scene(read_members(findings, shape_at_once))):
+        return scene
+    data = read_literals(findings)
     if isinstance(data, Mapping) and "answer" in data and "robot" not in data:
         fault = "an answer of cfree plan, no scene; give the scene that it is for"
         raise InvalidFileError(findings.file, [whole(fault)])
@@ -137,8 +138,6 @@ def read_json_file(findings: Findings, data: object, reading: Reading | None = N
 
         instance: Shapes = read_nesting(source, with_numbers(data))
         return instance
-    if not source.reading.repair and not findings and (scene := quick_scene(data)):
-        return scene
     from cfree.formats.scenes.scene_format import scene_from_models
 
     data = with_numbers(data)

@@ -29,7 +29,6 @@ from cfree.formats.scenes.reading_text import records
 from cfree.formats.shapes import Shape, Shapes
 from cfree.formats.text.atomic import checked_suffix, replacing
 from cfree.formats.text.findings import Findings
-from cfree.formats.text.json_text import read_literals
 from cfree.formats.text.number_text import number_text
 from cfree.formats.units import METRES, factor, unit_of
 from cfree.polygons.polygon import Polygon
@@ -244,7 +243,7 @@ def _sized(shapes: Shapes, units: str, scale: Fraction | None) -> Shapes:
 def scene_from_text(name: str, text: str) -> Scene:
     """Read a scene from the JSON text that `scene_text` makes; `name` stands for the file in errors."""
     findings = Findings(name, text)
-    scene = read_json_file(findings, read_literals(findings))
+    scene = read_json_file(findings)
     assert isinstance(scene, Scene)
     return scene
 

@@ -90,11 +90,14 @@ class Segments:
 class World(Protocol):
     """The convex pieces of a scene, and its contacts; `cfree.verify.world.World` is one."""
 
-    unit: int
-    parts: list[Ring]
-    obstacle_pieces: list[Ring]
-    beyond: list[Ring]
-
+    @property
+    def unit(self) -> int: ...
+    @property
+    def parts(self) -> list[Ring]: ...
+    @property
+    def obstacle_pieces(self) -> list[Ring]: ...
+    @property
+    def beyond(self) -> list[Ring]: ...
     @property
     def pillars(self) -> Pillars: ...
     def contacts_at(self, turn: Turn) -> tuple[Contacts, Callable[[int], Surface]]: ...

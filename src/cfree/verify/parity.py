@@ -6,11 +6,12 @@ signs are those at tau + epsilon: those of the first derivative that is not zero
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from math import lcm
+from math import inf, lcm, nextafter
 from typing import TYPE_CHECKING
 
+import numpy as np
 from flint import fmpz_poly
 
 from cfree.exact.algebraic import sign
@@ -19,6 +20,7 @@ from cfree.verify.trapezoids import Trapezoid
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
+    from cfree.verify.columns import Columns
 
 
 def chart_of(pose: Pose) -> tuple[int, Fraction]:
@@ -27,6 +29,32 @@ def chart_of(pose: Pose) -> tuple[int, Fraction]:
     if tau is not None and -1 <= tau < 1:
         return 0, tau
     return 1, Fraction(0) if tau is None else -1 / tau
+
+
+def around(columns: Columns, pose: Pose, scale: int) -> list[int]:
+    """Numbers of the pieces that may hold a pose, or be on the ray from it.
+
+    Notes
+    -----
+    Left out are those of other orientations, and those with both ends strictly above the ray, or below.
+    """
+    table, numbers = columns.table, set[int]()
+    for turn in (Turn(*place) for place in Turn.of(*chart_of(pose)).in_charts()):
+        tau = float(turn.tau)
+        holds = (table.from_lo <= nextafter(tau, inf)) & (nextafter(tau, -inf) <= table.to_hi)
+        rows = np.flatnonzero(holds & (table.chart == turn.chart)).tolist()
+        numbers.update(k for k in rows if abs(sum(_heights(columns, k, turn, pose.y * scale))) < 2)
+    return sorted(numbers)
+
+
+def _heights(columns: Columns, k: int, turn: Turn, y: Fraction) -> Iterator[int]:
+    """Yield the signs of the heights of both ends of a piece over a line; 0 is also one that is not known."""
+    line = turn.line(columns.surfaces[k])
+    above = y.denominator * line.start[1] - turn.w * y.numerator
+    for n, d in columns.forms(k):
+        z = turn.value(d)
+        height = (above * z + y.denominator * line.along[1] * turn.value(n)) * z
+        yield (height > 0) - (height < 0)
 
 
 def is_inside(pose: Pose, scale: int, pieces: Iterable[Trapezoid]) -> bool:

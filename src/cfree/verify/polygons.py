@@ -47,20 +47,35 @@ def tile(pieces: Iterable[Ring], rings: Iterable[Ring]) -> bool:
     Notes
     -----
     On every line the pieces' directed edges must add up to those of the rings: then the sum of the pieces' indicators
-    is the rings' winding number. A sum of directed segments of one line vanishes if their ends cancel.
+    is the rings' winding number. An edge and its reverse cancel. A sum of other directed segments of one line vanishes
+    if their ends cancel.
     """
-    ends: Counter[tuple[Vector, int, Vector]] = Counter()
+    left: Counter[tuple[Vector, Vector]] = Counter()
     for shapes, times in ((pieces, 1), (rings, -1)):
         for ring in shapes:
-            around = corners(ring)
-            fan = [(ring[0], p, q) for _, p, q in around[1:-1]]
-            if times == 1 and not all(map(is_convex, around + fan)):
+            if times == 1 and not _turns_left(ring):
                 return False
-            for _, p, q in around:
-                u = primitive(minus(q, p))
-                ends[u, cross(u, p), q] += times
-                ends[u, cross(u, p), p] -= times
+            for p, q in zip(ring, ring[1:] + ring[:1], strict=True):
+                edge, reverse = ((p, q), (q, p))[::times]
+                if left[reverse]:
+                    left[reverse] -= 1
+                else:
+                    left[edge] += 1
+    ends: Counter[tuple[Vector, int, Vector]] = Counter()
+    for (p, q), times in left.items():
+        if times:
+            u = primitive(minus(q, p))
+            ends[u, cross(u, p), q] += times
+            ends[u, cross(u, p), p] -= times
     return not any(ends.values())
+
+
+def _turns_left(ring: Ring) -> bool:
+    """True if a ring is convex, counter-clockwise, and once around."""
+    if len(ring) == 3:
+        return is_convex((ring[0], ring[1], ring[2]))
+    around = corners(ring)
+    return all(map(is_convex, around)) and all(is_convex((ring[0], p, q)) for _, p, q in around[1:-1])
 
 
 def primitive(u: Vector) -> Vector:
@@ -80,9 +95,9 @@ def shortest(u: Vector) -> Vector:
 Boxes = NDArray[np.float64]  # (n, 4): xmin, ymin, xmax, ymax
 
 
-def boxes(rings: Iterable[Ring], unit: int) -> Boxes:
+def boxes(rings: Iterable[Ring], unit: Exact) -> Boxes:
     """Boxes around rings of integers, in a unit as large as the scene; larger by more than their rounding."""
-    extremes = [[extreme(p[k] / unit for p in ring) for extreme in (min, max) for k in (0, 1)] for ring in rings]
+    extremes = [[extreme(axis) / unit for extreme in (min, max) for axis in zip(*ring, strict=True)] for ring in rings]
     return np.array(extremes, float).reshape(-1, 4) + 2.0**-40 * np.array([-1, -1, 1, 1])
 
 

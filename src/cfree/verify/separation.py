@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.exact.algebraic import Exact
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.planning.separation import Pieces
 from cfree.scene.scene import Scene
+from cfree.verify.closing import odd_ends
+from cfree.verify.columns import Columns
 from cfree.verify.inside import is_near, strictly_inside
 from cfree.verify.motions import touches
-from cfree.verify.parity import is_inside
+from cfree.verify.parity import around, is_inside
 from cfree.verify.result import Finding
 from cfree.verify.surfaces import Fault
-from cfree.verify.trapezoids import Reader, Side, Trapezoid
+from cfree.verify.trapezoids import Reader, Trapezoid
 from cfree.verify.world import Feature, numbers
 from cfree.words import counted
 
@@ -44,24 +45,27 @@ def separation_findings(proof: Separated, world: World, report: Callable[[float]
     except Fault as fault:
         yield Finding(CONTACTS, "the surface", str(fault))
         return
-    pieces = []
-    for k in range(len(proof.pieces)):
-        if k % BLOCK == 0:
-            report(k / len(proof.pieces))
+    columns, trapezoid = Columns(reader), lru_cache(maxsize=None)(reader.trapezoid)
+    unproved = np.flatnonzero(~columns.proved).tolist()
+    refuted = False
+    for done, k in enumerate(unproved):
+        if done % BLOCK == 0:
+            report(done / len(unproved))
         try:
-            piece = reader.trapezoid(k)
+            piece = trapezoid(k)
             piece.check(piece.turn())
-            pieces.append(piece)
         except Fault as fault:
             yield Finding(CONTACTS, f"piece {k}", str(fault))
+            refuted = True
         except IndexError:
             yield Finding(CONTACTS, f"piece {k}", "it names a feature that does not exist")
-    if len(pieces) < len(proof.pieces):
+            refuted = True
+    if refuted:
         return
-    if odd := odd_ends(piece.sides() for piece in pieces):
+    if odd := odd_ends(columns, trapezoid):
         yield Finding(CLOSED, "the surface", f"sides of its pieces end at {counted(odd, 'place')} without a partner")
     if not apart:
-        yield from _one_side(proof, reader.world.scale, pieces)
+        yield from _one_side(proof, columns, trapezoid)
 
 
 def _not_inside(proof: Separated, scene: Scene) -> Iterator[Finding]:
@@ -81,30 +85,16 @@ def _not_inside(proof: Separated, scene: Scene) -> Iterator[Finding]:
             yield Finding(INSIDE, "larger bounds", "the scene's bounds are not strictly inside them")
 
 
-def _one_side(proof: Separated, scale: int, pieces: list[Trapezoid]) -> Iterator[Finding]:
-    inside = []
+def _one_side(proof: Separated, columns: Columns, trapezoid: Callable[[int], Trapezoid]) -> Iterator[Finding]:
+    inside, scale = [], columns.reader.world.scale
     for name, pose in (("start", proof.start), ("goal", proof.goal)):
         try:
-            inside.append(is_inside(pose, scale, pieces))
+            inside.append(is_inside(pose, scale, map(trapezoid, around(columns, pose, scale))))
         except Fault as fault:
             yield Finding(SIDES, name, str(fault))
     if len(inside) == 2 and inside[0] == inside[1]:
         where = "inside" if inside[0] else "outside"
         yield Finding(SIDES, "start and goal", f"both are {where} the surface")
-
-
-def odd_ends(loops: Iterable[list[Side | None]]) -> int:
-    """Number of places on curves and lines where an odd number of sides end: 0 if the surface is closed mod 2.
-
-    Notes
-    -----
-    A sum mod 2 of segments of one line vanishes if its boundary does.
-    """
-    ends: Counter[tuple[bytes, Exact]] = Counter()
-    for loop in loops:
-        for line, *both in filter(None, loop):
-            ends.update((line, end) for end in both)
-    return sum(times % 2 for times in ends.values())
 
 
 # --- from names in an answer to numbers of features ---

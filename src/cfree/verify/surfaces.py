@@ -164,12 +164,18 @@ def polynomial(form: Form, chart: int) -> fmpz_poly:
     return fmpz_poly([a + b, 2 * c, a - b])
 
 
-def cut(surface: Surface, other: Surface) -> tuple[Form, Form]:
-    """Numerator and denominator of t where another surface's line meets this one's."""
+def meeting(surface: Surface, other: Surface) -> tuple[Form, Form]:
+    """Numerator and denominator of t where another surface's line meets this one's; both vanish if it is parallel."""
     n, d = other.form(minus(surface.b, other.b), minus(surface.a, other.a)), other.form(surface.q, surface.g)
+    return (-n[0], -n[1], -n[2]), d
+
+
+def cut(surface: Surface, other: Surface) -> tuple[Form, Form]:
+    """`meeting`, of surfaces that are not parallel at every angle."""
+    n, d = meeting(surface, other)
     if not any(d):
         raise Fault("a curve is cut out by a surface that is parallel at every angle")
-    return (-n[0], -n[1], -n[2]), d
+    return n, d
 
 
 def helix(surface: Surface, a: Vector, b: Vector) -> tuple[Form, Form]:

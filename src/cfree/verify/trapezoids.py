@@ -258,9 +258,13 @@ class Trapezoid:
             (self.lower.digest, self.stop, self.start),
         ]
 
-    def _upright(self, angle: Root, first: Curve, last: Curve) -> Side | None:
+    def place(self, curve: Curve, angle: Root) -> tuple[bytes, Exact]:
+        """Line at one of its ends, and the position of a curve on it."""
         axis, line = self._moving.line(angle)
-        begin, end = (self._place(curve, axis, angle) for curve in (first, last))
+        return line, self._place(curve, axis, angle)
+
+    def _upright(self, angle: Root, first: Curve, last: Curve) -> Side | None:
+        (line, begin), (_, end) = (self.place(curve, angle) for curve in (first, last))
         return None if begin == end else (line, begin, end)
 
 

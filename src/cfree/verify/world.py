@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from cfree.polygons.polygon import Polygon
 from cfree.scene.features import ShapeFeatures, scene_features, unpacked
 from cfree.verify.heights import Contacts, Pillars, columns, rough_rotation
 from cfree.verify.polygons import (
+    Boxes,
     Corner,
     Ring,
     boxes,
@@ -35,8 +37,10 @@ from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Turn, Vector, cros
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
+Cut = tuple[list[Ring], list[Ring]]
 Directed = tuple[list[Vector], NDArray[np.int64], NDArray[np.int64]]
 Name = tuple[int, int, int]  # kind, robot feature, obstacle feature
+VERTEX_EDGE, EDGE_VERTEX, HELIX, PARALLEL = 1, 2, 3, 4  # kinds
 Feature = tuple[str, str, int]  # of "robot" or "obstacles", "vertex" or "edge", number
 
 
@@ -64,49 +68,84 @@ class World:
     scene: Scene
     auxiliary: Mapping[Feature, Sequence[Vector]] | None = None
     scale: int = field(init=False)
-    parts: list[Ring] = field(default_factory=list)
-    obstacle_pieces: list[Ring] = field(default_factory=list)
-    untiled: list[str] = field(default_factory=list)
     bounds: list[int] = field(init=False)
 
     def __post_init__(self) -> None:
         scene, features = self.scene, scene_features(self.scene)
         self.scale = features.scale
         self.robot, self.obstacles = features.robot, features.obstacles
-        robot = [rings_of(p, self.scale) for p in scene.robot]
-        obstacles = [rings_of(p, self.scale) for p in scene.obstacles]
-        for k, polygon in enumerate(scene.robot):
-            self._add_pieces(self.parts, polygon, f"robot[{k}]")
-        for k, polygon in enumerate(scene.obstacles):
-            self._add_pieces(self.obstacle_pieces, polygon, f"obstacle {k}")
-        workspace = scene.workspace and rings_of(scene.workspace, self.scale)
-        self.bounds = bounds = [int(b * self.scale) for b in scene.bounds or ()]
-        points = [p for rings in (*obstacles, workspace or [[]]) for p in rings[0]]
-        points += zip(bounds[::2], bounds[1::2], strict=True)
-        margin = 1 + 4 * max(abs(c) for ring in robot for p in ring[0] for c in p)
-        (x0, *_, x1), (y0, *_, y1) = (sorted(axis) for axis in zip(*points, *[ZERO] * 2, strict=True))
-        around = x0 - margin, y0 - margin, x1 + margin, y1 + margin  # holds the robot at every contact
-        self.beyond = frame(around, bounds) if bounds else []
-        if workspace:
-            outer, *holes = workspace
-            for k, polygon in enumerate([Polygon(rectangle(*around), [outer]), *map(Polygon, holes)]):
-                self._add_pieces(self.obstacle_pieces, polygon, f"part {k} of the workspace's complement", scale=1)
-            obstacles.append([ring[::-1] for ring in workspace])
-        self.robot_corners = [corner for rings in robot for ring in rings for corner in corners(ring)]
-        self.obstacle_corners = [corner for rings in obstacles for ring in rings for corner in corners(ring)]
+        self.bounds = [int(b * self.scale) for b in scene.bounds or ()]
+        self._robot = [rings_of(p, self.scale) for p in scene.robot]
+        self._obstacles = [rings_of(p, self.scale) for p in scene.obstacles]
+        self._workspace = rings_of(scene.workspace, self.scale) if scene.workspace else []
         # the complement is on the left
-        self.bound_corners = corners(rectangle(*bounds)[::-1]) if bounds else []
-        self._contacts = {id(self.robot): set(self.robot_corners), id(self.obstacles): set(self.obstacle_corners)}
-        self.unit = max(map(abs, around))
-        self.obstacle_boxes = boxes(self.obstacle_pieces, self.unit)
+        self.bound_corners = corners(rectangle(*self.bounds)[::-1]) if self.bounds else []
 
-    def _add_pieces(self, pieces: list[Ring], polygon: Polygon, name: str, scale: int = 0) -> None:
-        factor = (scale or self.scale) // polygon.denominator
-        vertices = [(x * factor, y * factor) for x, y in polygon.numerators]
-        tiles = [[vertices[k] for k in piece] for piece in polygon.pieces]
-        if not tile(tiles, rings_of(polygon, scale or self.scale)):
-            self.untiled.append(name)
-        pieces += tiles
+    @cached_property
+    def _around(self) -> tuple[int, int, int, int]:
+        """Box that holds the robot at every contact."""
+        points = [ZERO, *(p for rings in (*self._obstacles, self._workspace) if rings for p in rings[0])]
+        points += zip(self.bounds[::2], self.bounds[1::2], strict=True)
+        margin = 1 + 4 * max(abs(c) for rings in self._robot for p in rings[0] for c in p)
+        xs, ys = zip(*points, strict=True)
+        return min(xs) - margin, min(ys) - margin, max(xs) + margin, max(ys) + margin
+
+    @cached_property
+    def unit(self) -> int:
+        return max(map(abs, self._around))
+
+    @cached_property
+    def beyond(self) -> list[Ring]:
+        return frame(self._around, self.bounds) if self.bounds else []
+
+    @cached_property
+    def parts(self) -> list[Ring]:
+        return [piece for pieces, _ in self._cut_robot for piece in pieces]
+
+    @cached_property
+    def obstacle_pieces(self) -> list[Ring]:
+        return [piece for pieces, _ in self._cut_obstacles for piece in pieces]
+
+    @property
+    def untiled(self) -> list[str]:
+        names = [f"robot[{k}]" for k in range(len(self._robot))]
+        names += [f"obstacle {k}" for k in range(len(self._obstacles))]
+        names += [f"part {k} of the workspace's complement" for k in range(len(self._workspace))]
+        return [
+            name
+            for name, (pieces, rings) in zip(names, (*self._cut_robot, *self._cut_obstacles), strict=True)
+            if not tile(pieces, rings)
+        ]
+
+    @cached_property
+    def obstacle_boxes(self) -> Boxes:
+        return boxes(self.obstacle_pieces, self.unit)
+
+    @cached_property
+    def _cut_robot(self) -> list[Cut]:
+        return list(map(_cut, self.scene.robot, self._robot))
+
+    @cached_property
+    def _cut_obstacles(self) -> list[Cut]:
+        cuts = list(map(_cut, self.scene.obstacles, self._obstacles))
+        if self._workspace:
+            outer, *holes = self._workspace
+            for polygon in (Polygon(rectangle(*self._around), [outer]), *map(Polygon, holes)):
+                cuts.append(_cut(polygon, rings_of(polygon, 1)))
+        return cuts
+
+    @cached_property
+    def robot_corners(self) -> list[Corner]:
+        return [corner for rings in self._robot for ring in rings for corner in corners(ring)]
+
+    @cached_property
+    def obstacle_corners(self) -> list[Corner]:
+        rings = [ring for rings in self._obstacles for ring in rings] + [ring[::-1] for ring in self._workspace]
+        return [corner for ring in rings for corner in corners(ring)]
+
+    @cached_property
+    def _contacts(self) -> dict[int, set[Corner]]:
+        return {id(self.robot): set(self.robot_corners), id(self.obstacles): set(self.obstacle_corners)}
 
     @cached_property
     def pillars(self) -> Pillars:
@@ -173,49 +212,64 @@ class World:
         """Contact surface that a patch of the file is part of."""
         kind, i, j = name
         a, b = corner_of(self.robot, i), corner_of(self.obstacles, j)
-        if kind == 1 and a == (ZERO, ZERO, ZERO) and b in self.bound_corners:
+        if kind == VERTEX_EDGE and a == (ZERO, ZERO, ZERO) and b in self.bound_corners:
             return Surface(ZERO, ZERO, b[1], minus(b[2], b[1]))
         if a not in self._contacts[id(self.robot)] or b not in self._contacts[id(self.obstacles)]:
             raise Fault("its features are no features of one robot polygon and one obstacle")
-        if not is_convex(a if kind == 1 else b):
+        if not is_convex(a if kind == VERTEX_EDGE else b):
             raise Fault("a contact at a reflex vertex")
-        return vertex_edge(a, b[1], b[2]) if kind == 1 else edge_vertex(a[1], a[2], b)
+        return vertex_edge(a, b[1], b[2]) if kind == VERTEX_EDGE else edge_vertex(a[1], a[2], b)
 
     def curve(self, surface: Surface, name: Name) -> tuple[Form, Form]:
         """Numerator and denominator of the curve that a pair of features names on a surface."""
+        return helix(surface, *self.vertices(name)) if name[0] == HELIX else cut(surface, self.surface(name))
+
+    def surface(self, name: Name) -> Surface:
+        """Surface that a pair of features names, for its lines alone."""
         kind, i, j = name
-        if kind == 3:
-            return helix(surface, self._vertex(self.robot, i), self._vertex(self.obstacles, j))
-        if kind not in (1, 2):
+        if kind == VERTEX_EDGE:
+            b, end = self.edge(self.obstacles, j)
+            return Surface(self.vertex(self.robot, i), ZERO, b, minus(end, b))
+        if kind != EDGE_VERTEX:
             raise Fault("a curve without a name")
-        if kind == 1:
-            b, end = self._edge(self.obstacles, j)
-            return cut(surface, Surface(self._vertex(self.robot, i), ZERO, b, minus(end, b)))
-        a, end = self._edge(self.robot, i)
-        return cut(surface, Surface(a, minus(end, a), self._vertex(self.obstacles, j), ZERO))
+        a, end = self.edge(self.robot, i)
+        return Surface(a, minus(end, a), self.vertex(self.obstacles, j), ZERO)
+
+    def vertices(self, name: Name) -> tuple[Vector, Vector]:
+        """Two vertices that a helix is named by."""
+        return self.vertex(self.robot, name[1]), self.vertex(self.obstacles, name[2])
 
     def angle(self, surface: Surface, name: Name) -> Form:
         """Form that is zero at the angle that one pair of features names."""
         kind, i, j = name
-        if kind == 3:
-            a, b = self._vertex(self.robot, i), self._vertex(self.obstacles, j)
+        if kind == HELIX:
+            a, b = self.vertices(name)
             return surface.form(minus(b, surface.b), minus(a, surface.a))
-        if kind != 4:
+        if kind != PARALLEL:
             raise Fault("an angle whose name is neither a helix nor a pair of edges")
-        (a, a_end), (b, b_end) = self._edge(self.robot, i), self._edge(self.obstacles, j)
+        (a, a_end), (b, b_end) = self.edge(self.robot, i), self.edge(self.obstacles, j)
         g, f = minus(a_end, a), minus(b_end, b)
         return 0, cross(g, f), -dot(g, f)
 
-    def _vertex(self, shape: ShapeFeatures, k: int) -> Vector:
-        if self.auxiliary is None or _is_own(shape, k):
+    def vertex(self, shape: ShapeFeatures, k: int) -> Vector:
+        if self.auxiliary is None or self.is_own(shape, k):
             return shape.vertices[k]
         return self._foreign(shape, "vertex", k)[0]
 
-    def _edge(self, shape: ShapeFeatures, k: int) -> tuple[Vector, Vector]:
-        if self.auxiliary is None or _is_own(shape, k):
+    def edge(self, shape: ShapeFeatures, k: int) -> tuple[Vector, Vector]:
+        if self.auxiliary is None or self.is_own(shape, k):
             return shape.vertices[int(shape.v[k])], shape.vertices[int(shape.w[k])]
         first, last = self._foreign(shape, "edge", k)
         return first, last
+
+    def is_own(self, shape: ShapeFeatures, k: int) -> bool:
+        """True if it is a feature of a polygon of the scene, or of its bounds."""
+        own = self._own[id(shape)]
+        return k < len(own) and own[k]
+
+    @cached_property
+    def _own(self) -> dict[int, list[bool]]:
+        return {id(shape): (shape.owner_vertex >= 0).tolist() for shape in (self.robot, self.obstacles)}
 
     def _foreign(self, shape: ShapeFeatures, kind: str, k: int) -> list[Vector]:
         side = "robot" if shape is self.robot else "obstacles"
@@ -225,6 +279,12 @@ class World:
         if any(c.denominator > 1 for point in scaled for c in point):
             raise Fault(f"auxiliary {kind} {k} of the {side} has another denominator than the scene")
         return [(int(x), int(y)) for x, y in scaled]
+
+
+def _cut(polygon: Polygon, rings: list[Ring]) -> Cut:
+    """Convex pieces of a polygon, and its rings."""
+    vertices = list(chain.from_iterable(rings))
+    return [[vertices[k] for k in piece] for piece in polygon.pieces], rings
 
 
 def directed(corners: Sequence[Corner]) -> Directed:
@@ -279,11 +339,6 @@ def edge_vertex(a: Vector, end: Vector, corner: Corner) -> Surface:
 def corner_of(shape: Any, k: int) -> Corner:
     previous = shape.vertices[int(shape.previous[k])]
     return previous, shape.vertices[k], shape.vertices[int(shape.w[k])]
-
-
-def _is_own(shape: ShapeFeatures, k: int) -> bool:
-    """True if it is a feature of a polygon of the scene, or of its bounds."""
-    return bool(k < len(shape.owner_vertex) and shape.owner_vertex[k] >= 0)
 
 
 def name_of(code: int) -> Name:

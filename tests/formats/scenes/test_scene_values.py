@@ -2,6 +2,7 @@
 
 import json
 import random
+import tracemalloc
 from copy import deepcopy
 from pathlib import Path
 from typing import Any
@@ -10,9 +11,11 @@ import pytest
 
 from cfree.errors import FormatError
 from cfree.formats.readers import quick_scene
+from cfree.formats.scene_file import scene_from_text
 from cfree.formats.scenes.scene_format import scene_from_models
+from cfree.formats.scenes.scene_values import shape_at_once
 from cfree.formats.text.findings import Findings
-from cfree.formats.text.json_text import read_literals, with_numbers
+from cfree.formats.text.json_text import read_literals, read_members, with_numbers
 from cfree.scene.scene import Scene
 from examples import POLYGONS
 
@@ -53,14 +56,16 @@ RICH = {
 ODD: tuple[Any, ...] = (
     None, True, 0, 1, -1.5, 1e400, 2, "", "1", "x", "1/0", "90deg", "\ud800", [], {}, [0, 0], [0, 0, 0], [0, 0, 1, 1],
     [1, 1, 0, 0], {"tau": None}, {"tau": "inf"}, {"a": "\ud800"}, "n" * 1001, {"outer": [[0, 0], [1, 0]]}, [[]],
+    {"outer": [[0, 0], [1, 0], [0, 1]]}, {"outer": [[0, 0], [1, 0], [0, 1]], "name": None},
 )  # fmt: skip
 
 
 def both(text: str) -> tuple[Scene | None, Scene | None]:
     """What the quick reader says, and what the models say."""
     findings = Findings("scene.json", text)
-    data = read_literals(findings)
-    quick = None if findings else quick_scene(data)
+    data, quick = read_literals(findings), quick_scene(read_members(Findings("scene.json", text), shape_at_once))
+    if quick is None and not findings:  # a polygon where none is expected
+        quick = quick_scene(data)
     try:
         return quick, scene_from_models(findings, with_numbers(read_literals(Findings("scene.json", text))))
     except FormatError:
@@ -95,3 +100,14 @@ def test_whatever_is_changed_both_say_the_same() -> None:
         assert quick == checked and (quick is None or quick.reading == checked.reading), json.dumps(data)  # type: ignore[union-attr]
         kept += quick is not None
     assert 40 < kept < 560
+
+
+def test_numbers_of_polygons_are_not_kept_while_others_are_read() -> None:
+    rings = [[[9 * k + 0.1, 0.2], [9 * k + 1.3, 0.4], [9 * k + 0.5, 1.6], [9 * k + 0.7, 0.8]] for k in range(500)]
+    text = json.dumps({"robot": rings[0], "obstacles": [{"outer": ring} for ring in rings]})
+    scene_from_text("scene.json", text)
+    tracemalloc.start()
+    kept = scene_from_text("scene.json", text)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert len(kept.obstacles) == 500 and peak < 2000 * 150  # two numbers as written, in a list, take 200 bytes

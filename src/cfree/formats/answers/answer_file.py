@@ -8,6 +8,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Literal
 
 from cfree.arguments import checked
+from cfree.collector import collection_paused
 from cfree.errors import UnsupportedError
 from cfree.exact.half_angle import Rate, to_rate
 from cfree.formats.text.atomic import replacing
@@ -64,7 +65,8 @@ def read_answer(path: str | PathLike[str]) -> Read:
 
     file = FilePath(path)
     findings = Findings(str(file), read_text(file))
-    return answer_from_json(findings, read_json(findings))
+    with collection_paused():
+        return answer_from_json(findings, read_json(findings))
 
 
 def is_answer(path: str | PathLike[str]) -> bool:

@@ -7,6 +7,7 @@ places, which takes longer.
 from __future__ import annotations
 
 from collections.abc import Callable, Set
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from math import isfinite
@@ -204,6 +205,8 @@ def is_encodable(text: str) -> bool:
 def plain(value: Any, depth: int = MAX_NESTING) -> Any:
     """Return free-form JSON with floats, if it is shallow and encodable, so that it can be saved again."""
     value = number_of(value) if isinstance(value, Literal) else value
+    if isinstance(value, Shape):
+        raise Fault("a polygon, where its numbers are to be kept")
     if depth == 0:
         raise Fault(f"nested more than {MAX_NESTING} deep; flatten it")
     if isinstance(value, dict):
@@ -222,12 +225,27 @@ def plain(value: Any, depth: int = MAX_NESTING) -> Any:
 # scenes without faults
 
 
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A polygon that was read from an object, and its name, if the object has this key."""
+
+    polygon: Polygon
+    is_named: bool
+    name: str | None
+
+
+def shape_at_once(members: dict[str, Any]) -> Shape | dict[str, Any]:
+    """Return the polygon of a decoded JSON object, so that its numbers need not be kept; other objects as they are."""
+    polygon = plain_polygon(members, OBSTACLE) if "outer" in members else None
+    return members if polygon is None else Shape(polygon, "name" in members, members.get("name"))
+
+
 def scene_from_plain(data: object) -> Scene | None:
     """Return the scene of a decoded JSON value, if it has no fault."""
     if not isinstance(data, dict) or not data.keys() <= READERS.keys() | _SHAPES:
         return None
     robot, obstacles, workspace = data.get("robot"), data.get("obstacles", []), data.get("workspace")
-    robot = [robot] if isinstance(robot, dict) or is_ring(robot) else robot
+    robot = [robot] if isinstance(robot, (dict, Shape)) or is_ring(robot) else robot
     obstacles = [obstacles] if is_ring(obstacles) else obstacles
     if not isinstance(robot, list) or not isinstance(obstacles, list):
         return None
@@ -237,7 +255,7 @@ def scene_from_plain(data: object) -> Scene | None:
         return None
     if data.get("goal") is not None and data.get("goals"):
         return None
-    names = [obstacle.get("name") if isinstance(obstacle, dict) else None for obstacle in obstacles]
+    names = [o.name if isinstance(o, Shape) else o.get("name") if isinstance(o, dict) else None for o in obstacles]
     try:
         others = {key: read(data[key]) for key, read in READERS.items() if key in data}
         return Scene(parts, bodies, obstacle_names=names, workspace=room, **others)
@@ -260,6 +278,8 @@ def is_ring(value: Any) -> bool:
 
 def plain_polygon(data: Any, keys: Set[str]) -> Polygon | None:
     """Return the polygon of a decoded JSON value, which the core reads, if it has no fault."""
+    if isinstance(data, Shape):
+        return None if data.is_named and "name" not in keys else data.polygon
     data = {"outer": data} if is_ring(data) else data
     if not isinstance(data, dict) or not data.keys() <= keys:
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 from typing import Any
 
@@ -23,11 +24,31 @@ def read_json(findings: Findings) -> Any:
 
     Syntax errors are raised; other faults that the decoder accepts are noted.
     """
-    return with_numbers(read_literals(findings))
+    return _without_faults(findings, number_of)
 
 
 def read_literals(findings: Findings) -> Any:
     """Read JSON with numbers as written, see `read_json`."""
+    return _without_faults(findings, Literal)
+
+
+def read_members(findings: Findings, made: Callable[[dict[str, Any]], object]) -> Any:
+    """Read JSON with a value made of each object as soon as it is read; None if `read_literals` would note faults."""
+    data, irregular = _decoded(findings, Literal, made)
+    return None if irregular else data
+
+
+def _without_faults(findings: Findings, number: Callable[[str], object]) -> Any:
+    data, irregular = _decoded(findings, number, lambda members: members)
+    if irregular:
+        findings.irregular_json()
+    return data
+
+
+def _decoded(
+    findings: Findings, number: Callable[[str], object], made: Callable[[dict[str, Any]], object]
+) -> tuple[Any, bool]:
+    """Decode JSON; also True if there are faults that the decoder accepts."""
     irregular = False
 
     def constant(literal: str) -> Decimal:
@@ -35,18 +56,18 @@ def read_literals(findings: Findings) -> Any:
         irregular = True
         return Decimal(literal)
 
-    def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    def unique(pairs: list[tuple[str, object]]) -> object:
         nonlocal irregular
         members = dict(pairs)
         irregular = irregular or len(members) < len(pairs)
-        return members
+        return made(members)
 
     data: object = None
     try:
         data = json.loads(
             findings.text,
-            parse_float=Literal,
-            parse_int=Literal,
+            parse_float=number,
+            parse_int=number,
             parse_constant=constant,
             object_pairs_hook=unique,
         )
@@ -56,9 +77,7 @@ def read_literals(findings: Findings) -> Any:
         findings.at(_deepest(findings.text), "", "brackets are nested too deeply; a scene needs six levels")
     if data is None:
         findings.fail_if_any()
-    if irregular:
-        findings.irregular_json()
-    return data
+    return data, irregular
 
 
 def with_numbers(data: Any) -> Any:
@@ -75,7 +94,7 @@ def with_numbers(data: Any) -> Any:
     return whole[0]
 
 
-def number_of(literal: Literal) -> int | Decimal | str:
+def number_of(literal: str) -> int | Decimal | str:
     """Return the number of a literal; one that no coordinate may be stays text, which its reader refuses."""
     if len(literal) > MAX_DIGITS:
         return str(literal)
