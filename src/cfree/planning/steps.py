@@ -12,21 +12,25 @@ from typing import Protocol
 from cfree.collision.approximations import Approximations
 from cfree.collision.nearest_free import refuse_forbidden
 from cfree.collision.pose_checker import PoseChecker
-from cfree.errors import IncompleteError
+from cfree.errors import IncompleteError, InvariantError
 from cfree.exact.pose import Pose
+from cfree.forbidden.boundary import boundary
+from cfree.free.space import FreeSpace, free_space
 from cfree.paths.path import Path
 from cfree.planning.caller import Work
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
-from cfree.planning.rounded_cells import round_cells
+from cfree.planning.rounded_cells import work_for
 from cfree.planning.separation import Separated
 from cfree.planning.true_shapes import TruePlanner, TrueShapes
+from cfree.scene.features import grown_features
 from cfree.scene.frame import frame_of
+from cfree.scene.rounded import rounded_shapes
 from cfree.scene.scene import Scene
 
 PATCHES = 20_000  # most contact patches trimmed for one step
 GUESSES = 2_000  # motions guessed by a search among segments and arcs, before cells and polygons inside are asked
-PAIRS = 10_000  # most pairs of a patch and a pillar near it for which cells of rounded shapes are computed
+PAIRS = 10_000  # most pairs of a patch and a pillar near it for which a room's cells are computed
 
 
 class StepPlanner(Protocol):
@@ -115,15 +119,25 @@ class AmongArcs:
         first = replace(options, improve=0.0, objective="balanced", vehicle=None)
         with suppress(IncompleteError):
             found = self._planner.first_path(start, goal, first, GUESSES)
-            if found is None and self._by_cells(start, goal) is None:
+            if found is None and not self._are_in_two_cells(start, goal):
                 guide = self._among_inner(start, goal, first)
                 found = guide and self._planner.mended(guide, first, thorough=False)
             return found if isinstance(found, Path) else None
         return None
 
-    def _by_cells(self, start: Pose, goal: Pose) -> Separated | None:
-        cells = round_cells(self._scene, Options(), PAIRS)
-        return None if cells is None else cells.proof(start, goal)
+    def _are_in_two_cells(self, start: Pose, goal: Pose) -> bool:
+        """True if no cell has both; they may still be joined by exact fits. False if cells take too long to compute."""
+        space = self._space
+        return space is not None and space.common_cell(start, goal) is None
+
+    @cached_property
+    def _space(self) -> FreeSpace | None:
+        if rounded_shapes(self._scene) is None or work_for(grown_features(self._scene)) > PAIRS:
+            return None
+        try:
+            return free_space(boundary(self._scene, threads=1), threads=1)
+        except InvariantError:  # the core does not resolve a tie; other ways to an answer are left
+            return None
 
     def _among_inner(self, start: Pose, goal: Pose, options: Options) -> Path | None:
         """Return a path among polygons inside of the shapes; without one there is none among these."""
@@ -148,8 +162,6 @@ class AmongArcs:
 
     def proof(self, start: Pose, goal: Pose) -> Separated | None:
         """See `StepPlanner`."""
-        if (proof := self._by_cells(start, goal)) is not None:
-            return proof
         exact = self._scene
         with suppress(IncompleteError):
             found = PosePlanner(self._planner.guide.scene).way(start, goal, Options(), few=True)
