@@ -147,7 +147,7 @@ class ShapeFeatures:
         --------
         >>> (rim,) = shape_features(Curved([(0, 0), (4, 0), (0, 3)], grown=1)).rims(1)
         >>> rim.round(12).tolist()
-        [[-1.0, 0.0], [0.0, -1.0], [4.0, -1.0], [4.6, 0.8], [0.6, 3.8], [-1.0, 3.0]]
+        [[-1.0, 0.0], [-0.0, -1.0], [4.0, -1.0], [4.6, 0.8], [0.6, 3.8], [-1.0, 3.0]]
         """
         return tuple(
             np.concatenate([_along(arc, parts) for arc in ring if isinstance(arc, ArcFeature)]) for ring in self.rings
