@@ -19,8 +19,6 @@ from cfree.collision.pose_checker import FREE, PoseChecker, is_free_at
 from cfree.contact.features import shape_features
 from cfree.exact.half_angle import theta_from
 from cfree.exact.pose import Pose, pose_at
-from cfree.forbidden.boundary import boundary
-from cfree.free.space import free_space
 from cfree.planning.rooms import UNIT, Box, Floats, Ints, Rooms
 from cfree.planning.steps import step_planner
 from cfree.polygons.polygon import Polygon
@@ -194,7 +192,8 @@ def _middle(row: NDArray[np.bool_], across: int) -> int:
 def parts_of(scene: Scene, portals: list[Portal]) -> Ints:
     """Part of a room that each portal leads to: those of one part are joined within the room, and no others.
 
-    A search joins most of them; the free space of the room decides about the rest.
+    A search joins most of them; the free space of the room decides about the rest. Where it is not known, all count as
+    joined.
     """
     poses = [portal.pose for portal in portals]
     planner = step_planner(scene)
@@ -207,8 +206,8 @@ def parts_of(scene: Scene, portals: list[Portal]) -> Ints:
         else:
             joined.append([k])
     result = np.zeros(len(poses), np.int64)
-    if len(joined) > 1:
-        cells = free_space(boundary(scene, threads=1), threads=1).locate([poses[part[0]] for part in joined])
+    if len(joined) > 1 and (space := planner.space) is not None:
+        cells = space.locate([poses[part[0]] for part in joined])
         for part, cell in zip(joined, cells.tolist(), strict=True):
             result[part] = cell
     return result

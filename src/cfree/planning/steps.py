@@ -36,6 +36,10 @@ PAIRS = 10_000  # most pairs of a patch and a pillar near it for which a room's 
 class StepPlanner(Protocol):
     """Planner of the steps in one room."""
 
+    @property
+    def space(self) -> FreeSpace | None:
+        """The room's free space; None if the core does not resolve it."""
+
     def joins(self, start: Pose, goal: Pose, guesses: int) -> bool:
         """True if a search of so many guesses joins two free poses."""
 
@@ -69,7 +73,12 @@ class AmongPolygons:
     """
 
     def __init__(self, scene: Scene) -> None:
-        self._planner = PosePlanner(scene)
+        self._planner, self._scene = PosePlanner(scene), scene
+
+    @cached_property
+    def space(self) -> FreeSpace:
+        """See `StepPlanner`."""
+        return free_space(boundary(self._scene, threads=1), threads=1)
 
     def joins(self, start: Pose, goal: Pose, guesses: int) -> bool:
         """See `StepPlanner`."""
@@ -127,16 +136,18 @@ class AmongArcs:
 
     def _are_in_two_cells(self, start: Pose, goal: Pose) -> bool:
         """True if no cell has both; they may still be joined by exact fits. False if cells take too long to compute."""
-        space = self._space
-        return space is not None and space.common_cell(start, goal) is None
+        if rounded_shapes(self._scene) is None or work_for(grown_features(self._scene)) > PAIRS:
+            return False
+        return self.space is not None and self.space.common_cell(start, goal) is None
 
     @cached_property
-    def _space(self) -> FreeSpace | None:
-        if rounded_shapes(self._scene) is None or work_for(grown_features(self._scene)) > PAIRS:
+    def space(self) -> FreeSpace | None:
+        """See `StepPlanner`; None as well if shapes are not rounded."""
+        if rounded_shapes(self._scene) is None:
             return None
         try:
             return free_space(boundary(self._scene, threads=1), threads=1)
-        except InvariantError:  # the core does not resolve a tie; other ways to an answer are left
+        except InvariantError:  # a tie; other ways to an answer are left
             return None
 
     def _among_inner(self, start: Pose, goal: Pose, options: Options) -> Path | None:
