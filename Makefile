@@ -101,6 +101,7 @@ fuzz-cages: $(TESTED)  ## cages against flooding, discs and points against polyg
 
 fuzz-routes: $(TESTED)  ## routes from room to room in mazes, against plans of the whole scene; COUNT=200 SEED=0
 	$(BIN)/python tests/support/fuzz_routes.py --count $(or $(COUNT),200) --seed $(or $(SEED),0)
+	$(BIN)/python tests/support/fuzz_routes.py --count $(or $(COUNT),200) --seed $(or $(SEED),0) --round
 
 lint: $(TESTED)  ## style and types
 	$(BIN)/ruff check src tests benchmarks examples tools

@@ -2,6 +2,7 @@
 
 Each measurement is in a process of its own, for its peak memory. Folders have scene, tiles and portals only: a path
 reads no more. `python bench_routes.py SIDE [PLACE]` measures a city of SIDE times SIDE blocks, kept in folder PLACE.
+With a rounded car it is `python bench_routes.py SIDE PLACE/tiles make-round`, and the same with `folder`.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +38,7 @@ from cfree.planning.options import Options
 
 SIDES, QUICK = (20, 40, 80), (6, 12)  # blocks along a side: 2, 4 and 8 km from corner to corner
 FIRST = Options(improve=0.0)
+GROWN = 0.1  # metres around a rounded car
 
 
 def run(quick: bool) -> Report:
@@ -112,10 +115,10 @@ def ends(side: int, is_shut: Callable[[int, int], bool] = is_closed) -> tuple[Po
     return to_pose(STREET, "start"), to_pose(goal, "goal")
 
 
-def make(side: int, folder: Path) -> dict[str, Any]:
+def make(side: int, folder: Path, grown: float = 0.0) -> dict[str, Any]:
     """Write the folder of a city, without boundary and cells."""
     if not (folder / "plan.json").exists():
-        write_city(folder.parent, side * side)
+        write_city(folder.parent, side * side, grown=grown)
         notes: list[Any] = []
         head, obstacles = read_source([folder.parent / "robot.json", folder.parent / "city.geojsonl"], notes)
         store = store_scene(head, obstacles, folder / "scene", "routes", notes)
@@ -170,7 +173,14 @@ def near_by(side: int, folder: Path) -> dict[str, Any]:
     return {"near": (peak_memory() - before) / len(arrays.vertices)}
 
 
-CHILDREN = {"make": make, "folder": of_folder, "before": without_portals, "memory": in_memory, "near": near_by}
+CHILDREN = {
+    "make": make,
+    "make-round": partial(make, grown=GROWN),
+    "folder": of_folder,
+    "before": without_portals,
+    "memory": in_memory,
+    "near": near_by,
+}
 
 if __name__ == "__main__":
     side = int(sys.argv[1])

@@ -34,11 +34,12 @@ def polygons_of(side: int, row: int, seed: int) -> Iterator[list[Ring]]:
         yield from ([shed.tolist()] for shed in four)
 
 
-def write_city(folder: Path, blocks: int, seed: int = 0) -> int:
-    """Write it; the number of blocks along a side."""
+def write_city(folder: Path, blocks: int, seed: int = 0, grown: float = 0.0) -> int:
+    """Write it, with a car grown by a disc; the number of blocks along a side."""
     side = max(1, round(blocks**0.5))
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "robot.json").write_text(json.dumps({"robot": {"outer": CAR.tolist()}, "obstacles": []}))
+    car = {"outer": CAR.tolist()} | ({"grown": grown} if grown else {})
+    (folder / "robot.json").write_text(json.dumps({"robot": car, "obstacles": []}))
     with (folder / "city.geojsonl").open("w", encoding="utf-8") as file:
         for row in range(side):
             for rings in polygons_of(side, row, seed):

@@ -147,11 +147,10 @@ def test_plan_takes_an_exact_boundary(discs: Path, tmp_path: Path) -> None:
 
 def test_what_takes_polygons_only_says_so_in_a_line(discs: Path, tmp_path: Path) -> None:
     assert run("boundary", discs, "-o", tmp_path / "a.npz").exit_code == 0
-    film = "film", tmp_path / "a.npz", "-o", tmp_path / "a.gif"
-    result = run(*film)
+    result = run("film", tmp_path / "a.npz", "-o", tmp_path / "a.gif", "--storyboard", "separation")
     assert result.exit_code == 2
     (line,) = result.stderr.splitlines()
-    assert "polygons" in line and "cfree convert --outer" in line
+    assert "polygons" in line and "cfree convert --inner" in line
     assert run("boundary", discs, "--folder", tmp_path / "f").exit_code == 0
 
 

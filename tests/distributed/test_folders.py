@@ -19,7 +19,7 @@ from cfree.distributed import Sharded, boundary, reading
 from cfree.distributed.tasks import Work
 from cfree.errors import FormatError
 from cfree.formats.drawings.geojson import geojson_shapes
-from stones import ROBOT, SCENE, stones
+from stones import ROBOT, ROUND_ROBOT, SCENE, pebbles, stones
 
 
 @pytest.fixture(scope="module")
@@ -222,6 +222,25 @@ def test_the_command_makes_asks_and_checks_folders(tmp_path: Path) -> None:
     ):
         refused = run(*words)
         assert refused.exit_code == 2 and said in refused.output, refused.output
+
+
+def test_the_command_answers_in_folders_of_round_shapes(tmp_path: Path) -> None:
+    """Paths are among the shapes themselves; a proof has polygons for them, whose obstacles are those of the scene."""
+
+    def run(*words: Any) -> Any:
+        return CliRunner().invoke(app, [str(word) for word in words])
+
+    court = cfree.Curved([(-9, 0), (-1, 0), (-1, 8), (-9, 8)], [[(-8, 1), (-8, 7), (-2, 7), (-2, 1)]], grown="1/4")
+    scene = cfree.Scene(ROUND_ROBOT, [*pebbles(2), court], start=(-12, -3, 0))
+    cfree.save(scene, tmp_path / "scene.json")
+    folder, answer, part = tmp_path / "city", tmp_path / "answer.json", tmp_path / "part.json"
+    assert run("boundary", tmp_path / "scene.json", "--folder", folder).exit_code == 0
+    for goal, code in (("18,18,0", 0), ("-6,3,0", 1)):
+        planned = run("plan", folder, "--goal", goal, "-o", answer, "--part", part)
+        assert planned.exit_code == code, planned.output
+        for where in (folder, tmp_path / "scene.json", part):
+            assert run("verify", where, answer).exit_code == 0
+    assert "blocking obstacles  obstacle 4, 8.5 x 8.5 at (-5, 4)" in planned.output
 
 
 def test_a_polygon_larger_than_memory_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

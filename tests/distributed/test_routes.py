@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,21 +21,32 @@ from cfree.planning import pose_planner
 from cfree.planning.atlas import LazyAtlas
 from cfree.planning.rooms import divided
 from cfree.planning.routes import Router
-from stones import ROBOT, stones
+from stones import ROBOT, ROUND_ROBOT, pebbles, stones
 
 STONES = cfree.Scene(ROBOT, stones(9))
+COURT = cfree.Curved([(-40, 0), (-20, 0), (-20, 20), (-40, 20)], [[(-38, 2), (-38, 18), (-22, 18), (-22, 2)]], grown=1)
+PEBBLES = cfree.Scene(ROUND_ROBOT, [*pebbles(9), COURT])
 START, GOAL = (-3, -3, 0), (95, 95, "90deg")
 EDGES = 12  # in a room
 
 
 @pytest.fixture(scope="module")
-def town(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """Folder of stones whose rooms have few edges, in two files of portals or more."""
-    folder = tmp_path_factory.mktemp("routes") / "town"
+def small_rooms() -> Iterator[None]:
+    """Rooms have few edges, and there are two files of portals or more."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(portals, "divided", lambda edges, radius, bounds: divided(edges, radius, bounds, EDGES))
         patch.setattr(portals, "GROUP", 8)
-        yield boundary(STONES, folder=folder, tiles=3)
+        yield
+
+
+@pytest.fixture(scope="module")
+def town(tmp_path_factory: pytest.TempPathFactory, small_rooms: None) -> Sharded:
+    return boundary(STONES, folder=tmp_path_factory.mktemp("routes") / "town", tiles=3)
+
+
+@pytest.fixture(scope="module")
+def round_town(tmp_path_factory: pytest.TempPathFactory, small_rooms: None) -> Sharded:
+    return boundary(PEBBLES, folder=tmp_path_factory.mktemp("routes") / "round", tiles=3)
 
 
 def atlas(found: Sharded) -> Any:
@@ -125,6 +137,40 @@ def test_a_vehicle_drives_along_a_route(town: Sharded) -> None:
     path = town.plan(START, GOAL, improve=0, vehicle=cfree.Car(1))
     assert isinstance(path, cfree.Path) and path.vehicle == cfree.Car(1) and path.goal == Pose(*GOAL)
     assert path.is_free(cfree.MotionChecker(STONES))
+
+
+def test_a_path_among_round_shapes_follows_the_portals(
+    round_town: Sharded, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stored = atlas(round_town)
+    lazy = LazyAtlas(stored.ground, stored.rooms)
+    for room in range(len(stored.rooms)):
+        assert stored.entry(room).portals == lazy.entry(room).portals
+    monkeypatch.setattr(planning, "_plan_around_rounds", None)  # not needed
+    for improve in (0, 0.1):
+        path = round_town.plan(START, GOAL, improve=improve)
+        assert isinstance(path, cfree.Path) and path.goal == Pose(*GOAL) and round_town.tiles_read == 3
+        assert path.is_free(cfree.MotionChecker(PEBBLES)) and path.curved is not None
+        assert cfree.verify.answer(*round_town.scene_for(path)).verified
+    cfree.save(path, tmp_path / "way.json")
+    assert cfree.verify.answer(PEBBLES, tmp_path / "way.json").verified
+    with pytest.raises(cfree.InvalidPoseError, match=r"goal .* overlaps obstacle 80"):
+        round_town.plan(START, (80, 80, 0))
+
+
+@pytest.mark.slow
+def test_a_vehicle_drives_along_a_route_among_round_shapes(round_town: Sharded) -> None:
+    path = round_town.plan(START, GOAL, improve=0, vehicle=cfree.Car(1))
+    assert isinstance(path, cfree.Path) and path.vehicle == cfree.Car(1) and path.goal == Pose(*GOAL)
+    assert path.is_free(cfree.MotionChecker(PEBBLES))
+
+
+def test_a_route_into_a_round_court_ends_with_a_proof(round_town: Sharded, tmp_path: Path) -> None:
+    proof = round_town.plan((90, 0, 0), (-30, 10, 0))
+    assert isinstance(proof, cfree.Separated) and proof.whole is not None and 81 in proof.whole.obstacles
+    assert cfree.verify.answer(*round_town.scene_for(proof)).verified
+    cfree.save(proof, tmp_path / "proof.json")
+    assert cfree.verify.answer(PEBBLES, tmp_path / "proof.json").verified
 
 
 def test_many_questions_follow_routes(town: Sharded) -> None:

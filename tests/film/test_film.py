@@ -15,14 +15,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from click.testing import CliRunner
 from PIL import Image
 
 import cfree
+from cfree import Curved
 from cfree.cli.app import app
+from cfree.collision.arcs import arcs_of
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.pose_checker import is_free
 from cfree.contact.definitions import contact_features, is_forbidden
+from cfree.curves import Arc
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose, Poses
 from cfree.film.camera import Camera
@@ -246,7 +250,7 @@ def test_outward_is_away_from_the_forbidden_space(five: Boundary) -> None:
         theta = 0.5 * (column.angles[0] + column.angles[-1])
         (moment,) = over_column(five, column, [0.5], [theta])
         x, y = float(moment.pose.x), float(moment.pose.y)
-        dx, dy = 1e-6 * outward(five, column.patch, moment.pose.theta)
+        dx, dy = 1e-6 * outward(five, column.patch, moment)
         turn = {"inf": "inf"} if moment.pose.tau is None else moment.pose.tau
         inside = Pose(x - dx, y - dy, {"tau": turn})
         assert not is_free(five.checker, inside)
@@ -521,3 +525,57 @@ def _is_written(process: int, folder: Path) -> bool:
         with contextlib.suppress(FileNotFoundError):  # closed meanwhile
             found |= str(folder) in os.readlink(handle)
     return found
+
+
+# rounded shapes
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "kinds"),
+    [
+        ("round_stadium", "slices helix v-e e-v arc-arc pillar path"),
+        ("round_gap", "slices helix v-e arc-arc pillar path"),
+    ],
+)
+def test_contacts_of_rounded_shapes_are_shown(name: str, kinds: str) -> None:
+    result, shots = tale(name)
+    scene = result.scene
+    arcs, radius = arcs_of(scene), robot_radius(scene)
+    assert arcs is not None and [shot.kind for shot in shots] == kinds.split()
+    for moment in (moment for shot in shots for moment in shot.moments):
+        assert is_free(scene, moment.pose)
+        if moment.contact is None:
+            continue
+        assert arcs.distance(moment.pose)[1] < 1e-8 * radius
+        assert moment.touch is not None and caption(moment.contact, moment.touch).startswith(moment.contact.kind)
+        point = shapely.Point(moment.touch.point)
+        for line in (moment.touch.robot, moment.touch.obstacle):  # of arcs chords
+            feature = shapely.LineString(line) if len(line) > 1 else shapely.Point(line[0])
+            assert feature.distance(point) < 5e-3 * radius
+
+
+def test_round_features_have_their_names() -> None:
+    """A plate with two round corners against a disc: its edge, its arc and its corner touch."""
+    plate = Curved([(-2, -1), (1, -1), Arc((2, 0), center=(1, 0)), Arc((1, 1), center=(1, 0)), (-2, 1)])
+    scene = Scene(plate, [Curved.circle((6, 0), 1)])
+    names, titles = set(), {}
+    result = boundary(scene)
+    for shot in storyboard(result, 60):
+        titles[shot.kind] = shot.title
+        names |= {caption(moment.contact, moment.touch) for moment in shot.moments if moment.contact is not None}
+    assert titles["e-v"] == "An edge slides over an arc: an e-v patch"
+    assert titles["arc-arc"] in {f"{first} slides over an arc: an arc-arc patch" for first in ("A vertex", "An arc")}
+    assert any("edge" in name and name.endswith("on arc $b_{1}$ of $O_{1}$") for name in names)
+    assert any("arc $a_{" in name for name in names) and any("vertex $a_{" in name for name in names)
+
+
+@pytest.mark.slow
+def test_a_film_among_rounded_shapes_is_written(tmp_path: Path) -> None:
+    disc, file = tmp_path / "discs.json", tmp_path / "discs.gif"
+    discs = [Curved.circle((x, 0), 1) for x in (0, 4)]
+    cfree.save(Scene(discs[0], discs[1:], start=(0, 0, 0), goal=(4, 3, 0), bounds=(-2, -2, 6, 4)), disc)
+    result = run(disc, "-o", file, "--seconds", 1, "--fps", 7, "--size", "160x90")
+    assert result.exit_code == 0 and file.exists(), result.output
+    refused = run(disc, "-o", file, "--storyboard", "separation")
+    assert refused.exit_code == 2 and "round" in refused.output

@@ -55,8 +55,13 @@ def some_frames(stage: Stage, shots: list, count: int = 6) -> Iterator[None]:  #
 
 @pytest.mark.slow
 def test_no_text_of_a_film_touches_another(five: Boundary, hall: Boundary) -> None:
-    (shots,) = shots_of([five], 60, "paper")
-    films = [(Stage(five, SMALL, 4), shots), separation_film(hall, answer_of(hall), 12, SMALL, 4)]
+    gap = boundary(load_scene("examples/scenes/round_gap.json"))
+    ours, theirs = (shots_of([one], 60, "paper")[0] for one in (five, gap))
+    films = [
+        (Stage(five, SMALL, 4), ours),
+        (Stage(gap, SMALL, 4), theirs),
+        separation_film(hall, answer_of(hall), 12, SMALL, 4),
+    ]
     for stage, chosen in films:
         for _ in some_frames(stage, chosen):
             assert list(touching(stage.figure)) == []

@@ -14,6 +14,7 @@ import pytest
 import cfree
 from cfree import Curved, Scene, boundary
 from cfree.collision.arcs import arcs_of
+from cfree.curves import Arc
 from cfree.forbidden.isolated import isolated_at, isolated_lines
 from cfree.free.space import NO_CELL
 from round_fits import FAMILIES, Oracle, Shape, box, compared, grown, points
@@ -163,6 +164,13 @@ def test_parallel_edges_of_the_robot_leave_no_forbidden_point() -> None:
     form = [(-4, -1), (F(-14, 5), F(3, 5)), (F(-18, 5), F(6, 5)), (F(-21, 5), F(2, 5)), (-5, 1), (F(-28, 5), F(1, 5))]
     room = box(F(-43, 5), -4, F(1, 5), F(21, 5))
     assert not found_in(Scene(robot, [Curved(form, grown="1/4")], workspace=room))
+
+
+def test_lines_are_one_where_an_edge_ends_at_an_arc() -> None:
+    """The end of an arc is no vertex of a ring, and has no edge before it."""
+    robot = Curved([(-1, -1), (1, -1), Arc((1, 1), center=(1, 0)), (-1, 1)])
+    walls = [box(F(39, 4), 10, F(41, 4), 18), box(4, F(79, 4), 10, F(81, 4)), box(10, F(79, 4), 12, F(81, 4))]
+    assert not found_in(Scene(robot, [*walls, box(F(39, 4), 20, F(41, 4), 21)]))
 
 
 SEEDS = [pytest.param(family, seed, marks=pytest.mark.slow) for family in FAMILIES for seed in range(3)]

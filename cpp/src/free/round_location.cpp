@@ -117,6 +117,9 @@ std::optional<std::pair<PointLocation::Ray, ExactPose>> PointLocation::beside(In
     return {};
 }
 
+// Rays beside each face. Where none of these is in general position, as all faces are thinner than balls can tell, none will be.
+constexpr int rays_tried = 10;
+
 std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
     const auto n = static_cast<Index>(component.size());
     const Index components = n ? *std::max_element(component.begin(), component.end()) + 1 : 0;
@@ -128,7 +131,7 @@ std::vector<PointLocation::Ray> PointLocation::rays_among_grown() const {
         heed_stop();
         std::stable_sort(faces.begin(), faces.end(), [&](Index p, Index q) { return width(p) > width(q); });
         std::optional<std::pair<Ray, ExactPose>> found;
-        for (int attempt = 0; attempt < Predicates::most_attempts && !found; ++attempt)
+        for (int attempt = 0; attempt < rays_tried && !found; ++attempt)
             for (std::size_t k = 0; k < faces.size() && !found; ++k) found = beside(faces[k], attempt, 0);
         if (!found) throw std::logic_error("no ray in general position");
         result.push_back(std::move(found->first));

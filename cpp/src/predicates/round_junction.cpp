@@ -92,8 +92,11 @@ bool RoundJunction::are_one_line(const Feature& x, const Feature& y) {
     const Index v = of_vertex ? x.robot : x.obstacle, w = of_vertex ? y.robot : y.obstacle;
     if (of_vertex ? O.line[x.obstacle] != O.line[y.obstacle] : A.line[x.robot] != A.line[y.robot]) return false;
     if (turning.vertex_radius[v] != turning.vertex_radius[w]) return false;
-    for (const Index e : {v, turning.previous[v]})
-        if (joins(turning, e, v, w) && (of_vertex ? are_parallel(e, x.obstacle) : are_parallel(x.robot, e))) return true;
+    const auto is_joint = [&](Index e) { return joins(turning, e, v, w) && (of_vertex ? are_parallel(e, x.obstacle) : are_parallel(x.robot, e)); };
+    for (const Index u : {v, w})
+        if (u < turning.ring_vertices) return is_joint(u) || is_joint(turning.previous[u]);
+    for (Index e = 0; e < turning.ring_vertices; ++e)  // both are ends of arcs
+        if (is_joint(e)) return true;
     return false;
 }
 

@@ -34,7 +34,7 @@ def film_scenes(
 
     seconds = length_of(storyboard, output) if seconds is None else seconds
     check_options(len(sources), seconds, fps, size)
-    inputs = [read_source(source, "none") for source in sources]
+    inputs = [read_source(source, "none" if storyboard == "separation" else "rounded") for source in sources]
     if storyboard != "turntable":
         for source, data in zip(sources, inputs, strict=True):
             _check_ends(source, data.scene if isinstance(data, Boundary) else data)

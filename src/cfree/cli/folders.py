@@ -138,6 +138,8 @@ class FolderPlanner:
     ----------
     scene : Scene
         The scene without obstacles before a query; then the one of the answer.
+    exact : Scene
+        The same with its round shapes, where the answer has polygons in their place.
     """
 
     def __init__(self, folder: Path, preferences: Preferences, vehicle: Vehicle | Literal["any"] | None = None) -> None:
@@ -147,6 +149,7 @@ class FolderPlanner:
         self.sharded = Sharded(folder)
         self.preferences = preferences
         self.scene: Scene = self.sharded.head
+        self.exact: Scene = self.scene
         self.vehicle = vehicle_for(self.scene, vehicle)
 
     def plan(
@@ -156,9 +159,19 @@ class FolderPlanner:
             raise ValueError("--clearance: not in a folder; give the scene itself")
         wishes: dict[str, Any] = {"improve": improve, "objective": objective, "preferences": self.preferences}
         answer = self.sharded.plan(start, goal, vehicle=self.vehicle or "any", **wishes)
-        assert answer.scene is not None  # the answer is new
-        self.scene = answer.scene
+        scenes = [scene for scene in (answer.scene, answer.curved) if scene is not None]
+        self.scene, self.exact = scenes[0], scenes[-1]
         return answer
+
+    def obstacle_of(self, number: int, *, outward: bool = False) -> int:
+        """Return the obstacle of `exact` that an obstacle of `scene` stands for, by its name; others unchanged.
+
+        Its side, `outward`, does not matter.
+        """
+        if number < 0 or self.scene is self.exact:
+            return number
+        name = self.scene.obstacle_names[number]  # or "obstacle 1 (name)", if another number stood there
+        return self.exact.obstacle_names.index(name.partition("(")[2].removesuffix(")") or name)
 
     def plan_any(self, *_: Any, **__: Any) -> Any:
         raise ValueError("--goal: a folder takes one goal, with theta")

@@ -26,6 +26,7 @@ from cfree.errors import UnsupportedError
 from cfree.exact.number import ExactPoint, IntPoint, angle, rational_root
 from cfree.exact.orientation import Location, Vector, locate_in_sector
 from cfree.exact.vectors import minus
+from cfree.libraries import Floats, np
 from cfree.polygons.polygon import Polygon
 
 
@@ -136,6 +137,21 @@ class ShapeFeatures:
     def edges(self) -> tuple[EdgeFeature, ...]:
         """Straight edges."""
         return tuple(feature for ring in self.rings for feature in ring if isinstance(feature, EdgeFeature))
+
+    def rims(self, parts: int) -> tuple[Floats, ...]:
+        """Points (n, 2) along each ring, rounded: vertices, and `parts` + 1 points of each arc.
+
+        Beside a reflex vertex a grown shape's own rim is farther out.
+
+        Examples
+        --------
+        >>> (rim,) = shape_features(Curved([(0, 0), (4, 0), (0, 3)], grown=1)).rims(1)
+        >>> rim.round(12).tolist()
+        [[-1.0, 0.0], [-0.0, -1.0], [4.0, -1.0], [4.6, 0.8], [0.6, 3.8], [-1.0, 3.0]]
+        """
+        return tuple(
+            np.concatenate([_along(arc, parts) for arc in ring if isinstance(arc, ArcFeature)]) for ring in self.rings
+        )
 
     @property
     def is_convex(self) -> bool:
@@ -306,6 +322,16 @@ def _corner(before: _Side, after: _Side) -> list[ArcFeature]:
 
 
 # --- numbers ---
+
+
+def _along(arc: ArcFeature, parts: int) -> Floats:
+    """Points along an arc in the order of its ring; a vertex once."""
+    if not arc.signed_square:
+        return np.array([arc.centre], np.float64)
+    share = np.linspace(0, 1, parts + 1)
+    psi = arc.first + arc.width * (share if arc.is_convex else share[::-1])
+    points: Floats = np.array(arc.centre, np.float64) + arc.signed_radius * np.column_stack([np.cos(psi), np.sin(psi)])
+    return points
 
 
 def _doubled_area(feature: ArcFeature | EdgeFeature) -> tuple[float, ...]:

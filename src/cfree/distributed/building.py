@@ -123,8 +123,7 @@ class _Build:
         components = self._glue(division)
         if not self._is_finished(counts):
             self._finish(store, counts, *self._cells(store, division, components))
-        if not store.is_round:
-            self._open_portals()
+        self._open_portals()
         return Sharded(self.folder)
 
     def _claim(self) -> None:

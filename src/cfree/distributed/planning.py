@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from cfree.distributed.portals import StoredAtlas, StoredGround, atlas_of
 from cfree.distributed.tasks import Work
 from cfree.distributed.tiles import BoxIndex
+from cfree.errors import UndecidedError
 from cfree.exact.pose import Pose
 from cfree.paths.numbering import has_slides
 from cfree.paths.path import Objective, Path
@@ -25,6 +27,7 @@ from cfree.planning.plan import plan
 from cfree.planning.proof import Proof
 from cfree.planning.routes import Leg, is_distant, joined, legs_along
 from cfree.planning.separation import Separated
+from cfree.planning.steps import AmongArcs
 from cfree.scene.digest import Whole
 from cfree.scene.scene import Scene, vehicle_for
 from cfree.vehicles.vehicle import Vehicle
@@ -112,8 +115,6 @@ def plan_among(
 
     If the goal is far, a route from room to room is tried first. Else obstacles near the paths found decide.
     """
-    if known.work.store.is_round:
-        return _plan_among_round(known, start, goal, improve, objective, preferences, vehicle)
     driver = vehicle_for(known.work.store.head, vehicle)
     options = Options(to_seconds(improve), objective=objective, preferences=preferences or NONE, vehicle=driver)
     refuse_far(start, goal)
@@ -132,25 +133,36 @@ def plan_among(
             return replace(path, whole=known.whole)
         known.add_around(path, MARGIN * known.radius)
         way = None if has_slides(path) else path.poses
-    return replace(plan_around(known, start, goal, options, way), whole=known.whole)
+    plan_near = _plan_around_rounds if known.work.store.is_round else plan_around
+    return replace(plan_near(known, start, goal, options, way), whole=known.whole)
 
 
-def _plan_among_round(
-    known: Surroundings,
-    start: Pose,
-    goal: Pose,
-    improve: float | None,
-    objective: Objective,
-    preferences: Preferences | None,
-    vehicle: Vehicle | Literal["any"] | None,
+def _plan_around_rounds(
+    known: Surroundings, start: Pose, goal: Pose, options: Options, way: Sequence[Pose] | None
 ) -> Path | Proof:
-    """Answer of `cfree.plan` among the obstacles near the paths found; others are added until none is missing."""
+    """See `plan_around`: by `cfree.plan` among the obstacles near the paths found."""
     margin = MARGIN * known.radius
-    wishes: dict[str, Any] = {"improve": improve, "objective": objective, "preferences": preferences}
     add_ends(known, start, goal)
     while True:
-        answer: Path | Proof = plan(known.scene, start, goal, vehicle=vehicle, **wishes)
+        answer: Path | Proof | None = None
+        if way is not None:
+            with suppress(UndecidedError):  # a vehicle may drive elsewhere
+                answer = AmongArcs(known.scene).finished(way, options)
+            way = None if answer is None else way
+        answer = answer or _answered(known.scene, start, goal, options)
         # proofs hold among more obstacles
         if not isinstance(answer, Path) or not known.add_around(answer, margin):
-            return replace(answer, whole=known.whole)
+            return answer
         margin *= WIDER
+
+
+def _answered(scene: Scene, start: Pose, goal: Pose, options: Options) -> Path | Proof:
+    return plan(
+        scene,
+        start,
+        goal,
+        improve=options.improve,
+        objective=options.objective,
+        preferences=options.preferences,
+        vehicle=options.vehicle or "any",
+    )

@@ -25,7 +25,7 @@ from cfree.contact.arcs import (
     arc_range,
     arc_surface,
 )
-from cfree.contact.features import ArcFeature, EdgeFeature, shape_features
+from cfree.contact.features import shape_features
 from cfree.curves.curved import Curved
 from cfree.curves.rings import Arc
 from cfree.exact.pose import Pose
@@ -138,18 +138,7 @@ def segments(robot: Shape, obstacle: Shape) -> Iterator[Floats]:
 
 def outline(of_shape: Shape) -> Floats:
     """Points of the rim of a shape of one ring, (n, 2)."""
-    points = []
-    for feature in shape_features(of_shape).rings[0]:
-        if isinstance(feature, EdgeFeature):
-            continue
-        psi = feature.first + feature.width * np.linspace(0, 1, SIDES if feature.signed_square else 2)
-        points.append(_on_circle(feature, psi))
-    return np.concatenate(points)
-
-
-def _on_circle(arc: ArcFeature, psi: Floats) -> Floats:
-    circle: Floats = np.column_stack([np.cos(psi), np.sin(psi)])
-    return np.array(arc.centre, float) + arc.signed_radius * circle
+    return shape_features(of_shape).rims(SIDES - 1)[0]
 
 
 # figure 21

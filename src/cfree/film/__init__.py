@@ -50,7 +50,7 @@ def save_film(
     ----------
     boundaries : sequence of Boundary
         The storyboard "paper" shows slices, a helix, a v-e and an e-v patch, the whole boundary and a path of the
-        first, and the last two of these of the others.
+        first, and the last two of these of the others; among rounded shapes an arc-arc patch, too.
     path : path
         ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
     seconds : float, optional

@@ -15,11 +15,11 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
-from cfree.film.contact_motions import Moment
-from cfree.film.plane import TOUCH, Plane, edge_number, obstacle_name, whole
+from cfree.film.contact_motions import Moment, Touch
+from cfree.film.plane import TOUCH, Plane, feature_number, obstacle_name, whole
 from cfree.film.space import Space
 from cfree.forbidden.kinds import COLOURS, KINDS
-from cfree.forbidden.patch import Contact
+from cfree.forbidden.patch import Contact, Place
 from cfree.palette import EDGE_EDGE, FORBIDDEN, FREE, GREY, HELIX, INK, RIM
 from cfree.plot.boundary import contact_kinds, extent, roomy, with_unit
 from cfree.plot.gears import Gears
@@ -114,8 +114,8 @@ class Stage:
         self.boundary, trail = boundary, TRAIL * fps
         self.figure, height = new_frame(size)
         figure, width = self.figure, self.figure.get_figwidth()
-        view = roomy(window or whole(boundary.scene, extent(boundary)))
-        window, names = window or extent(boundary), axis_names(boundary.scene)
+        view = roomy(window or whole(boundary.scene, _with_ends(boundary)))
+        window, names = window or _with_ends(boundary), axis_names(boundary.scene)
         low, top = 1.25 / height, 1 - 0.95 / height
         place = 0.65 / width, low, 0.43 - 0.65 / width, top - low
         self.plane = Plane(figure, place, boundary.scene, view, names, trail)
@@ -139,10 +139,18 @@ class Stage:
         self.title.set_text(view.title)
         word, colour = (view.note, GREY) if view.driven is None else view.driven[0].word(view.driven[1])
         self.note.set(text=word, color=colour)
-        self.caption.set_text(caption(contact))
+        self.caption.set_text(caption(contact, view.recent[-1].touch))
         self.dot.set_color(RIM if contact is None else TOUCH[contact.kind])
         self.pose.set_text(numbers(pose))
         return image_of(self.figure)
+
+
+def _with_ends(boundary: Boundary) -> Window:
+    """Return the rectangle around a boundary, and start and goal of its scene."""
+    ends = [(float(pose.x), float(pose.y)) for pose in (boundary.scene.start, boundary.scene.goal) if pose is not None]
+    x0, y0, x1, y1 = extent(boundary)
+    xs, ys = zip((x0, y0), (x1, y1), *ends, strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
 
 
 def axis_names(scene: Scene) -> tuple[str, str]:
@@ -157,7 +165,7 @@ def numbers(pose: Pose) -> str:
     return f"x {x}  y {y}  θ {math.degrees(pose.theta):5.1f}°".replace("-", "−")
 
 
-def caption(contact: Contact | None) -> str:
+def caption(contact: Contact | None, touch: Touch | None = None) -> str:
     """Describe a contact in words; numbers count from 1, as in the figures.
 
     Examples
@@ -170,17 +178,24 @@ def caption(contact: Contact | None) -> str:
     """
     if contact is None:
         return "no contact"
-    a, b = contact.robot, contact.obstacle
-    first = f"vertex $a_{{{a.index + 1}}}$" if a.end is None else f"edge $E_{{{edge_number(a)}}}^A$"
-    second = f"vertex $b_{{{b.index + 1}}}$" if b.end is None else f"edge $E_{{{edge_number(b)}}}$"
-    return f"{contact.kind} contact: {first} on {second} of {obstacle_name(b)}"
+    robot, obstacle = (None, None) if touch is None else (touch.robot, touch.obstacle)
+    first, second = _named(contact.robot, "a", robot), _named(contact.obstacle, "b", obstacle)
+    return f"{contact.kind} contact: {first} on {second} of {obstacle_name(contact.obstacle)}"
+
+
+def _named(place: Place, letter: str, points: Floats | None) -> str:
+    """Name a feature: an edge, or a vertex, which is an arc if it has many points."""
+    number = feature_number(place)
+    if place.end is not None:
+        return "an edge" if number is None else f"edge $E_{{{number}}}{'^A' if letter == 'a' else ''}$"
+    return f"{'arc' if points is not None and len(points) > 1 else 'vertex'} ${letter}_{{{number}}}$"
 
 
 def legend(figure: Figure, boundary: Boundary, y: float, columns: int, regions: dict[str, str]) -> None:
     """Add a legend of the colours of contacts in a boundary, and of the regions' colours given."""
     handles = [
         *(Patch(color=COLOURS[kind], label=f"{KINDS[kind]} patch") for kind in contact_kinds(boundary)),
-        Line2D([], [], color=HELIX, lw=2.5, label="v-v helix"),
+        Line2D([], [], color=HELIX, lw=2.5, label="helix" if boundary.scene.curved else "v-v helix"),
         Line2D([], [], color=EDGE_EDGE, lw=2.5, label="e-e line"),
         *(Patch(facecolor=colour, label=name) for name, colour in regions.items()),
     ]

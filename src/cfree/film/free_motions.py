@@ -10,19 +10,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.collision.motion import rotations
-from cfree.errors import IncompleteError
+from cfree.collision.motion_checker import MotionChecker
+from cfree.errors import IncompleteError, UndecidedError
 from cfree.exact.pose import Pose, Poses
 from cfree.free.largest_disc import largest_disc
 from cfree.free.space import FreeSpace, free_space
 from cfree.paths.path import Path
 from cfree.paths.travel import Travel
+from cfree.planning.curved import CurvedPlanner
 from cfree.planning.planner import Planner
+from cfree.scene.scene import robot_radius
+from cfree.scene.smooth import smooth
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from cfree.forbidden.boundary import Boundary
     from cfree.plot.workspace import Window
+    from cfree.scene.scene import Scene
+    from cfree.vehicles.vehicle import Vehicle
 
 Floats = NDArray[np.float64]
 
@@ -48,14 +54,26 @@ class FreeMotions:
         return free_space(self._boundary)
 
     @cached_property
-    def _planner(self) -> Planner:
-        return Planner(self._scene, self._space)
+    def _planner(self) -> Planner | CurvedPlanner:
+        return self._planner_for(None)
+
+    def _planner_for(self, vehicle: Vehicle | None) -> Planner | CurvedPlanner:
+        planner = Planner(self._scene, self._space, vehicle=vehicle)
+        return CurvedPlanner(planner) if self._scene.curved else planner
+
+    @cached_property
+    def _shown(self) -> Scene:
+        """The scene with polygons that look round."""
+        return smooth(self._scene)
 
     def path(self, start: Pose, goal: Pose) -> Path | None:
         """Return a path, or None if start and goal are in no common cell, as when all paths touch something."""
         if self._space.common_cell(start, goal) is None:
             return None
-        answer = self._planner.plan(start, goal)
+        try:
+            answer = self._planner.plan(start, goal)
+        except UndecidedError:  # among round shapes
+            return None
         return answer if isinstance(answer, Path) else None
 
     def driven(self, start: Pose, goal: Pose) -> Path | None:
@@ -63,7 +81,7 @@ class FreeMotions:
         if self._scene.vehicle is None:
             return None
         try:
-            answer = Planner(self._scene, self._space, vehicle=self._scene.vehicle).plan(start, goal)
+            answer = self._planner_for(self._scene.vehicle).plan(start, goal)
         except IncompleteError:
             return None
         return answer if isinstance(answer, Path) else None
@@ -79,7 +97,7 @@ class FreeMotions:
             return None
         x, y = shapely.maximum_inscribed_circle(free).coords[0]
         path = Path(Pose(x, y, 0), rotations((x, y), "360deg"))
-        return path if path.is_free(self._planner.checker) else None
+        return path if path.is_free(MotionChecker(self._scene)) else None
 
     def resting_pose(self) -> Pose | None:
         """Return a pose with much room in the largest cell; None if there is none."""
@@ -117,18 +135,18 @@ class FreeMotions:
     def _distances(self, rows: Floats, pose: Pose) -> Floats:
         x, y, theta = rows.T
         turn = np.abs(np.mod(theta - pose.theta + math.pi, math.tau) - math.pi)
-        distances: Floats = np.hypot(x - float(pose.x), y - float(pose.y)) + self._planner.angle_scale * turn
+        distances: Floats = np.hypot(x - float(pose.x), y - float(pose.y)) + robot_radius(self._scene) * turn
         return distances
 
     def travel(self, path: Path) -> float:
         """Return the robot's travel along a path."""
-        return Travel(path, self._scene).total
+        return Travel(path, self._shown).total
 
     def poses(self, path: Path, shares: Sequence[float]) -> list[Pose]:
         """Return exact poses of a path at shares of the robot's travel."""
         if not path.motions:
             return [path.start] * len(shares)
-        travel = Travel(path, self._scene)
+        travel = Travel(path, self._shown)
         places = zip(*(column.tolist() for column in travel.places(travel.total * np.array(shares))), strict=True)
         return [path.motions[k].at(path.poses[k], path.motions[k].parameter(share)) for k, share in places]
 

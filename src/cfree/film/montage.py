@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
+from cfree.errors import UnsupportedError
 from cfree.film.camera import AZIMUTHS
 from cfree.film.frame import TRAIL, Stage, View
 from cfree.film.separation_shots import separation_shots, separation_window
@@ -31,6 +32,7 @@ Image = NDArray[np.uint8]
 FADE = 0.4  # seconds of the fade between scenes, or over a cut
 TURN = 1.6  # seconds over which the camera turns from one shot to the next
 SWAY = math.radians(7), 11.0  # the camera always sways a little: amplitude, and period in seconds
+LEAST = 6  # frames of a scene
 LATER = ("pillar", "path")  # shots of a second scene: the first scene has shown the rest
 KEPT = ("slices", "helix", "path", "separation")  # shots whose line stays
 
@@ -48,8 +50,8 @@ def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int]) 
     if not scenes:
         raise ValueError("no scene; give at least one")
     check_frames(fps, size)
-    if not (0 < seconds < math.inf) or round(seconds * fps) < scenes * len(SECONDS):
-        raise ValueError(f"{seconds} seconds; give enough for {len(SECONDS)} frames of each scene at least")
+    if not (0 < seconds < math.inf) or round(seconds * fps) < scenes * LEAST:
+        raise ValueError(f"{seconds} seconds; give enough for {LEAST} frames of each scene at least")
 
 
 def check_frames(fps: int, size: tuple[int, int]) -> None:
@@ -131,8 +133,13 @@ def answer_of(boundary: Boundary) -> Separated:
     ------
     ValueError
         If there is a path, or the scene has no ends.
+    UnsupportedError
+        If there are round shapes.
     """
     scene = boundary.scene
+    if scene.curved:
+        remedy = "give boundary(scene.inner(error)), or what cfree convert --inner writes"
+        raise UnsupportedError(f"films of separations: among polygons only; {remedy}")
     start, goal = required(scene, None, None)
     answer = Planner(scene, free_space(boundary)).plan(start, goal)
     if not isinstance(answer, Separated):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
     from cfree.exact.pose import Pose
-    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 
@@ -28,18 +27,20 @@ class Names:
     Parameters
     ----------
     ax : matplotlib axes
-    scene : Scene
-    robot : bool
-        False if the robot shall have no name.
+    obstacles, robot : sequence of shapely geometries
+        One for each obstacle, and each part of the robot.
+    is_robot_named : bool
     """
 
-    def __init__(self, ax: Any, scene: Scene, *, robot: bool = True) -> None:
+    def __init__(
+        self, ax: Any, obstacles: Sequence[BaseGeometry], robot: Sequence[BaseGeometry], *, is_robot_named: bool = True
+    ) -> None:
         ax.apply_aspect()
         pixels = float(ax.transData.transform((1.0, 0.0))[0] - ax.transData.transform((0.0, 0.0))[0])
         needed = ROOM * SIZE * ax.figure.dpi / 72 / pixels
         style = {"ha": "center", "va": "center", "fontsize": SIZE, "color": "white", "clip_on": True}
         (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
-        shapes = [shapely.clip_by_rect(obstacle.to_shapely(), x0, y0, x1, y1) for obstacle in scene.obstacles[:MANY]]
+        shapes = [shapely.clip_by_rect(obstacle, x0, y0, x1, y1) for obstacle in obstacles[:MANY]]
         self._obstacles = [
             ax.text(*centre, f"$O_{{{k + 1}}}$", zorder=2.5, **style)
             for k, shape in enumerate(shapes)
@@ -48,9 +49,9 @@ class Names:
         ]
         self._boxes = [text.get_window_extent() for text in self._obstacles]
         dot = shapely.Point(0, 0).buffer(0.5 * needed)  # the reference point: the name is beside it
-        discs = [_disc(part.to_shapely().difference(dot)) for part in scene.robot]
+        discs = [_disc(part.difference(dot)) for part in robot]
         self._centre, radius = max(discs, key=lambda disc: disc[1])
-        self._robot = ax.text(0, 0, "$A$", zorder=5.5, **style) if robot and radius > 0.8 * needed else None
+        self._robot = ax.text(0, 0, "$A$", zorder=5.5, **style) if is_robot_named and radius > 0.8 * needed else None
 
     def draw(self, pose: Pose, others: Iterable[Any]) -> None:
         """Write the robot's name inside the robot, and hide all names that other texts cover."""

@@ -28,6 +28,7 @@ from cfree.plot.labels import BODY, LINE, Labels
 from cfree.plot.path import Track, poses_of, quantity, statement
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.scene import robot_radius
+from cfree.scene.smooth import smooth_geometries
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -119,7 +120,12 @@ class PathStage:
         labels.avoid([shapely.LineString(xy)], LINE)
         labels.name_robot(track.scene, goal, "goal")
         self.words = [text for text in ax.texts if text.get_text()]
-        self.names = Names(ax, track.scene, robot=gears is None)
+        self.names = Names(
+            ax,
+            smooth_geometries(track.scene, track.scene.obstacles),
+            smooth_geometries(track.scene, track.scene.robot),
+            is_robot_named=gears is None,
+        )
 
     def _draw_gauge(self, figure: Figure, place: Window) -> None:
         """Draw a bar of all clearances, and a pointer to the present one."""

@@ -13,16 +13,17 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
-from cfree.film.contact_motions import Moment, shape_of
+from cfree.film.contact_motions import Moment, Touch, shape_of
 from cfree.film.driving import DrawnDriving
 from cfree.film.names import Names
 from cfree.forbidden.patch import Contact, Place
-from cfree.palette import EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, OBSTACLE, OBSTACLE_RIM, ROBOT, VERTEX_EDGE
+from cfree.palette import ARC_ARC, EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, OBSTACLE, OBSTACLE_RIM, ROBOT, VERTEX_EDGE
 from cfree.plot.boundary import space_numbers
 from cfree.plot.gears import Gears
-from cfree.plot.workspace import Window, path_of, rings_of, rings_of_geometry
+from cfree.plot.workspace import Window, path_of, rings_of_geometry
 from cfree.scene.features import WORKSPACE
-from cfree.scene.scene import robot_radius
+from cfree.scene.scene import box_of, robot_radius
+from cfree.scene.smooth import smooth_geometries
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,16 +34,17 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Mark = tuple[Floats, str, Floats, Floats]  # points of a feature, its name, the name's place, inward direction
 
-TOUCH = {"v-e": VERTEX_EDGE, "e-v": EDGE_VERTEX, "v-v": HELIX}
+TOUCH = {"v-e": VERTEX_EDGE, "e-v": EDGE_VERTEX, "v-v": HELIX, "arc-arc": ARC_ARC}
 NAMES = 0.055  # distance of a name from its feature, as a share of the width
+RIM = 0.035  # distance of a name from the frame, at least
 FAINTEST = 0.15  # opacity of an old trail
 TRIED = 6  # places tried for the name of a feature
 
 
 def whole(scene: Scene, window: Window) -> Window:
     """Return the rectangle around obstacles and positions of the reference point, with a margin."""
-    boxes = np.array([window, *(polygon.bounds for polygon in scene.obstacles)], dtype=np.float64)
-    margin = 0.6 * robot_radius(scene)
+    boxes = np.array([window, *map(box_of, scene.obstacles)], dtype=np.float64)
+    margin = robot_radius(scene)
     (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0) - margin, boxes[:, 2:].max(axis=0) + margin
     return float(x0), float(y0), float(x1), float(y1)
 
@@ -68,9 +70,12 @@ class Plane:
         self, figure: Figure, place: Window, scene: Scene, window: Window, names: tuple[str, str], trail: float
     ) -> None:
         self.scene, self._age = scene, trail
+        bodies = smooth_geometries(scene, scene.obstacles)
+        self._robot = [ring for body in smooth_geometries(scene, scene.robot) for ring in rings_of_geometry(body)]
         self._driving: DrawnDriving | None = None
         ax: Any = figure.add_axes(place)
         x0, y0, x1, y1 = window
+        self._window = window
         self._reach = NAMES * (x1 - x0), 0.3 * robot_radius(scene)
         ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", anchor="C", xlabel=names[0], ylabel=names[1])
         space_numbers(ax)
@@ -82,9 +87,11 @@ class Plane:
         self.region = shape([], facecolor=FORBIDDEN, lw=0, zorder=1)
         if scene.workspace is not None:
             frame = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
-            outside = [frame, *(ring[::-1] for ring in rings_of([scene.workspace]))]
+            (room,) = smooth_geometries(scene, [scene.workspace])
+            outside = [frame, *(ring[::-1] for ring in rings_of_geometry(room))]
             shape(outside, facecolor=OBSTACLE, lw=0, zorder=2)
-        shape(rings_of(scene.obstacles), facecolor=OBSTACLE, edgecolor=OBSTACLE_RIM, lw=0.6, zorder=2)
+        rings = [ring for body in bodies for ring in rings_of_geometry(body)]
+        shape(rings, facecolor=OBSTACLE, edgecolor=OBSTACLE_RIM, lw=0.6, zorder=2)
         if scene.bounds is not None:
             left, bottom, right, top = map(float, scene.bounds)
             dashed: Any = {"fill": False, "edgecolor": GREY, "linestyle": (0, (5, 3)), "zorder": 2.1}
@@ -103,7 +110,7 @@ class Plane:
         self.names = [
             ax.text(0, 0, "", ha="center", va="center", fontsize=12.5, zorder=7, path_effects=halo) for _ in range(2)
         ]
-        self.shapes = Names(ax, scene)
+        self.shapes = Names(ax, bodies, smooth_geometries(scene, scene.robot))
 
     def draw(
         self, recent: Sequence[Moment], cut: Slice, line: tuple[str, Floats], goal: Pose | None,
@@ -112,7 +119,7 @@ class Plane:
         """Draw everything for one frame; see `cfree.film.frame.View`."""
         moment = recent[-1]
         pose = moment.pose
-        rings = rings_of(self.scene.robot)
+        rings = self._robot
         self.region.set_path(path_of(rings_of_geometry(cut.forbidden)))
         self.body.set_path(path_of(map(pose.apply, rings)))
         self.rim.set_path(path_of(map(pose.apply, rings)))
@@ -159,6 +166,8 @@ class Plane:
         """Return the contact point: the robot's own vertex, or the obstacle's; None without contact."""
         if moment.contact is None:
             return None
+        if moment.touch is not None:
+            return moment.touch.point
         robot, obstacle = moment.contact.robot, moment.contact.obstacle
         if robot.end is None:
             vertices = self.scene.robot[robot.polygon].vertices
@@ -171,17 +180,26 @@ class Plane:
             artist.set_visible(contact is not None)
         if contact is None:
             return
-        marks = self._marks(contact, moment.pose)
+        marks = self._marks(contact, moment.pose) if moment.touch is None else self._round_marks(contact, moment.touch)
         for edge, name, (points, text, place, inwards) in zip(self.edges, self.names, marks, strict=True):
-            edge.set_visible(len(points) == 2)
+            edge.set_visible(len(points) > 1)
             edge.set(xdata=points[:, 0], ydata=points[:, 1], color=TOUCH[contact.kind])
-            name.set(text=text, position=place.tolist(), color=TOUCH[contact.kind])
+            name.set(text=text, position=self._inside(place), color=TOUCH[contact.kind])
             for k in range(1, TRIED):  # move it farther inside while it covers the other name
                 if name is self.names[0] or not name.get_window_extent().overlaps(self.names[0].get_window_extent()):
                     break
-                name.set_position((place + k * inwards).tolist())
+                name.set_position(self._inside(place + k * inwards))
             if len(points) == 1:
                 self.vertex.set(xdata=points[:, 0], ydata=points[:, 1], markerfacecolor=TOUCH[contact.kind])
+        if moment.touch is not None:
+            ((x, y),) = moment.touch.point[None].tolist()
+            self.vertex.set(xdata=[x], ydata=[y], markerfacecolor=TOUCH[contact.kind])
+
+    def _inside(self, place: Floats) -> tuple[float, float]:
+        """Return the nearest place at which a name is within the frame."""
+        rim = RIM * (self._window[2] - self._window[0])
+        x, y = np.clip(place, np.array(self._window[:2]) + rim, np.array(self._window[2:]) - rim).tolist()
+        return x, y
 
     def _marks(self, contact: Contact, pose: Pose) -> tuple[Mark, Mark]:
         """Return the marks of the robot's feature and of the obstacle's."""
@@ -191,6 +209,24 @@ class Plane:
             self._mark(contact.robot, pose.apply(robot.vertices), robot.ring_offsets, "aA", min(self._reach)),
             self._mark(contact.obstacle, obstacle.vertices, obstacle.ring_offsets, "bO", inwards * self._reach[0]),
         )
+
+    def _round_marks(self, contact: Contact, touch: Touch) -> tuple[Mark, Mark]:
+        """Return the same marks of edges, arcs and vertices of rounded shapes."""
+        marks = []
+        for letters, place, points, inwards in (
+            ("aA", contact.robot, touch.robot, min(self._reach) * touch.normal),
+            ("bO", contact.obstacle, touch.obstacle, -self._reach[0] * touch.normal),
+        ):
+            number = feature_number(place)
+            letter = letters[0] if place.end is None else "E"
+            text = (
+                ""
+                if number is None
+                else f"${letter}_{{{number}}}{'^A' if letters[1] == 'A' and letter == 'E' else ''}$"
+            )
+            beside = touch.point if place.end is None else points.mean(axis=0)
+            marks.append((points, text, beside + 1.5 * inwards, inwards))
+        return marks[0], marks[1]
 
     def _mark(self, place: Place, vertices: Floats, offsets: Any, letters: str, inwards: float) -> Mark:
         """Return the mark of a feature, with its name at this distance inside its shape."""
@@ -206,6 +242,13 @@ class Plane:
         inside = np.array([-(u + v)[1], (u + v)[0]])  # the interior is on the left
         inside *= 1.5 * inwards / max(float(np.linalg.norm(inside)), 1e-12)
         return point[None], f"${letters[0]}_{{{k + 1}}}$", point + inside, inside
+
+
+def feature_number(place: Place) -> int | None:
+    """Number, from 1, of a vertex, an arc, or an edge; None for an edge beside an arc, whose ends have no number."""
+    if place.end is None:
+        return place.index + 1
+    return None if min(place.index, place.end) < 0 else edge_number(place)
 
 
 def edge_number(place: Place) -> int:

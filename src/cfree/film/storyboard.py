@@ -6,6 +6,7 @@ The storyboard "paper" illustrates the paper for one robot and one obstacle, by 
     helix     it turns about a vertex that stays on a vertex: a v-v helix (Lemma 1)
     v-e       it sweeps over a v-e patch (eq. 5) from the same helix
     e-v       it sweeps over an e-v patch (eq. 8)
+    arc-arc   among rounded shapes, it sweeps over a patch of an arc on an arc
     pillar    it goes around the obstacle, or turns where it can, while theta goes from 0 to 360 degrees: everything
     path      it moves from start to goal, touching nothing
 
@@ -22,10 +23,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.film.camera import AZIMUTHS
-from cfree.film.contact_motions import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
+from cfree.film.contact_motions import Column, Moment, Ring, across, along_helix, columns, outward, over_column, roll
 from cfree.film.free_motions import FreeMotions
 from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.palette import HELIX, PATH, VIEW
@@ -44,7 +44,7 @@ STORYBOARDS = {
     "paper": ("slices", "helix", "v-e", "e-v", "pillar", "path"),
     "path": ("path",),
 }
-SECONDS = {"slices": 8.0, "helix": 3.5, "v-e": 5.5, "e-v": 6.5, "pillar": 9.0, "path": 8.0}
+SECONDS = {"slices": 8.0, "helix": 3.5, "v-e": 5.5, "e-v": 6.5, "arc-arc": 6.0, "pillar": 9.0, "path": 8.0}
 HOME = math.radians(VIEW[1])
 FULL_TURN = math.tau - 1e-6
 LOWER = math.radians(50)  # angle from the first slice up to the second
@@ -125,9 +125,9 @@ def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBO
     >>> sum(len(shot.moments) for shot in shots), any(shot.cut for shot in shots)
     (60, False)
     """
-    if boundary.scene.curved:
-        remedy = "give the storyboard turntable, or boundary(scene.outer(error)), or what cfree convert --outer writes"
-        raise UnsupportedError(f"films of contacts: among polygons only; {remedy}")
+    if boundary.scene.curved and "e-v" in kinds:
+        place = kinds.index("e-v") + 1
+        kinds = (*kinds[:place], "arc-arc", *kinds[place:])
     director = _Director(boundary)
     shots = director.shots(frames, kinds)
     if shots and sum(len(shot.moments) for shot in shots) < frames:
@@ -144,10 +144,18 @@ class _Director:
         self.window = extent(boundary)
         self.radius = robot_radius(boundary.scene)
         ranked = sorted(columns(boundary), key=self._worth, reverse=True)
-        corners = [c for c in ranked if c.side is not None and self._kind(c) == "v-e"]
-        self.corner = next((c for c in corners[:TRIED] if self._goes_round(c)), corners[0] if corners else None)
+        self.is_round = boundary.scene.curved
+        with_helix = [c for c in ranked if c.side is not None]
+        corners = [c for c in with_helix if self._kind(c) == "v-e"]
+        turning = corners or [c for c in with_helix if self._kind(c) == "arc-arc"]
+        self.corner = next((c for c in turning[:TRIED] if self._goes_round(c)), turning[0] if turning else None)
+        self.line = self.corner
+        if self.is_round and not corners:
+            self.line = next((c for c in ranked if self._kind(c) == "v-e"), None)
         edges = [c for c in ranked if self._kind(c) == "e-v"]
         self.edge = next((c for c in edges if self._shares_obstacle(c)), edges[0] if edges else None)
+        arcs = [c for c in ranked if self._kind(c) == "arc-arc"]
+        self.arc = next((c for c in arcs if self._shares_obstacle(c)), arcs[0] if arcs else None)
         self.here: Moment | None = None
         self.free = FreeMotions(boundary, self.window)
 
@@ -158,10 +166,11 @@ class _Director:
             "helix": self._helix,
             "v-e": self._vertex_edge,
             "e-v": self._edge_vertex,
+            "arc-arc": self._arc_arc,
             "pillar": self._pillar,
             "path": self._path,
         }
-        needed = {"helix": self.corner, "slices": self.corner, "v-e": self.corner, "e-v": self.edge}
+        needed = {"helix": self.corner, "slices": self.corner, "v-e": self.line, "e-v": self.edge, "arc-arc": self.arc}
         kinds = tuple(kind for kind in kinds if kind not in needed or needed[kind] is not None)
         shots: list[Shot] = []
         for k, kind in enumerate(kinds):
@@ -219,19 +228,25 @@ class _Director:
         assert self.corner is not None
         low, high = _inside(self.corner)
         moments = along_helix(self.boundary, self.corner, eased(low, high, n))
-        shot = Shot("helix", "Rotation about a vertex: a helix", _FORMULAS["v-v"], moments)
+        own, _ = _named(moments[0])
+        about = "the centre of an arc" if own == "an arc" else own
+        formula = _ROUND_FORMULAS["centre"] if self.is_round else _FORMULAS["v-v"]
+        shot = Shot("helix", f"Rotation about {about}: a helix", formula, moments)
         return replace(shot, azimuth=self._azimuth(self.corner), colour=HELIX)
 
     def _vertex_edge(self, n: int) -> Shot:
-        column = self.corner
-        assert column is not None and column.side is not None
-        return self._sweep("v-e", "A vertex slides on an edge: a v-e patch", column, n, column.side)
+        assert self.line is not None
+        return self._sweep("v-e", self.line, n, self.line.side or 0)
 
     def _edge_vertex(self, n: int) -> Shot:
         assert self.edge is not None
-        return self._sweep("e-v", "An edge slides over a vertex: an e-v patch", self.edge, n, 0)
+        return self._sweep("e-v", self.edge, n, 0)
 
-    def _sweep(self, kind: str, title: str, column: Column, n: int, side: int) -> Shot:
+    def _arc_arc(self, n: int) -> Shot:
+        assert self.arc is not None
+        return self._sweep("arc-arc", self.arc, n, 0)
+
+    def _sweep(self, kind: str, column: Column, n: int, side: int) -> Shot:
         """Move to and fro along the edge, down through the whole range: so the plane never covers the swept part."""
         low, high = _inside(column)
 
@@ -241,7 +256,9 @@ class _Director:
             return over_column(self.boundary, column, 1 - share if side else share, angles)
 
         linked, link, cut = self._linked(moments, n)
-        shot = Shot(kind, title, _FORMULAS[kind], linked)
+        own, other = _named(moments(1)[0])
+        title = _TITLES[kind].format(own=own.capitalize(), other=other)
+        shot = Shot(kind, title, (_ROUND_FORMULAS if self.is_round else _FORMULAS)[kind], linked)
         return replace(shot, swept=column, azimuth=self._azimuth(column), link=link, cut=cut)
 
     def _pillar(self, n: int) -> Shot | None:
@@ -257,7 +274,7 @@ class _Director:
             turn = [here] * n, 0, False
         moments, link, cut = turn
         level = np.append(np.zeros(link), np.degrees(eased(0, FULL_TURN, n - link)))
-        shot = Shot("pillar", title, _FORMULAS["pillar"], moments)
+        shot = Shot("pillar", title, (_ROUND_FORMULAS if self.is_round else _FORMULAS)["pillar"], moments)
         return replace(shot, level=level, ghost=0.08, link=link, cut=cut)
 
     def _around(self, n: int) -> tuple[list[Moment], int, bool] | None:
@@ -328,13 +345,17 @@ class _Director:
     def _worth(self, column: Column) -> float:
         """Rate a column by its area, less if it faces away, or if there are no lower orientations to begin at."""
         low, high = column.angles[0], column.angles[-1]
-        _, _, *edge = self.boundary.ruled[column.patch, [0, 1, 2, 3, 6, 7]].tolist()
-        k = len(column.trapezoids) // 2
-        middle = 0.5 * (max(column.angles[k], low) + column.angles[k + 1])
-        lower, upper = self.boundary.limits([column.trapezoids[k]], [middle])
-        area = (high - low) * math.hypot(*edge) * max(0.0, float(upper[0] - lower[0]))
+        area = (high - low) * self._length(column)
         seen = math.cos(self._facing(column) - HOME)
         return area * max(0.05, seen) * (0.5 if low < math.radians(55) else 1.0)
+
+    def _length(self, column: Column) -> float:
+        """Return the length of a column across, at the orientation in the middle; of an arc that of two chords."""
+        k = len(column.trapezoids) // 2
+        theta = 0.5 * (column.angles[k] + column.angles[k + 1])
+        t = [across(self.boundary, column.trapezoids[k], theta, share) for share in (0.0, 0.5, 1.0)]
+        begin, middle, end = self.boundary.evaluate([column.patch] * 3, t, [theta] * 3).tolist()
+        return math.dist(begin, middle) + math.dist(middle, end)
 
     def _goes_round(self, column: Column) -> bool:
         (begin,) = along_helix(self.boundary, column, _inside(column)[:1])
@@ -345,7 +366,8 @@ class _Director:
         return self.corner is None or obstacle == self.boundary.patches[self.corner.patch].obstacle.polygon
 
     def _facing(self, column: Column) -> float:
-        x, y = outward(self.boundary, column.patch, 0.5 * (column.angles[0] + column.angles[-1])).tolist()
+        (middle,) = over_column(self.boundary, column, [0.5], [0.5 * (column.angles[0] + column.angles[-1])])
+        x, y = outward(self.boundary, column.patch, middle).tolist()
         return math.atan2(y, x)
 
     def _azimuth(self, column: Column) -> float:
@@ -354,6 +376,11 @@ class _Director:
         return float(np.clip(HOME + 0.7 * turn, AZIMUTHS[0] + 0.1, AZIMUTHS[1] - 0.1))
 
 
+_TITLES = {
+    "v-e": "{own} slides on an edge: a v-e patch",
+    "e-v": "An edge slides over {other}: an e-v patch",
+    "arc-arc": "{own} slides over {other}: an arc-arc patch",
+}
 _FORMULAS = {
     "slices": r"the reference point goes around $O \oplus -R^{\theta}A$",
     "v-v": r"$q(\phi) = (b_j - R^{\phi} a_i,\ \phi)$",
@@ -362,9 +389,24 @@ _FORMULAS = {
     "pillar": "v-e and e-v patches meet in v-v helices and e-e lines",
     "path": "everything above the current orientation is transparent",
 }
+_ROUND_FORMULAS = {
+    "centre": "a point of the robot stays in its place",
+    "v-e": r"$S(t, \phi) = (b_j + t\,E_j^O + \rho_i\,n_j - R^{\phi} a_i,\ \phi)$",
+    "e-v": r"$S(t, \phi) = (b_j - R^{\phi}(a_i + t\,E_i^A + \rho_j\,n_i),\ \phi)$",
+    "arc-arc": r"$S(\psi, \phi) = (b_j + (\rho_i + \rho_j)\,u(\psi) - R^{\phi} a_i,\ \phi)$",
+    "pillar": "patches join smoothly where an edge meets an arc",
+}
 
 
 _NAMES = {"car": "car", "differential": "differential drive"}
+
+
+def _named(moment: Moment) -> tuple[str, str]:
+    """Name what touches, of the robot and of the obstacle, where it is no edge."""
+    if moment.touch is None:
+        return "a vertex", "a vertex"
+    own, other = ("an arc" if len(points) > 1 else "a vertex" for points in (moment.touch.robot, moment.touch.obstacle))
+    return own, other
 
 
 def _xy(pose: Pose) -> tuple[float, float]:

@@ -17,6 +17,7 @@ from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.proof import Proof
 from cfree.planning.separation import Separated
+from cfree.planning.steps import step_planner
 from cfree.scene.scene import Scene
 
 MOST_STEPS = 10_000_000  # along a path, each as long as the robot's reach
@@ -63,8 +64,7 @@ def add_ends(known: Known, start: Pose, goal: Pose) -> None:
 def proof_at_ends(known: Known, start: Pose, goal: Pose) -> Separated | None:
     """Proof by a few surfaces around the ends, which is fast where obstacles close one in; None without one."""
     add_ends(known, start, goal)
-    found = PosePlanner(known.scene).way(start, goal, Options(), few=True)
-    return found if isinstance(found, Separated) else None
+    return step_planner(known.scene).proof(start, goal)
 
 
 def plan_around(

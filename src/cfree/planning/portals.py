@@ -7,7 +7,7 @@ may have no portal: a route along portals is a path, once its motions are proved
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
@@ -16,14 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.collision.pose_checker import FREE, PoseChecker, is_free_at
+from cfree.contact.features import shape_features
 from cfree.exact.half_angle import theta_from
 from cfree.exact.pose import Pose, pose_at
-from cfree.forbidden.boundary import boundary
-from cfree.free.space import free_space
-from cfree.planning.options import Options
-from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rooms import UNIT, Box, Floats, Ints, Rooms
-from cfree.scene.scene import Scene
+from cfree.planning.steps import step_planner
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import AnyShape, Scene
 
 _QUARTER = [Fraction(0), Fraction(1, 5), Fraction(5, 12), Fraction(2, 3), Fraction(1), Fraction(3, 2), Fraction(12, 5)]
 TAUS: tuple[Fraction | None, ...] = (*_QUARTER, Fraction(5), None, Fraction(-5), *(-tau for tau in _QUARTER[:0:-1]))
@@ -32,6 +31,7 @@ THETAS = np.array([theta_from(tau) % (2 * math.pi) for tau in TAUS])
 QUARTER = 4  # orientations in a right angle
 SPACING = 16  # most samples of a border for one portal
 MOST = 400  # most samples of a border
+CHORDS = 16  # of an arc, where walls are looked for
 GUESSES = 2_000  # motions guessed by a search that joins two portals
 
 Key = tuple[int, int, int]
@@ -130,10 +130,16 @@ def _places(line: Box, walls: Floats, radius: float) -> Floats:
 
 
 def _walls(scene: Scene) -> Floats:
-    """Edges of the obstacles and the workspace, (n, 4), rounded."""
+    """Edges of the obstacles and the workspace, (n, 4), rounded; of arcs chords."""
     shapes = [*scene.obstacles, *([] if scene.workspace is None else [scene.workspace])]
-    rings = [np.concatenate([ring, np.roll(ring, -1, axis=0)], axis=1) for shape in shapes for ring in shape.rings]
-    return np.concatenate([np.zeros((0, 4)), *rings])
+    rings = (ring for shape in shapes for ring in _rims(shape))
+    return np.concatenate(
+        [np.zeros((0, 4)), *(np.concatenate([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in rings)]
+    )
+
+
+def _rims(shape: AnyShape) -> Sequence[Floats]:
+    return shape.rings if isinstance(shape, Polygon) else shape_features(shape).rims(CHORDS)
 
 
 def _chosen(free: NDArray[np.bool_], across: int) -> Iterator[tuple[int, int]]:
@@ -186,21 +192,22 @@ def _middle(row: NDArray[np.bool_], across: int) -> int:
 def parts_of(scene: Scene, portals: list[Portal]) -> Ints:
     """Part of a room that each portal leads to: those of one part are joined within the room, and no others.
 
-    A search joins most of them; the free space of the room decides about the rest.
+    A search joins most of them; the free space of the room decides about the rest. Where it is not known, all count as
+    joined.
     """
     poses = [portal.pose for portal in portals]
-    planner, options = PosePlanner(scene), Options()
+    planner = step_planner(scene)
     joined: list[list[int]] = []
     for k, pose in enumerate(poses):
         for part in joined:
-            if planner.quick(poses[part[-1]], pose, options, GUESSES) is not None:
+            if planner.joins(poses[part[-1]], pose, GUESSES):
                 part.append(k)
                 break
         else:
             joined.append([k])
     result = np.zeros(len(poses), np.int64)
-    if len(joined) > 1:
-        cells = free_space(boundary(scene, threads=1), threads=1).locate([poses[part[0]] for part in joined])
+    if len(joined) > 1 and (space := planner.space) is not None:
+        cells = space.locate([poses[part[0]] for part in joined])
         for part, cell in zip(joined, cells.tolist(), strict=True):
             result[part] = cell
     return result

@@ -21,22 +21,20 @@ import numpy as np
 
 from cfree.collision.motion import Motion
 from cfree.collision.motion_checker import MotionChecker
-from cfree.errors import IncompleteError, InvariantError
+from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.paths.numbering import renumbered
 from cfree.paths.path import Path
 from cfree.planning.atlas import Atlas
-from cfree.planning.caller import Work
 from cfree.planning.options import Options
 from cfree.planning.portals import THETAS, Ground, Key, Portal
-from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rooms import Box, Ints
 from cfree.planning.separation import Separated
+from cfree.planning.steps import step_planner
 from cfree.scene.frame import frame_of
 
 START, GOAL = (-1, -1, 0), (-1, -1, 1)  # ends of a route, beside the keys of portals
 HASTE = 1.2  # factor of the straight distance to the goal: a route is at most this much longer than the shortest
-PATCHES = 20_000  # most contact patches trimmed for one step
 WINDOW = 3  # steps improved together
 KEPT = 10_000  # steps whose motions are kept between queries
 FAILURES = 30  # most steps that rooms refuse, before routes are given up
@@ -253,14 +251,9 @@ class Router:
 
     def _motions(self, step: Step, options: Options) -> tuple[Motion, ...] | None:
         """Motions of a step; None if its room does not allow it, or that is not decided in a few patches."""
-        planner = PosePlanner(self.atlas.ground.part(step.obstacles, step.box))
-        try:
-            way = planner.way(step.start, step.goal, replace(options, work=Work(PATCHES)))
-        except IncompleteError:
-            return None
-        if not isinstance(way, list):
-            return None
-        return renumbered(planner.path(way), step.obstacles.tolist()).motions
+        planner = step_planner(self.atlas.ground.part(step.obstacles, step.box))
+        path = planner.path(step.start, step.goal, options)
+        return None if path is None else renumbered(path, step.obstacles.tolist()).motions
 
 
 def legs_along(
@@ -329,9 +322,8 @@ def _improved(
     done = list(joined)
 
     def improve(k: int, options: Options) -> None:
-        planner = PosePlanner(ground.part(joined[k].obstacles, joined[k].box))
-        planner.keep_slides(paths[k])
-        done[k] = replace(joined[k], motions=planner.improved(paths[k].poses, options).motions)
+        planner = step_planner(ground.part(joined[k].obstacles, joined[k].box))
+        done[k] = replace(joined[k], motions=planner.improved(paths[k], options).motions)
 
     try:
         in_threads([partial(improve, k) for k in range(len(joined)) if joined[k].motions], own)
@@ -360,7 +352,8 @@ def joined(start: Pose, legs: Sequence[Leg], ground: Ground) -> tuple[Path, list
     numbers = np.unique(np.concatenate([leg.obstacles for leg in legs]))
     scene, place = ground.part(numbers, None), {number: k for k, number in enumerate(numbers.tolist())}
     motions = [motion for leg in legs for motion in leg.motions]
-    path = renumbered(Path(start, motions, scene.units, frame_of(scene), scene=scene), place)
+    plain, curved = (None, scene) if scene.curved else (scene, None)
+    path = renumbered(Path(start, motions, scene.units, frame_of(scene), scene=plain, curved=curved), place)
     if not path.is_free(MotionChecker(scene)):
         raise InvariantError("a path from room to room is not free", state=path)
     return path, numbers.tolist()

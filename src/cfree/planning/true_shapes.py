@@ -78,6 +78,10 @@ class TruePlanner:
         way = way or search.quick(start, goal, options, guesses)
         return self.finished(way, options) if way else None
 
+    def joins(self, start: Pose, goal: Pose, guesses: int) -> bool:
+        """True if simple ways, or a search of so many guesses, join two free poses."""
+        return self._search.quick(start, goal, Options(), guesses) is not None
+
     def taus_near(self, pose: Pose) -> list[Fraction | None]:
         """Return half-angle tangents near a pose's at which something is parallel, and simple ones."""
         return self._search.fits.angles(float(pose.x), float(pose.y), pose.theta, NEAR * max(self._near.errors))

@@ -344,6 +344,7 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     opacity = np.concatenate((np.where(fading > 0.5, 1.0, fading), np.ones(len(line.corners))))
     _draw_patches(ax, boundary, window, degrees, joined([near, line]), opacity)
     names = {"v-e patch": PALE.vertex_edge, "e-v patch": PALE.edge_vertex}
+    names |= {"arc-arc patch": COLOURS[PatchKind.ARC_ARC]} if boundary.scene.curved else {}
     middle = track.colour(np.array([track.most / 2]))[0] if track.gears is None else track.at_steps()[0]
     _legend(ax, names, [("path, coloured as beside", middle, "-"), ("hidden", middle, (0, (2, 1.5)))])
     shadow = np.full(len(rows), degrees[0])
@@ -365,7 +366,7 @@ def _draw_patches(
     painting = Painting(pieces, opacity=opacity)
     painting.set(zorder=1, rasterized=True)  # thousands of faces are slow as vectors, with seams
     ax.add_collection(painting, autolim=False)
-    obstacles = shapely.union_all([obstacle.to_shapely() for obstacle in boundary.scene.obstacles])
+    obstacles = shapely.union_all([obstacle.to_shapely() for obstacle in smooth(boundary.scene).obstacles])
     floor = level(shapely.intersection(obstacles, shapely.box(*window)), low)[:, :3]
     shadow = Poly3DCollection(floor, facecolor=FORBIDDEN, edgecolor=FORBIDDEN, linewidth=0.3, zorder=0.2)
     ax.add_collection(shadow, autolim=False)

@@ -14,7 +14,7 @@ from cfree.collector import collection_paused
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.formats.answers.answer_file import read_answer
-from cfree.paths.numbering import renumbered
+from cfree.paths.numbering import has_slides, renumbered
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.proof import Proof
@@ -121,24 +121,26 @@ def answer(
 
     if isinstance(outcome, AllSeparated):
         return _all_of(scene, outcome, report, begin)
-    if isinstance(outcome, Separated) and outcome.rounded is not None:
-        return _of_rounded(scene, outcome, outcome.rounded, read, report, begin)
-    findings, part = _other_poses(scene, outcome), scene
+    part = scene
     if whole is not None:
         part_scene = part_of(scene, outcome, whole)
         if part_scene is None:
             finding = Finding(SCENE, "whole", "its obstacles are not those that the answer is about; plan anew")
             return _refuted(finding, begin)
         part = part_scene
-        outcome = renumbered(outcome, whole.obstacles) if isinstance(outcome, Path) else outcome
-    its = (outcome.scene or (part if isinstance(outcome, Path) else None)) if scene.curved else scene
+    if isinstance(outcome, Separated) and outcome.rounded is not None:
+        return _of_rounded(scene, part, outcome, outcome.rounded, read, report, begin)
+    if isinstance(outcome, Path):
+        part = scene
+        outcome = renumbered(outcome, whole.obstacles) if whole is not None and not scene.curved else outcome
+    findings, its = _other_poses(scene, outcome), _scene_for(scene, outcome, is_of_part=whole is not None)
     if its is None or (its.curved and not isinstance(outcome, Path)):
         return _refuted(Finding(ROUND, "polygons", "the answer has none for the round shapes of the scene"), begin)
     if its.curved and not all(map(is_of_arcs, shapes_of(its))):
         text = "the answer has none for a shape of other curves than lines and circular arcs"
         return _refuted(Finding(ROUND, "polygons", text), begin)
     if scene.curved and its is not part:
-        wrong = mismatches(scene, its, outward=isinstance(outcome, Path))
+        wrong = mismatches(part, its, outward=isinstance(outcome, Path))
         findings += [Finding(ROUND, where, text) for where, text in wrong]
     is_round = its.curved or (isinstance(outcome, Path) and outcome.clearance and not outcome.disc)
     world = ArcWorld(its) if is_round else World(its)
@@ -157,7 +159,7 @@ def answer(
         findings += driving_findings(outcome)
     else:
         assert isinstance(world, World)
-        there = world if whole is None else World(part)
+        there = world if whole is None or scene.curved else World(part)
         if isinstance(outcome, Stuck):
             findings += stuck_findings(outcome, there)
         elif isinstance(outcome, Unreachable):
@@ -170,7 +172,7 @@ def answer(
         **_of_scene(outcome if read else None, whole, len(scene.obstacles)),
         QUERY: "start and goal, where the scene has them",
         **_of_moved(outcome),
-        **(_of_curves(scene, its, outcome) if scene.curved else {}),
+        **(_of_curves(part, its, outcome) if scene.curved else {}),
         **_of_pieces(world),
         ENDS: "both are free" + (" among the polygons" if scene.curved and not its.curved else ""),
         **_of_kind(outcome),
@@ -179,18 +181,34 @@ def answer(
     return _result(scene, outcome, read, extents, findings, begin)
 
 
+def _scene_for(scene: Scene, outcome: Path | Proof, *, is_of_part: bool) -> Scene | None:
+    """The scene in which an answer is checked: that of its polygons if there are round shapes, None without any."""
+    if not scene.curved:
+        return scene
+    if not isinstance(outcome, Path):
+        return outcome.scene
+    # polygons for some of the shapes tell nothing about the others
+    return scene if is_of_part and not has_slides(outcome) else outcome.scene or scene
+
+
 def _of_rounded(
-    scene: Scene, proof: Separated, cores: Cores, read: Read | None, report: Callable[[float], object], begin: float
+    scene: Scene,
+    part: Scene,
+    proof: Separated,
+    cores: Cores,
+    read: Read | None,
+    report: Callable[[float], object],
+    begin: float,
 ) -> Verification:
-    """Check a separation among grown cores."""
+    """Check a separation among grown cores, which are those of a part of the scene."""
     if not all(map(is_of_arcs, shapes_of(scene))):
         return _refuted(Finding(ROUND, "shapes", "the scene has others than lines and circular arcs"), begin)
     findings = _other_poses(scene, proof)
-    findings += rounded_findings(proof, cores, scene, report)
+    findings += rounded_findings(proof, cores, part, report)
     report(1.0)
     count, far = counted(len(proof.pieces), "piece"), f"with {float(proof.clearance):g} around the robot, "
     extents = {
-        **_of_scene(proof if read else None, None, len(scene.obstacles)),
+        **_of_scene(proof if read else None, None if part is scene else proof.whole, len(scene.obstacles)),
         QUERY: "start and goal, where the scene has them",
         **_of_moved(proof),
         ENDS: "both are free",

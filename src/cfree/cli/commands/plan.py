@@ -192,7 +192,7 @@ def plan(
         if part:
             from cfree.formats.scene_file import save_scene
 
-            save_scene(answering.planner.scene, part)
+            save_scene(answering.scene, part)
         rows = answering.rows(poses.limits, for_machines=as_json, nearest_miss=miss, what_if=what_if)
         if scene.is_dir():
             rows["tiles read"] = planner.sharded.tiles_read
