@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from fractions import Fraction as F
 
@@ -175,3 +176,25 @@ def test_slits_that_meet_in_one_place_are_in_no_cell(turn: str) -> None:
     squares = [box(x, y, x + 1, y + 1, place) for x, y in corners]
     space = free_space(boundary(Scene(Curved.circle((0, 0), "1/4"), squares)))  # type: ignore[arg-type]
     assert len(space.cells) == 2 and space.cells[1].caged
+
+
+@pytest.mark.parametrize("turn", [(1, 0), (0, 1), (-1, 0), (0, -1)])
+@pytest.mark.parametrize(
+    "wall", [[(39, 27), (41, 27), (41, 30)], [(20, 27), (60, 27), (40, 30)], [(40, 27), (60, 27), (60, 30)]]
+)
+@pytest.mark.parametrize("length", [0, 2])
+def test_a_bound_owns_what_it_has_in_common_with_a_wall_less_a_radius(
+    length: int, wall: list[Point], turn: tuple[int, int]
+) -> None:
+    """A disc about the reference point touches a wall where that point is on the bounds: the wall changes nothing."""
+    robot = grown([(0, 0), (length, F(1, 8)), (length, F(-1, 8))], F(1)) if length else Curved.circle((0, 0), 1)
+    c, s = turn
+
+    def place(x: int, y: int) -> tuple[int, int]:
+        return c * x - s * y, s * x + c * y
+
+    low, high = (place(x, y) for x, y in ((32, 20), (48, 26)))
+    bounds = tuple(f(a, b) for f in (min, max) for a, b in zip(low, high, strict=True))
+    walls = [[place(x, y) for x, y in wall], [place(x, y) for x, y in ((30, 10), (31, 10), (31, 11))]]
+    space = free_space(boundary(Scene(robot, walls, bounds=bounds)))  # type: ignore[arg-type]
+    assert len(space.cells) == 1 and (length or abs(space.volumes[0] - 16 * 6 * 2 * math.pi) < 1e-9)

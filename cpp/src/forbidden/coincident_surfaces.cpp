@@ -77,6 +77,7 @@ std::vector<Feature> CoincidentSurfaces::before(const Feature& contact) const {
             const Feature other{contact.kind, robots.member[x], others.member[y], contact.branch};
             if (is_patch(other) && rank(other) < rank(contact)) result.push_back(other);
         }
+    if (scene.is_round && on_edge) add_bounds(contact, result);
     if (slits) slits->add_opposite(contact, result);
     else if (regularized && on_edge) add_opposite(contact, result);
     return result;
@@ -164,6 +165,22 @@ struct RoundSlits::Lines {
         return result;
     }
 };
+
+// A bound owns what a line of the obstacles, moved by both radii, has in common with it, on the same side.
+void CoincidentSurfaces::add_bounds(const Feature& contact, std::vector<Feature>& out) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = contact.robot, j = contact.obstacle;
+    if (A.layer[i] == reference_layer) return;
+    for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {
+        if (A.layer[i2] != reference_layer || !is_one_place(A, i, i2)) continue;
+        for (Index e = 0; e < O.ring_vertices; ++e) {
+            if (O.layer[e] != reference_layer || O.direction[e] != O.direction[j] || is_backward(O, e) != is_backward(O, j)) continue;
+            if (A.point[i] == A.point[i2] && O.line[e] == O.line[j]) continue;  // of the lower rank
+            const auto offset = moved_offset(O, j, A.radius_of(i).exact);
+            if (offset && *offset == *moved_offset(O, e, 0)) out.push_back({Kind::vertex_edge, i2, e});
+        }
+    }
+}
 
 RoundSlits::RoundSlits(const Scene& s) : scene(s) {
     const Shape &A = scene.robot, &O = scene.obstacles;

@@ -59,6 +59,7 @@ private:
     std::array<Index, 2> rank(const Feature& contact) const;
     bool is_patch(const Feature& contact) const;
     void add_opposite(const Feature& contact, std::vector<Feature>& out) const;
+    void add_bounds(const Feature& contact, std::vector<Feature>& out) const;
 
     const Scene& scene;
     bool regularized;

@@ -122,12 +122,13 @@ void Trimmer::add_band(const State& state, const Span& span, Index p, Index k) {
 }
 
 void Trimmer::cede(const Feature& owner, const Event& from, const Event& to) {
-    const auto tighter = [&](Index own, const Event& other, int later) {
-        return decide.order(other, events[own]) * later > 0 ? intern(other) : own;
+    const auto tighter = [&](Index end, const Event& other, int later) {
+        return decide.order(other, events[end]) * later > 0 ? intern(other) : end;
     };
-    const auto& line = owner.kind == Kind::vertex_edge ? scene.obstacles.line : scene.robot.line;
-    const bool backwards = owner.kind == Kind::vertex_edge ? line[owner.obstacle] != line[surface.contact.obstacle]
-                                                           : line[owner.robot] != line[surface.contact.robot];
+    const bool of_obstacles = owner.kind == Kind::vertex_edge;
+    const Shape& shape = of_obstacles ? scene.obstacles : scene.robot;
+    const Index theirs = of_obstacles ? owner.obstacle : owner.robot, own = of_obstacles ? surface.contact.obstacle : surface.contact.robot;
+    const bool backwards = shape.line[theirs] != shape.line[own] && dot(edge<Int>(shape, theirs), edge<Int>(shape, own)).sign() < 0;
     const Feature first = end_helix(scene, owner, backwards ? 1 : 0), last = end_helix(scene, owner, backwards ? 0 : 1);
     Area band{tighter(0, from, 1), tighter(1, to, -1), curve_of(first, false), curve_of(last, false), 0, 1};
     if (!before(band.from, band.to)) return;
