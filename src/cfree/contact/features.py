@@ -138,6 +138,7 @@ class ShapeFeatures:
         """Straight edges."""
         return tuple(feature for ring in self.rings for feature in ring if isinstance(feature, EdgeFeature))
 
+    @checked
     def rims(self, parts: int) -> tuple[Floats, ...]:
         """Points (n, 2) along each ring, rounded: vertices, and `parts` + 1 points of each arc.
 
