@@ -206,6 +206,15 @@ def test_surfaces_part_where_an_edge_touches_a_patch_at_one_angle(
     assert euler_numbers(space.cells) == [euler]
 
 
+@pytest.mark.parametrize("turn", [(1, 0), (0, 1), *TURNS[1:3]])
+def test_surfaces_part_where_a_wall_touches_the_bounds_at_one_angle(turn: Any) -> None:
+    """The reference point may be as far above a wall as the robot is long."""
+    robot, wall = shape([(0, 0), (1, 0)], HALF), shape([(-2, -1), (2, -1), (0, -2)], HALF)
+    plain = among(robot, wall, bounds=(-9, -9, 9, 1))
+    space = built(plain._replace(robot=(Shape(mapped(robot.core, turn=turn), robot.radius),)))
+    assert euler_numbers(space.cells) == [-2]
+
+
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("bits", [10, 30, 49, 60])
 def test_circles_that_are_nearly_one_are_told_apart_by_their_branches(bits: int, sign: int) -> None:

@@ -5,8 +5,8 @@
 
 Closed surfaces have even Euler numbers, and each side a partner. Cells hold the free poses, decided by distances of
 fractions. Short motions that distances prove free stay in one cell, and so do the free regions of a slice. Numbers of
-surfaces and cells, Euler numbers and volumes are those of the scene moved, scaled and mirrored, with robot and
-obstacles exchanged, and with a part of the obstacles' radii given to the robot.
+surfaces and cells, Euler numbers and volumes are those of the scene moved, scaled and mirrored, of the robot turned, with
+robot and obstacles exchanged, and with a part of the obstacles' radii given to the robot.
 """
 
 from __future__ import annotations
@@ -477,6 +477,8 @@ def laws(plain: RoundScene, r: Draw) -> Iterator[tuple[str, RoundScene, float, b
         yield "turned half", all_mapped(plain, turn=(-1, 0)), 1.0, False
         yield "turned", all_mapped(plain, turn=r.choice(TURNS[1:4])), 1.0, True
         yield "another reference", with_other_reference(plain, Fraction(3, 2), Fraction(-1, 3)), 1.0, False
+    turn = r.choice(TURNS[1:4])
+    yield "robot turned", plain._replace(robot=tuple(Shape(mapped(c, turn=turn), s) for c, s in plain.robot)), 1.0, True
     if (other := swapped(plain)) is not None:
         yield "swapped", other, 1.0, False
     least = min([s for _, s in plain.obstacles], default=Fraction(0))

@@ -17,12 +17,13 @@ struct RoundTrimmer::Touch {
     bool turns;        // true in that of the robot
 };
 
-// Ring vertices of some pieces of the obstacles, each once.
+// Ring vertices of some pieces of the obstacles, each once, and of the bounds, which are the last.
 static std::vector<Index> ring_vertices(const Shape& O, const std::vector<Index>& pieces) {
     std::vector<Index> result;
     for (const Index k : pieces)
         for (Index p = O.piece[k]; p < O.piece[k + 1]; ++p)
             if (O.piece_vertex[p] < O.ring_vertices) result.push_back(O.piece_vertex[p]);
+    for (Index v = O.ring_vertices - 1; v >= 0 && O.layer[v] == reference_layer; --v) result.push_back(v);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
