@@ -5,8 +5,8 @@
 
 Closed surfaces have even Euler numbers, and each side a partner. Cells hold the free poses, decided by distances of
 fractions. Short motions that distances prove free stay in one cell, and so do the free regions of a slice. Numbers of
-surfaces and cells, Euler numbers and volumes are those of the scene moved, scaled and mirrored, of the robot turned, with
-robot and obstacles exchanged, and with a part of the obstacles' radii given to the robot.
+surfaces and cells, Euler numbers and volumes are those of the scene moved, scaled and mirrored, of the robot turned,
+with robot and obstacles exchanged, and with a part of the obstacles' radii given to the robot.
 """
 
 from __future__ import annotations
