@@ -60,6 +60,22 @@ class ArcFeature:
     width: float
     is_convex: bool
 
+    @checked
+    def points(self, parts: int) -> Floats:
+        """`parts` + 1 points (n, 2) along it in the order of its ring, rounded; a vertex once.
+
+        Examples
+        --------
+        >>> shape_features(Curved.circle((1, 2), 3)).arcs[0].points(2).round(12).tolist()
+        [[4.0, 2.0], [-2.0, 2.0], [4.0, 2.0]]
+        """
+        if not self.signed_square:
+            return np.array([self.centre], np.float64)
+        share = np.linspace(0, 1, parts + 1)
+        psi = self.first + self.width * (share if self.is_convex else share[::-1])
+        circle: Floats = np.column_stack([np.cos(psi), np.sin(psi)])
+        return np.array(self.centre, np.float64) + self.signed_radius * circle
+
     @property
     def radius(self) -> Fraction | None:
         """The signed radius as a fraction; None if it is irrational."""
@@ -151,7 +167,7 @@ class ShapeFeatures:
         [[-1.0, 0.0], [-0.0, -1.0], [4.0, -1.0], [4.6, 0.8], [0.6, 3.8], [-1.0, 3.0]]
         """
         return tuple(
-            np.concatenate([_along(arc, parts) for arc in ring if isinstance(arc, ArcFeature)]) for ring in self.rings
+            np.concatenate([arc.points(parts) for arc in ring if isinstance(arc, ArcFeature)]) for ring in self.rings
         )
 
     @property
@@ -323,16 +339,6 @@ def _corner(before: _Side, after: _Side) -> list[ArcFeature]:
 
 
 # --- numbers ---
-
-
-def _along(arc: ArcFeature, parts: int) -> Floats:
-    """Points along an arc in the order of its ring; a vertex once."""
-    if not arc.signed_square:
-        return np.array([arc.centre], np.float64)
-    share = np.linspace(0, 1, parts + 1)
-    psi = arc.first + arc.width * (share if arc.is_convex else share[::-1])
-    points: Floats = np.array(arc.centre, np.float64) + arc.signed_radius * np.column_stack([np.cos(psi), np.sin(psi)])
-    return points
 
 
 def _doubled_area(feature: ArcFeature | EdgeFeature) -> tuple[float, ...]:

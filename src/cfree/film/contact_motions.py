@@ -38,7 +38,7 @@ Point = tuple[float, float]
 HELIX_CURVE = 3  # kind of a trapezoid's curve that is a v-v helix
 INSIDE = 1e-6  # distance of t from its limits, so that rounding cannot leave them
 AWAY = 1e-9  # radii of the robot by which a pose among rounded shapes is off its contact
-NEAR, CHORDS = 1e-9, 65  # relative rounding of an arc's numbers, points along it
+NEAR, CHORDS = 1e-9, 64  # relative rounding of an arc's numbers, chords along it
 AT_END = 1e-9  # difference of t from 0 or 1 on a curve that ends an edge
 
 
@@ -274,8 +274,7 @@ def _arc(shape: AnyShape, centre: Point, radius: float, normal: Floats) -> Float
         if abs(arc.signed_radius - radius) < near and math.dist(centre, map(float, arc.centre)) < near:
             psi = (math.atan2(normal[1], normal[0]) - arc.first + NEAR) % math.tau
             if psi <= arc.width + 2 * NEAR:
-                angles = arc.first + arc.width * np.linspace(0, 1, CHORDS if radius else 1)
-                return np.array(centre) + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+                return arc.points(CHORDS)
     return np.array([centre]) + radius * normal
 
 
