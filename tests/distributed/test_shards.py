@@ -12,6 +12,7 @@ import pytest
 
 import cfree
 import cfree._core as _core
+import fuzz_routes
 from cfree.curves import Circle
 from cfree.distributed import Sharded, boundary
 from cfree.distributed.part import Part
@@ -159,6 +160,12 @@ def test_rounded_shapes_are_the_same_in_any_tiles(family: str, seed: int, tmp_pa
     """Tangent chains, corridors as wide as the robot, and concave arcs; shards are verified."""
     is_verified = family == "chain"
     assert [*tile_faults(round_scene(family, seed), tmp_path, (1, 4), is_verified=is_verified)] == []
+
+
+@pytest.mark.slow
+def test_a_surface_whose_widest_faces_coincide_with_others_is_nested(tmp_path: Path) -> None:
+    """Grown walls, some of them in one place: hundreds of faces have no pair of poses beside them."""
+    assert [*tile_faults(fuzz_routes.maze(257, is_round=True), tmp_path, (2,))] == []
 
 
 def test_a_round_workspace_and_its_holes_are_in_tiles(tmp_path: Path) -> None:

@@ -92,8 +92,13 @@ class TileSurfaces:
 
     def _row(self, surface: int, attempt: int) -> int:
         """Return a trapezoid of a surface that is in the tile; other attempts give others, and then the same again."""
+        first = np.searchsorted(self._sorted, surface)
+        return int(self._order[first + attempt % self._faces(surface)])
+
+    def _faces(self, surface: int) -> int:
+        """Return the number of trapezoids of a surface that are in the tile."""
         first, end = np.searchsorted(self._sorted, [surface, surface + 1]).tolist()
-        return int(self._order[first + attempt % (end - first)])
+        return int(end - first)
 
 
 class TileLines(TileSurfaces):

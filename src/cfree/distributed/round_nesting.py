@@ -63,13 +63,14 @@ class RoundTileLines(TileSurfaces):
         """Answer a query."""
         if asked.beside is not None:
             return RoundAnswer(asked.surface, asked.beside, self._odd(asked.beside))
-        row = self._row(asked.surface, asked.attempt // 2)
-        found = self._location.beside(row, asked.attempt, CLOSER * (asked.attempt % 2))
-        if found is None:
-            return RoundAnswer(asked.surface)
-        beside = Beside(*found)
-        _, _, crossed, _ = self._location.nearby(beside.left, beside.chart)
-        return RoundAnswer(asked.surface, beside, self._odd_of(crossed))
+        for k in range(self._faces(asked.surface)):  # where surfaces coincide, many faces have no pair
+            row = self._row(asked.surface, asked.attempt // 2 + k)
+            found = self._location.beside(row, asked.attempt, CLOSER * (asked.attempt % 2))
+            if found is not None:
+                beside = Beside(*found)
+                _, _, crossed, _ = self._location.nearby(beside.left, beside.chart)
+                return RoundAnswer(asked.surface, beside, self._odd_of(crossed))
+        return RoundAnswer(asked.surface)
 
     def _odd(self, beside: Beside) -> frozenset[int] | None:
         left, right = (self._location.nearby(pose, beside.chart) for pose in (beside.left, beside.right))
