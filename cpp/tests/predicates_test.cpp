@@ -1,6 +1,7 @@
 #include "cfree/predicates/predicates.hpp"
 
 #include "check.hpp"
+#include "predicates/isolation.hpp"
 #include "shapes.hpp"
 
 using namespace cfree;
@@ -96,7 +97,40 @@ static void ranges_begin_and_end_on_walls_exactly() {
         }
 }
 
+// Changes of sign, where each unknown one is known.
+static int changes(const std::vector<int>& sign) {
+    int count = 0, last = 0;
+    for (const int s : sign) {
+        count += s * last < 0;
+        if (s != 0) last = s;
+    }
+    return count;
+}
+
+// An interval has one root, or none, only if it has so many changes for all that unknown signs may be.
+static void unknown_signs_hide_no_roots() {
+    const auto digits = [](int number, int size) {  // each -1, 0 or 1
+        std::vector<int> result;
+        for (; size > 0; --size, number /= 3) result.push_back(number % 3 - 1);
+        return result;
+    };
+    for (const int degree : {2, 4, 6})
+        for (int k = 0; k < std::pow(3, degree + 1); ++k) {
+            const std::vector<int> known = digits(k, degree + 1);
+            const Found found = roots_inside(known.data(), degree);
+            if (found != Found::one && found != Found::none) continue;
+            const auto unknown = static_cast<int>(std::count(known.begin(), known.end(), 0));
+            for (int n = 0; n < std::pow(3, unknown); ++n) {
+                std::vector<int> sign = known, rest = digits(n, unknown);
+                for (int& s : sign)
+                    if (s == 0) s = rest.back(), rest.pop_back();
+                CHECK(changes(sign) == (found == Found::one));
+            }
+        }
+}
+
 int main() {
+    unknown_signs_hide_no_roots();
     equal_features_have_equal_codes();
     parallels_are_found_and_ordered();
     a_sample_lies_between();

@@ -224,6 +224,13 @@ def test_circles_that_are_nearly_one_are_told_apart_by_their_branches(bits: int,
     assert not list(surface_faults(built(among(robot, *discs))))
 
 
+def test_a_root_beside_a_double_one_is_an_angle_of_its_own() -> None:
+    """A length that differs by 2^-88 parts a touch from a crossing, at the end of a chart."""
+    robot = shape([(0, 0), (2, 1), (1, 1), (0, 2)], HALF / 2)
+    wall = shape([(3 - Fraction(1, 2**88), Fraction(-5, 2)), (Fraction(3, 2) - Fraction(1, 2**88), Fraction(-5, 2))], HALF / 2)
+    assert not list(surface_faults(built(among(robot, shape([(0, 0)], HALF / 2), wall))))
+
+
 @pytest.mark.parametrize(("family", "seed"), [("chain", 200701), ("lattice", 200045)])
 def test_errors_of_volumes_count_circles_that_nearly_touch(family: str, seed: int) -> None:
     """Their crossing is known to half a double's digits: another frame gives a volume that differs by 1e-8."""

@@ -19,21 +19,21 @@ enum class Found { none, one, unclear, hopeless };
 // Number of roots inside, by the variations of certain signs; uncertain signs are allowed only if they cannot add any.
 inline Found roots_inside(const int* sign, int degree) {
     int changes = 0, last = 0, gap = 0;
-    bool ends = true;
+    bool is_certain = true;
     for (int i = 0; i <= degree; ++i) {
         if (sign[i] == 0) {
-            if (i == 0 || i == degree) ends = false;
-            gap = 1;
+            if (i == 0 || i == degree) is_certain = false;
+            ++gap;
             continue;
         }
         if (last != 0) {
             if (sign[i] != last) ++changes;
-            else if (gap) ends = false;
+            if (gap > (sign[i] != last ? 1 : 0)) is_certain = false;  // two unknown signs between different ones may hide two changes
         }
         last = sign[i], gap = 0;
     }
     if (last == 0) return Found::hopeless;
-    if (!ends) return Found::unclear;
+    if (!is_certain) return Found::unclear;
     return changes == 0 ? Found::none : changes == 1 ? Found::one : Found::unclear;
 }
 
