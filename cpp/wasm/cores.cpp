@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
 
@@ -332,37 +331,7 @@ std::optional<RoundedShape> rounded(const GivenShape& shape) {
     return found;
 }
 
-bool has_concave(const RoundedShape& shape) {
-    return std::any_of(shape.rounding.arcs.begin(), shape.rounding.arcs.end(), [](const Arc& arc) { return arc.beyond.has_value(); });
-}
-
 namespace {
-
-// Radii of corners and of convex arcs by place, and those of concave arcs, which mostly are below 0.
-struct Radii {
-    std::map<std::pair<Ratio, Ratio>, std::set<Ratio>> convex, concave;
-};
-
-Radii radii_of(const std::vector<std::optional<RoundedShape>>& shapes) {
-    Radii result;
-    for (const auto& shape : shapes) {
-        if (!shape) continue;
-        const auto& [core, rounding] = *shape;
-        const auto key = [](const RatioPoint& p) { return std::pair{p.x, p.y}; };
-        std::set<std::pair<Ratio, Ratio>> beyond;
-        for (const Arc& arc : rounding.arcs) {
-            if (arc.beyond) {
-                beyond.insert(key((*arc.beyond)[0]));
-                result.concave[key(arc.centre)].insert(rounding.radius - arc.radius);
-            } else result.convex[key(arc.centre)].insert(rounding.radius + arc.radius);
-        }
-        for (Index k = 0; k < core->vertices.size(); ++k) {
-            const auto corner = key(vertex(*core, k));
-            if (!beyond.contains(corner)) result.convex[corner].insert(rounding.radius);
-        }
-    }
-    return result;
-}
 
 // The box of a shape, too large by a part of its arcs' circles.
 struct Extent {
@@ -386,22 +355,6 @@ struct Extent {
 };
 
 }  // namespace
-
-bool fills_channel(const std::vector<std::optional<RoundedShape>>& robot, const std::vector<std::optional<RoundedShape>>& obstacles) {
-    const Radii all[] = {radii_of(robot), radii_of(obstacles)};
-    for (const int own : {0, 1})
-        for (const auto& [at, aways] : all[own].concave) {
-            const auto others = all[own].convex.find(at);
-            if (others == all[own].convex.end()) continue;
-            for (const auto& [place, radii] : all[1 - own].convex)
-                for (const Ratio& away : aways)
-                    for (const Ratio& other : others->second)
-                        for (const Ratio& radius : radii)
-                            for (const Ratio& rest : radii)
-                                if (radius + other + rest + away == zero) return true;
-        }
-    return false;
-}
 
 std::vector<GivenShape> complement(const GivenScene& scene) {
     constexpr double fineness = 8;  // steps of the frame's rim in its width

@@ -483,14 +483,6 @@ NearShapes Rounds::drawn(double share) const {
     for (const GivenShape& obstacle : scene.obstacles) obstacles.push_back(rounded(obstacle));
     for (const GivenShape& part : complement(scene)) frames.push_back(rounded(part));
     if (std::find(frames.begin(), frames.end(), std::nullopt) != frames.end()) frames.clear();
-    auto all = obstacles;
-    all.insert(all.end(), frames.begin(), frames.end());
-    if (fills_channel(robot, all)) {
-        for (auto* shapes_of : {&robot, &obstacles})
-            for (auto& shape : *shapes_of)
-                if (shape && has_concave(*shape)) shape.reset();
-        frames.clear();
-    }
     for (std::size_t k = 0; k < robot.size(); ++k) {
         if (robot[k]) {
             adding.add_part(robot[k]->core, static_cast<Index>(k));

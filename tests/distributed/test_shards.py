@@ -187,10 +187,6 @@ def test_round_shapes_of_other_kinds_are_refused_by_number(tmp_path: Path) -> No
     shapes = [cfree.Curved.circle((9, 0), 1), cfree.Curved.ellipse((0, 9), (1, 2))]
     with pytest.raises(cfree.UnsupportedError, match=r"obstacle 1: not bounded by lines and arcs .*scene.outer"):
         boundary(cfree.Scene(TRIANGLE, shapes), folder=tmp_path / "ellipse")
-    channel = cfree.Curved(Circle((0, 0), 3), [Circle((0, 0), 2)])
-    core = cfree.Curved.circle((0, 0), 1)
-    with pytest.raises(cfree.UnsupportedError, match="between two arcs about one center"):
-        boundary(cfree.Scene(cfree.Curved.circle((0, 0), "1/2"), [channel, core]), folder=tmp_path / "channel")
 
 
 def test_trapezoids_are_those_of_the_whole(tmp_path: Path) -> None:

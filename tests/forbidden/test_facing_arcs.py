@@ -6,17 +6,21 @@ import math
 import random
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from arc_rings import BAY, BRACKET, DROP, HALF, HOOK, LENS, SECTOR, plate, shape
-from cfree import Curved, Scene, UnsupportedError, boundary, free_space, load, save, verify
+from cfree import Curved, Scene, boundary, free_space, load, save, verify
+from cfree.curves import Arc
 from cfree.geometry import gauss_bonnet
 from cfree.verify.result import PROVED
 from facing_arcs import FAMILIES, faults, scene
 
 NEAR_ONE = 1 - Fraction(1, 2**60)
+HALVED = Fraction(1, 2)
+BLOCK = [(-9, -9), (9, -9), (9, 9), (-9, 9)]
 
 
 def lens_area(radius: float, apart: float) -> float:
@@ -100,10 +104,36 @@ def test_verify_boundary_confirms_facing_arcs(made: Scene) -> None:
     assert {check.name: check.how for check in result.checks}["closed surfaces"] == PROVED
 
 
-def test_an_arc_that_fits_between_two_arcs_about_one_center_is_refused() -> None:
-    made = Scene(shape(HALF, by=Fraction(1, 5)), [plate(), Curved.circle((0, 0), 1)])
-    with pytest.raises(UnsupportedError, match="fits exactly between two arcs about one center"):
-        boundary(made)
+@pytest.mark.parametrize("place", [(0, 0), (1, 0)])
+@pytest.mark.parametrize(("room", "cells"), [(0, 3), (Fraction(1, 2**60), 2), (-Fraction(1, 2**60), 3)])
+def test_a_disc_in_a_channel_between_two_arcs_about_one_center(place: Any, room: Fraction, cells: int) -> None:
+    """A half ring joins two rooms; a disc that fills it slides through, and cells are not joined by a slit."""
+    bay = [(4, 0), Arc((-4, 0), center=(0, 0)), (-4, -5), (4, -5)]
+    core = Curved([(3, 0), Arc((-3, 0), center=(0, 0)), (-3, -1), (-1, -1), (-1, -5), (1, -5), (1, -1), (3, -1)])
+    found = boundary(Scene(Curved.circle(place, HALVED - room / 2), [Curved(BLOCK, [bay]), core]))
+    space = free_space(found)
+    assert len(space) == cells and np.all(found.complex.euler % 2 == 0)
+    if not room:  # two rooms of 2 by 3, and what is beside the core's corners
+        assert sorted(space.volumes)[:2] == pytest.approx([math.tau * (6.25 - math.pi / 16)] * 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("exchanged", [False, True])
+@pytest.mark.parametrize(
+    "ring",
+    [
+        [("25/3", 0), (3, 4), Arc((3, -4), center=(0, 0))],  # a drop
+        [(0, -5), (5, -5), Arc((0, 0), center=(0, -5))],  # a quarter disc with its corner and its arc on the walls
+    ],
+)
+def test_a_corridor_as_wide_as_an_arc_of_more_than_half_a_turn_parts_rooms(ring: Any, exchanged: bool) -> None:
+    top = 0 if ring[0] == (0, -5) else 5
+    walls = [[(-9, -30), (9, -30), (9, -5), (-9, -5)], [(-9, top), (9, top), (9, 30), (-9, 30)]]
+    one, others = [Curved(ring)], [Curved(wall) for wall in walls]
+    bounded = Scene(one, others, bounds=(-40, -19, 40, 19))
+    for made in [Scene(others, one)] if exchanged else [Scene(one, others), bounded]:
+        found = boundary(made)
+        assert np.all(found.complex.euler % 2 == 0) and np.all(found.regularized.complex.euler % 2 == 0)
+        assert len(free_space(found)) == (2 if made.bounds else 1)
 
 
 @pytest.mark.slow

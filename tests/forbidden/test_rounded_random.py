@@ -95,6 +95,8 @@ def test_angles_are_as_narrow_as_doubles_however_they_were_found() -> None:
             assert np.all(high - low < 1e-11)
     one, other = (counts(built(each)).volumes for each in (plain, mirrored(plain)))
     assert np.allclose(one, other, rtol=1e-12, atol=0)
+    near = shape([(Fraction(-1, 2**74), 0)], 1)  # numbers of two doubles leave 2^-26 of an angle of the two discs
+    assert not list(surface_faults(built(among(shape([(0, 0), (2, 0), (0, 2)], 1), shape([(0, 0)], 1), near))))
 
 
 def discs(*places: tuple[Any, Any, Any]) -> list[Shape]:
@@ -227,7 +229,7 @@ def test_circles_that_are_nearly_one_are_told_apart_by_their_branches(bits: int,
 def test_a_root_beside_a_double_one_is_an_angle_of_its_own() -> None:
     """A length that differs by 2^-88 parts a touch from a crossing, at the end of a chart."""
     robot = shape([(0, 0), (2, 1), (1, 1), (0, 2)], HALF / 2)
-    wall = shape([(3 - Fraction(1, 2**88), Fraction(-5, 2)), (Fraction(3, 2) - Fraction(1, 2**88), Fraction(-5, 2))], HALF / 2)
+    wall = shape([(3 - Fraction(1, 2**88), -5 * HALF), (3 * HALF - Fraction(1, 2**88), -5 * HALF)], HALF / 2)
     assert not list(surface_faults(built(among(robot, shape([(0, 0)], HALF / 2), wall))))
 
 

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from arc_rings import BAY, BRACKET, CONCAVE, CORNERS, CRESCENT, DOME, HALF, HOOK, LENS, RINGS, plate, shape
-from cfree import Boundary, Curved, Pose, Scene, boundary, free_space, is_free
-from cfree.curves import Arc
+from cfree import Boundary, Curved, Polygon, Pose, Scene, boundary, free_space, is_free
+from cfree.curves import Arc, Circle
 
 POSES = 60
 TURNS = [(Fraction(4, 5), Fraction(3, 5)), (Fraction(-5, 13), Fraction(12, 13)), (Fraction(0), Fraction(1))]
@@ -84,8 +84,62 @@ def blended(rng: random.Random) -> Scene:
     return Scene(some, other) if rng.random() < 0.7 else Scene(other, some)
 
 
+def channels(rng: random.Random) -> Scene:
+    """A disc, or a shape with one, that exactly fills the space between two arcs about one center, or nearly."""
+    radius, inner = Fraction(rng.randint(1, 4), 4), Fraction(rng.randint(0, 6), 2)
+    hair = rng.choice([Fraction(0), Fraction(0), Fraction(0), Fraction(1, 2**60), -Fraction(1, 2**60)])
+    outer = inner + 2 * radius + hair
+    by = rng.choice([Fraction(1), Fraction(1), Fraction(1, 2)])  # of the room below
+    bay = [(outer, 0), Arc((-outer, 0), center=(0, 0)), (-outer, -2 * by), (outer, -2 * by)]
+    walls: list[Any] = [Curved([(-6, -6), (6, -6), (6, 7), (-6, 7)], [bay])]
+    arc = rng.choice(["half", "quarter", "disc"])
+    if inner and arc == "disc":
+        walls.append(Curved.circle((0, 0), inner))
+    elif inner:
+        x, y = (-inner, Fraction(0)) if arc == "half" else (Fraction(0), inner)
+        walls.append(Curved([(inner, 0), Arc((x, y), center=(0, 0)), *([(0, 0)] if arc == "quarter" else [])]))
+    if rng.random() < 0.3:  # the channel turned, which leaves no axis-parallel edges
+        turn = rng.choice(TURNS)
+        walls = [_image(wall, turn, 1, -1, Fraction(1)) for wall in walls]
+    parts = [_part(rng, radius)]
+    return Scene(parts, walls) if rng.random() < 0.7 else Scene(walls, parts)
+
+
+def tears(rng: random.Random) -> Scene:
+    """A shape with arcs of more than half a turn, or about its corner, in a corridor just as wide, or nearly."""
+    radius = Fraction(rng.randint(1, 4), 2)
+    hair = rng.choice([Fraction(0), Fraction(0), Fraction(1, 2**60), -Fraction(1, 2**60)])
+    width = radius * rng.choice([1, 2, 2]) + hair
+    ceiling = [(-4, width), (rng.choice([3, 4]), width), (4, width + 2), (-4, width + 2)]
+    walls: list[Any] = [Polygon([(-4, -2), (4, -2), (4, 0), (-4, 0)]), Polygon(ceiling)]
+    if rng.random() < 0.4:
+        walls.append(Curved.circle((rng.randint(-7, 7), width + radius), radius))
+    if rng.random() < 0.3:
+        turn = rng.choice(TURNS)
+        walls = [_image(wall, turn, 1, -1, Fraction(1)) for wall in walls]
+    parts = [_part(rng, radius)]
+    return Scene(parts, walls) if rng.random() < 0.7 else Scene(walls, parts)
+
+
+def _part(rng: random.Random, radius: Fraction) -> Curved:
+    """A disc, a drop, a quarter or another sector of a disc, a ring with a disc's side; anywhere."""
+    x, y = rng.choice([(0, 0), (0, 0), (1, 0), (Fraction(1, 2), Fraction(-1, 2))])
+    up, down = (Fraction(3, 5), Fraction(4, 5)), (Fraction(3, 5), Fraction(-4, 5))
+    rings: list[list[Any]] = [
+        [(Fraction(5, 3), 0), up, Arc(down, center=(0, 0))],
+        [(0, 0), (1, 0), Arc((0, 1), center=(0, 0))],
+        [(0, 0), up, Arc(down, center=(0, 0))],
+        [down, Arc(up, center=(0, 0))],
+        [(1, 0), Arc((-1, 0), center=(0, 0)), (Fraction(-1, 2), 0), Arc((Fraction(1, 2), 0), center=(0, 0))],
+    ]
+    if rng.random() < 0.3:
+        return Curved.circle((x, y), radius)
+    return _image(Curved(rng.choice(rings)), rng.choice([(Fraction(1), Fraction(0)), *TURNS]), x, y, radius)
+
+
 FAMILIES: dict[str, Callable[[random.Random], Scene]] = {
     "mixed": mixed, "turned": turned, "both": both, "fits": fits, "lattice": lattice, "blended": blended,
+    "channels": channels, "tears": tears,
 }  # fmt: skip
 
 
@@ -103,11 +157,15 @@ def _image(part: Any, turn: tuple[Fraction, Fraction], x: Any, y: Any, by: Fract
     def at(p: Any) -> tuple[Fraction, Fraction]:
         return (c * p[0] - s * p[1]) * by + x, (s * p[0] + c * p[1]) * by + y
 
-    def ring(path: Any) -> list[Any]:
+    def ring(path: Any) -> Any:
+        if isinstance(path, Circle):
+            return Circle(at(path.center), path.radius * by)
         return [
             Arc(at(p.to), center=at(p.center), clockwise=p.clockwise) if isinstance(p, Arc) else at(p) for p in path
         ]
 
+    if isinstance(part, Polygon):
+        return Polygon([at(p) for p in part.exact_vertices])
     return Curved(ring(part.path), [ring(hole) for hole in part.holes], grown=part.grown * by)
 
 

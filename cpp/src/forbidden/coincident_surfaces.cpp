@@ -2,6 +2,7 @@
 #include "forbidden/coincident_surfaces.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "cfree/scene/features.hpp"
@@ -182,65 +183,89 @@ void CoincidentSurfaces::add_bounds(const Feature& contact, std::vector<Feature>
     }
 }
 
-RoundSlits::RoundSlits(const Scene& s) : scene(s) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    for (Index i = 0; i < A.ring_vertices; ++i) (A.layer[i] == reference_layer ? references : bodies).push_back(i);
-    const auto add = [](std::vector<std::unique_ptr<const Lines>>& all, const Shape& shape, const Int& further) {
-        if (!moved_by(all, further)) all.push_back(std::make_unique<const Lines>(shape, body_layer, further));
-    };
-    for (const Index i : bodies)
-        if (!A.has_extent(i) || !at(i).empty()) add(walls, O, A.radius_of(i).exact);
-    if (!references.empty()) bounds = std::make_unique<const Lines>(O, reference_layer, 0);
-    for (Index j = 0; j < O.ring_vertices; ++j)
-        if (!O.has_extent(j) && O.layer[j] == body_layer) add(prongs, A, O.radius_of(j).exact);
+RoundSlits::Places::Places(const Shape& s) : place(s.ring_vertices) {
+    std::vector<Index> order(s.ring_vertices);
+    std::iota(order.begin(), order.end(), Index(0));
+    const auto key = [&](Index v) { return std::tie(s.X[v], s.Y[v]); };
+    std::sort(order.begin(), order.end(), [&](Index v, Index w) { return std::tuple(key(v), v) < std::tuple(key(w), w); });
+    for (const Index v : order) {
+        if (at.empty() || !is_one_place(s, at.back().front(), v)) at.emplace_back();
+        at.back().push_back(v), place[v] = static_cast<Index>(at.size()) - 1;
+    }
+    for (Index v = 0; v < s.ring_vertices; ++v)
+        if (!beside(s, v).empty()) facing.push_back(v);
 }
 
-const RoundSlits::Lines* RoundSlits::moved_by(const std::vector<std::unique_ptr<const Lines>>& all, const Int& further) {
+std::vector<Index> RoundSlits::Places::beside(const Shape& s, Index vertex) const {
+    std::vector<Index> result = at[place[vertex]];
+    if (s.has_extent(vertex)) std::erase(result, vertex);
+    return result;
+}
+
+RoundSlits::RoundSlits(const Scene& s) : scene(s), of_robot(s.robot), of_obstacles(s.obstacles) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    for (Index i = 0; i < A.ring_vertices && !bounds; ++i)
+        if (A.layer[i] == reference_layer) bounds = std::make_unique<const Lines>(O, reference_layer, 0);
+    for (const Index i : of_robot.facing)
+        if (A.layer[i] == body_layer && A.convex[i]) add_moved(walls, O, A.radius_of(i).exact);
+    for (const Index j : of_obstacles.facing)
+        if (O.layer[j] == body_layer && O.convex[j]) add_moved(prongs, A, O.radius_of(j).exact);
+}
+
+void RoundSlits::add_moved(LinesByRadius& all, const Shape& s, const Int& further) {
+    if (!moved_by(all, further)) all.push_back(std::make_unique<const Lines>(s, body_layer, further));
+}
+
+const RoundSlits::Lines* RoundSlits::moved_by(const LinesByRadius& all, const Int& further) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const auto& lines) { return lines->by == further; });
     return found == all.end() ? nullptr : found->get();
 }
 
 RoundSlits::~RoundSlits() = default;
 
-std::vector<Index> RoundSlits::at(Index vertex) const {
-    std::vector<Index> result;
-    const Shape& A = scene.robot;
-    const bool is_reference = A.layer[vertex] == reference_layer;
-    for (const Index i : is_reference ? bodies : references)
-        if (is_one_place(A, vertex, i)) result.push_back(i);
-    return result;
+void RoundSlits::add_opposite(const Feature& contact, std::vector<Feature>& out) const {
+    if (contact.kind == Kind::vertex_vertex) add_circles(contact, out);
+    else add_lines(contact, out);
 }
 
-void RoundSlits::add_opposite(const Feature& contact, std::vector<Feature>& out) const {
+void RoundSlits::add_lines(const Feature& contact, std::vector<Feature>& out) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
     if (contact.kind == Kind::vertex_edge) {
-        const bool is_reference = A.layer[i] == reference_layer;
-        const Int by = is_reference ? Int(0) : A.radius_of(i).exact;
-        for (const Index i2 : at(i)) {
-            const Lines* others = is_reference ? moved_by(walls, A.radius_of(i2).exact) : bounds.get();
-            if (!A.convex[i2]) continue;
-            for (const Index e : others->opposite(j, by)) out.push_back({Kind::vertex_edge, i2, e});
+        for (const Index i2 : of_robot.beside(A, i)) {
+            if (!A.convex[i2] || (A.layer[i] == reference_layer && A.layer[i2] == reference_layer)) continue;
+            const Lines* others = A.layer[i2] == reference_layer ? bounds.get() : moved_by(walls, A.radius_of(i2).exact);
+            for (const Index e : others->opposite(j, A.radius_of(i).exact)) out.push_back({Kind::vertex_edge, i2, e});
         }
-        if (!is_reference && !A.has_extent(i))
-            for (const Index e : moved_by(walls, by)->opposite(j, by)) out.push_back({Kind::vertex_edge, i, e});
-    } else if (contact.kind == Kind::edge_vertex && !O.has_extent(j) && O.layer[j] == body_layer) {
-        const Int& by = O.radius_of(j).exact;
-        for (const Index e : moved_by(prongs, by)->opposite(i, by)) out.push_back({Kind::edge_vertex, e, j});
+    } else if (O.layer[j] == body_layer) {
+        for (const Index j2 : of_obstacles.beside(O, j))
+            if (O.layer[j2] == body_layer && O.convex[j2] && O.emit[j2])
+                for (const Index g : moved_by(prongs, O.radius_of(j2).exact)->opposite(i, O.radius_of(j).exact)) out.push_back({Kind::edge_vertex, g, j2});
     }
+}
+
+void RoundSlits::add_circles(const Feature& contact, std::vector<Feature>& out) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (!A.has_concave() && !O.has_concave()) return;
+    const Int rho = A.radius_of(contact.robot).exact + O.radius_of(contact.obstacle).exact;
+    for (const Index i : of_robot.beside(A, contact.robot))
+        for (const Index j : of_obstacles.beside(O, contact.obstacle))
+            if (A.layer[i] == O.layer[j] && O.emit[j] && A.radius_of(i).exact + O.radius_of(j).exact == -rho && makes_circles(scene, i, j))
+                out.push_back({Kind::vertex_vertex, i, j, contact.branch});
 }
 
 bool RoundSlits::may_be() const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     std::vector<Feature> opposite;
-    for (Index i = 0; i < A.ring_vertices && opposite.empty(); ++i) {
-        if (A.layer[i] == body_layer ? A.has_extent(i) : at(i).empty()) continue;
-        for (Index j = 0; j < O.ring_vertices && opposite.empty(); ++j)
-            if (O.layer[j] == A.layer[i] && O.makes_surfaces(j) && O.emit[j]) add_opposite({Kind::vertex_edge, i, j}, opposite);
-    }
-    for (Index j = 0; j < O.ring_vertices && opposite.empty(); ++j)
-        for (Index i = 0; !O.has_extent(j) && i < A.ring_vertices && opposite.empty(); ++i)
-            if (O.layer[j] == A.layer[i] && A.makes_surfaces(i)) add_opposite({Kind::edge_vertex, i, j}, opposite);
+    for (const Index i : of_robot.facing)
+        for (Index j = 0; j < O.ring_vertices && opposite.empty(); ++j) {
+            if (A.layer[i] != O.layer[j] || !O.emit[j]) continue;
+            if (A.convex[i] && O.makes_surfaces(j)) add_lines({Kind::vertex_edge, i, j}, opposite);
+            if (makes_circles(scene, i, j)) add_circles({Kind::vertex_vertex, i, j}, opposite);
+        }
+    for (const Index j : of_obstacles.facing)
+        for (Index i = 0; i < A.ring_vertices && opposite.empty(); ++i)
+            if (A.layer[i] == O.layer[j] && O.emit[j] && O.convex[j] && A.makes_surfaces(i)) add_lines({Kind::edge_vertex, i, j}, opposite);
     return !opposite.empty();
 }
 

@@ -15,9 +15,9 @@ struct Range {
 };
 Range range_of(const Scene& scene, const Feature& contact, Counters& counters);
 
-// Contacts among grown shapes whose surfaces coincide and whose free sides face each other. A line of the obstacles, moved by
-// both radii, is one with a line that faces it. The robot's vertex is then a disc's centre for both; or it is at the reference
-// point, and one of the lines is a bound. Or else two lines of the robot face each other around a disc.
+// Contacts among grown shapes whose surfaces coincide and whose free sides face each other. Their vertices of the robot are at one
+// place, and lines of the obstacles, moved by both radii, are one; or the same with robot and obstacles exchanged. Or their vertices
+// of both are at one place, and a concave arc's circle is that of a convex one.
 class RoundSlits {
 public:
     explicit RoundSlits(const Scene& scene);
@@ -27,13 +27,25 @@ public:
 
 private:
     struct Lines;
-    std::vector<Index> at(Index vertex) const;  // vertices of the other layer at the place of one
-    static const Lines* moved_by(const std::vector<std::unique_ptr<const Lines>>& all, const Int& further);
+    // Vertices of a shape by place.
+    struct Places {
+        std::vector<std::vector<Index>> at;
+        std::vector<Index> place;
+        // Vertices beside which there is another one, or that are discs: the cone of a vertex is narrower than half a turn.
+        std::vector<Index> facing;
+        explicit Places(const Shape& s);
+        // Vertices at the place of one whose normals may be opposite to its own.
+        std::vector<Index> beside(const Shape& s, Index vertex) const;
+    };
+    void add_lines(const Feature& contact, std::vector<Feature>& out) const;
+    void add_circles(const Feature& contact, std::vector<Feature>& out) const;
+    using LinesByRadius = std::vector<std::unique_ptr<const Lines>>;
+    static const Lines* moved_by(const LinesByRadius& all, const Int& further);
+    static void add_moved(LinesByRadius& all, const Shape& s, const Int& further);
     const Scene& scene;
-    std::vector<Index> references, bodies;
+    Places of_robot, of_obstacles;
     std::unique_ptr<const Lines> bounds;
-    // Edges of the obstacles, by radii of the robot, and edges of the robot, by radii of discs among the obstacles.
-    std::vector<std::unique_ptr<const Lines>> walls, prongs;
+    LinesByRadius walls, prongs;  // edges of the obstacles, by radii of the robot, and edges of the robot, by radii of the obstacles
 };
 
 // True if vertex i of the robot and vertex j of the obstacles touch on a circle: both are convex, and one is an arc; or one is a

@@ -347,10 +347,18 @@ template <class At>
 void LevelGluer<At>::pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q,
                                       At& at) {
     if (around == Around::all && live.size() <= 2) return parts.pair(live.front().second, live.back().second);
-    if (is_circle(live[0].first->contact)) {  // one surface before, and one after; or two that face each other
-        const bool is_pair = live.size() == 2 && (live[0].first->is_above != live[1].first->is_above) == (live[0].first->along == live[1].first->along);
-        if (is_pair) return parts.pair(live[0].second, live[1].second);
-        return fail_to_glue("a circle with " + std::to_string(live.size()) + " sides", live[0].first->trapezoid, whole);
+    if (is_circle(live[0].first->contact)) {  // one surface before, and one after; or before, or after, two that face each other
+        const auto is_above = [](const auto& x) { return x.first->is_above; };
+        auto sides = live;
+        const auto below = std::stable_partition(sides.begin(), sides.end(), is_above);
+        const auto face_each_other = [](auto begin, auto end) { return end - begin == 2 && begin[0].first->along != begin[1].first->along; };
+        const bool is_one = live.size() == 2 && below - sides.begin() == 1 && sides[0].first->along == sides[1].first->along;
+        const bool has_above = face_each_other(sides.begin(), below), has_below = face_each_other(below, sides.end());
+        if (!is_one && live.size() != (has_above ? 2u : 0u) + (has_below ? 2u : 0u))
+            fail_to_glue("a circle with " + std::to_string(live.size()) + " sides", live[0].first->trapezoid, whole);
+        if (is_one || has_above) parts.pair(sides[0].second, sides[1].second);
+        if (has_below) parts.pair(below[0].second, below[1].second);
+        return;
     }
     auto sorted = live;
     const auto is_left = [&](const Level* x, const Level* y) {  // x further left than y, of two above or two below

@@ -62,8 +62,7 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
         const bool is_reference = A.layer[i] == reference_layer;
         const Int mine = A.radius_of(i).exact + (is_circle_here ? O.radius_of(j).exact : O.radius_of(O.v[j]).exact);
         for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {
-            const bool is_same_layer = A.layer[i2] == A.layer[i];
-            if (is_same_layer ? i2 != i || is_reference || A.has_extent(i) : A.X[i2] != A.X[i] || A.Y[i2] != A.Y[i]) continue;
+            if (A.X[i2] != A.X[i] || A.Y[i2] != A.Y[i] || (i2 == i && A.has_extent(i)) || (is_reference && A.layer[i2] == reference_layer)) continue;
             const auto add_at = [&](Index v) {
                 if (O.layer[v] != A.layer[i2] || !O.emit[v]) return;
                 if ((O.convex[v] && A.convex[i2]) || makes_circles(scene, i2, v))
@@ -78,14 +77,17 @@ std::vector<RoundTrimmer::Touch> RoundTrimmer::touches(const std::vector<Index>&
             for (const Index v : near) add_at(v);
         }
     }
-    // around a disc among the obstacles
-    if (own.kind != Kind::vertex_edge && !O.has_extent(j) && O.layer[j] == body_layer) {
-        const Int& disc = O.radius_of(j).exact;
-        const Int mine = disc + (is_circle_here ? A.radius_of(i).exact : A.radius_of(A.v[i]).exact);
-        for (Index v = 0; v < A.ring_vertices; ++v) {
-            if (A.layer[v] != body_layer) continue;
-            if (A.convex[v] || makes_circles(scene, v, j)) add(A, i, v, false, mine, A.radius_of(v).exact + disc, {Kind::vertex_vertex, v, j, 1});
-            if (is_circle_here && A.makes_surfaces(v)) add(A, i, v, true, mine, A.radius_of(v).exact + disc, {Kind::edge_vertex, v, j, 1});
+    // around one place of the obstacles
+    if (own.kind != Kind::vertex_edge && O.layer[j] == body_layer) {
+        const Int mine = O.radius_of(j).exact + (is_circle_here ? A.radius_of(i).exact : A.radius_of(A.v[i]).exact);
+        for (const Index j2 : ring_vertices(O, pieces)) {
+            if (O.X[j2] != O.X[j] || O.Y[j2] != O.Y[j] || O.layer[j2] != body_layer || !O.emit[j2] || (j2 == j && O.has_extent(j))) continue;
+            for (Index v = 0; v < A.ring_vertices; ++v) {
+                if (A.layer[v] != body_layer) continue;
+                const Int other = A.radius_of(v).exact + O.radius_of(j2).exact;
+                if ((A.convex[v] && O.convex[j2]) || makes_circles(scene, v, j2)) add(A, i, v, false, mine, other, {Kind::vertex_vertex, v, j2, 1});
+                if (is_circle_here && A.makes_surfaces(v) && O.convex[j2]) add(A, i, v, true, mine, other, {Kind::edge_vertex, v, j2, 1});
+            }
         }
     }
     return result;

@@ -62,10 +62,11 @@ std::vector<Trimmer::Span> RoundTrimmer::spans_between(std::vector<Event> cuts, 
 }
 
 // The directions of a quadrant in the cones of both vertices, between joints with the edges beside them and ends of the quadrant,
-// change only where two of these are parallel.
+// change only where two of these are parallel. If the pair's circle is this one with the other side free, its normals are opposite.
 std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
+    const bool is_opposite = cfree::is_concave(scene, contact) != is_concave;
     std::vector<Area> areas;
     const auto seams = quadrant();
     std::vector<std::array<Feature, 2>> cones;  // first and last direction
@@ -73,14 +74,20 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     if (O.is_concave(j)) std::swap(cones.back()[0], cones.back()[1]);
     if (A.has_extent(i)) cones.push_back({Feature{Kind::edge_vertex, A.previous[i], j}, Feature{Kind::edge_vertex, i, j}});
     if (A.is_concave(i)) std::swap(cones.back()[0], cones.back()[1]);
+    // a direction of a seam, or of a cone's end
+    using Direction = RoundOrders::Direction;
+    const auto turn = [&](const Direction& u, const Direction& v, const Sample& at) {
+        const bool is_reversed = is_opposite && (u.to.kind == Kind::seam) != (v.to.kind == Kind::seam);
+        return is_reversed ? -orders.turn(u, v, at) : orders.turn(u, v, at);
+    };
     if (O.has_extent(j)) {  // a cone that does not turn
         const Sample any{events[0].lo, {}};
         const auto of = [&](const Feature& f) { return orders.direction(f, any); };
         const auto first = of(cones[0][0]), last = of(cones[0][1]), begin = of(seams[0]), end = of(seams[1]);
-        const auto is_between = [&](const auto& from, const auto& at, const auto& to) {
-            return orders.turn(from, at, any) >= 0 && orders.turn(at, to, any) >= 0;
+        const auto is_between = [&](const auto& from, const auto& to, const auto& here) {
+            return turn(from, here, any) >= 0 && turn(here, to, any) >= 0;
         };
-        if (!is_between(begin, first, end) && !is_between(first, begin, last)) return areas;
+        if (!is_between(begin, end, first) && !is_between(first, last, begin)) return areas;
     }
     std::vector<Event> cuts;
     const auto add = [&](const Predicates::Roots& roots) { cuts.insert(cuts.end(), roots.at.begin(), roots.at.end()); };
@@ -95,25 +102,28 @@ std::vector<Trimmer::Area> RoundTrimmer::in_cones(const Feature& contact) {
     const auto ends_here = ends_of_quadrant();
     for (const auto& [from, to] : spans_between(std::move(cuts))) {
         const Sample at = decide.between(events[from], events[to]);
-        using Direction = RoundOrders::Direction;
         const auto both = [&](const std::array<Feature, 2>& f) { return std::array{orders.direction(f[0], at), orders.direction(f[1], at)}; };
         const std::array<Direction, 2> ends_of = both(seams);
         std::array<std::array<Direction, 2>, 2> of_cones;
         for (std::size_t k = 0; k < cones.size(); ++k) of_cones[k] = both(cones[k]);
         const auto is_inside = [&](const Direction& line) {
-            if (orders.turn(ends_of[0], line, at) < 0 || orders.turn(line, ends_of[1], at) < 0) return false;
+            if (turn(ends_of[0], line, at) < 0 || turn(line, ends_of[1], at) < 0) return false;
             return std::all_of(of_cones.begin(), of_cones.begin() + static_cast<std::ptrdiff_t>(cones.size()), [&](const auto& cone) {
-                return orders.turn(cone[0], line, at) >= 0 && orders.turn(line, cone[1], at) >= 0;
+                return turn(cone[0], line, at) >= 0 && turn(line, cone[1], at) >= 0;
             });
         };
-        std::optional<Feature> limits[2];
+        struct Limit {
+            Feature curve;
+            Direction direction;
+        };
+        std::optional<Limit> limits[2];
         for (const int end : {0, 1}) {  // a joint in an end of the quadrant bounds
-            if (is_inside(ends_of[end])) limits[end] = ends_here[end];
+            if (is_inside(ends_of[end])) limits[end] = {ends_here[end], ends_of[end]};
             for (std::size_t k = 0; k < cones.size(); ++k)
-                if (is_inside(of_cones[k][end])) limits[end] = cones[k][end];
+                if (is_inside(of_cones[k][end])) limits[end] = {cones[k][end], of_cones[k][end]};
         }
-        if (limits[0] && limits[1] && orders.turn(orders.direction(*limits[0], at), orders.direction(*limits[1], at), at) > 0)
-            areas.push_back({from, to, curve_of(*limits[is_concave], false), curve_of(*limits[!is_concave], false), 0, 1});
+        if (!limits[0] || !limits[1] || turn(limits[0]->direction, limits[1]->direction, at) <= 0) continue;
+        areas.push_back({from, to, curve_of(limits[is_concave]->curve, false), curve_of(limits[!is_concave]->curve, false), 0, 1});
     }
     for (Area& area : areas) bounds(area);
     return areas;
@@ -439,7 +449,22 @@ const std::vector<int>& RoundTrimmer::joint_signs(const Pillar& pillar, const Sa
         if (!known && sign == 0) sign = sign_of(line, circle, at);
         signs.push_back(sign);
     }
+    const auto set_inside = [&](int k) { signs[static_cast<std::size_t>((k + 2 * count) % (2 * count))] = -1; };
+    for (int k = 0; is_concave && k < count; ++k) {  // an arc of the same circle, free outside: its joints count as those of a smaller pillar
+        if (!is_opposite(pillar.circle(k))) continue;
+        set_inside(2 * k), set_inside(2 * k - 1);
+        if (is_stub(pillar.edge(k).line)) set_inside(2 * k + 1);
+        if (is_stub(pillar.edge(k - 1).line)) set_inside(2 * k - 2);
+    }
     return signs;
+}
+
+// True if a pillar's circle is that of the concave arc.
+bool RoundTrimmer::is_opposite(const Feature& circle) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature& x = surface.contact;
+    const auto is_one_place = [](const Shape& s, Index v, Index w) { return s.X[v] == s.X[w] && s.Y[v] == s.Y[w]; };
+    return is_one_place(A, x.robot, circle.robot) && is_one_place(O, x.obstacle, circle.obstacle) && orders.compare_radius(circle) == 0;
 }
 
 // Curves by which the surface enters and leaves, each between a joint on one side and the next one on the other: it enters after

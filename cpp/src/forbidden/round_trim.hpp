@@ -78,6 +78,7 @@ private:
     bool shape(Index p, Index k, const Sample& at, Pillar& out);
     bool has_extent(const Feature& circle) const;  // its radius is not 0
     bool is_stub(const Feature& line) const;
+    bool is_opposite(const Feature& circle) const;
     Feature circle_of(const Pillar& pillar, const Joint& joint) const;
     std::optional<int> known_sign(const Feature& line, const Feature& circle) const;
     Joint joint(const Pillar& pillar, int k) const;

@@ -262,16 +262,16 @@ bool Trimmer::compare(Overlap& x) {
     x.from = before(area.from, band.from) ? band.from : area.from;
     x.to = before(band.to, area.to) ? band.to : area.to;
     if (!before(x.from, x.to)) return false;
-    const auto order = [&](Overlap::Which which, Index p, double p_min, double p_max, Index q, double q_min, double q_max) {
+    const auto order = [&](Overlap::Which which, const Area::Side& p, const Area::Side& q) {
         Predicates::Order& result = x.orders[which];
-        if (p_max < q_min || q_max < p_min) result.sign[0] = p_max < q_min ? -1 : 1, result.strict = true;
-        else result = decide.compare(curves[p], curves[q], events[x.from], events[x.to]);
+        if (p.max < q.min || q.max < p.min) result.sign[0] = p.max < q.min ? -1 : 1, result.strict = true;
+        else result = decide.compare(curves[p.curve], curves[q.curve], events[x.from], events[x.to]);
         return result.at.empty() ? result.sign[0] : 2;
     };
-    if (const int s = order(Overlap::lower_to_upper, band.lower, band.t_min, band.lower_max, area.upper, area.upper_min, area.t_max); s == 0 || s == 1) return false;
-    if (order(Overlap::upper_to_lower, band.upper, band.upper_min, band.t_max, area.lower, area.t_min, area.lower_max) <= 0) return false;
-    order(Overlap::lower_to_lower, band.lower, band.t_min, band.lower_max, area.lower, area.t_min, area.lower_max);
-    order(Overlap::upper_to_upper, band.upper, band.upper_min, band.t_max, area.upper, area.upper_min, area.t_max);
+    if (const int s = order(Overlap::lower_to_upper, band.low(), area.high()); s == 0 || s == 1) return false;
+    if (order(Overlap::upper_to_lower, band.high(), area.low()) <= 0) return false;
+    order(Overlap::lower_to_lower, band.low(), area.low());
+    order(Overlap::upper_to_upper, band.high(), area.high());
     return true;
 }
 

@@ -191,6 +191,12 @@ bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brac
     return true;
 }
 
+// True if brackets tell their roots to ten digits and more. Places are computed from the middle of one: near ties, where one rung
+// leaves wide ones, the next isolates.
+inline bool are_narrow(const Brackets& found) {
+    return std::all_of(found.begin(), found.end(), [](const auto& root) { return root[1] - root[0] < 0x1p-36; });
+}
+
 // Find brackets a little beyond the two ends, as a root may be one of them.
 template <class Form>
 bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {

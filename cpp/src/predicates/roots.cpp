@@ -49,7 +49,7 @@ std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& 
     if (result.all_zero) return result;
     Brackets found;
     if (p.count > 3) {
-        if (!isolate_around(Balls(p), lo, hi, found)) return {};
+        if (!isolate_around(Balls(p), lo, hi, found) || !are_narrow(found)) return {};
         for (const auto& [below, above] : found) result.at.push_back({first, second, below, above});
         return result;
     }
@@ -57,9 +57,9 @@ std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& 
     const auto sign = certain_sign(discriminant);
     if (!sign) return {};
     if (*sign < 0) return result;
-    if (!isolate_quadratic(p, discriminant, found)) {
+    if (!isolate_quadratic(p, discriminant, found) || !are_narrow(found)) {
         found = {};
-        if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found)) return {};
+        if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found) || !are_narrow(found)) return {};
     }
     for (const auto& [below, above] : found) result.at.push_back({first, second, below, above, -1, *sign == 0});
     return result;
@@ -94,7 +94,7 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
     };
     Brackets found;
     // simple quartics have just been tried
-    if ((p.size() <= 3 || simple.size() < p.size()) && isolate_around(Balls(simple), lo, hi, found)) {
+    if ((p.size() <= 3 || simple.size() < p.size()) && isolate_around(Balls(simple), lo, hi, found) && are_narrow(found)) {
         for (const auto& [l, h] : found)
             result.at.push_back({first, second, l, h, -1, is_touch(Dyadic::from(l), Dyadic::from(h))});
         return result;

@@ -321,11 +321,7 @@ int RoundOrders::sign_on(const Feature& first, const Feature& second, double lo,
     return common_sign(sign, all.degree);
 }
 
-// Places are computed from the middle of a bracket: near ties, where doubles leave wide ones, balls isolate.
 bool RoundOrders::isolate(const Feature& first, const Feature& second, double lo, double hi, Brackets& found) const {
-    const auto are_narrow = [](const Brackets& roots) {
-        return std::all_of(roots.begin(), roots.end(), [](const auto& root) { return root[1] - root[0] < 0x1p-36; });
-    };
     KeptQuadratic* kept = kept_quadratic(first, second);
     if (!kept) return isolate_around(form(first, second), lo, hi, found) && are_narrow(found);
     if (!kept->is_isolated) {

@@ -31,7 +31,7 @@ from cfree.scene.core_shapes import core_shapes
 from cfree.scene.digest import SceneDigest
 from cfree.scene.features import SceneFeatures, features_of_cores
 from cfree.scene.reading import Note, together
-from cfree.scene.rounded import Cores, Rounded, fills_channel, rounded, why_not_rounded
+from cfree.scene.rounded import Cores, Rounded, rounded, why_not_rounded
 from cfree.scene.scene import AnyShape, Scene, box_of, robot_radius, with_obstacles, with_reading
 
 Ints = NDArray[np.int64]
@@ -220,10 +220,7 @@ def store_scene(
     save_scene(with_reading(empty, record), folder / "scene.json")
     facts = {"key": key, **table.facts(), "scene": digest.sha256}
     write_json(folder / "facts.json", facts | {"files": file_sums(folder / name for name in STORED)})
-    store = SceneStore(folder)
-    if store.is_round:
-        _refuse_channels(store)
-    return store
+    return SceneStore(folder)
 
 
 def _blocks(obstacles: Iterable[AnyShape]) -> Iterator[list[AnyShape]]:
@@ -338,14 +335,6 @@ def _core_of(shape: AnyShape) -> Rounded:
     core = rounded(shape)
     assert core is not None, "shapes are stored if they are rounded"
     return core
-
-
-def _refuse_channels(store: SceneStore) -> None:
-    """Raise UnsupportedError if a disc fits exactly between two arcs about one center, as `cfree.boundary` does."""
-    frame = store._frame
-    shapes = (_core_of(shape) for k in range(len(store)) for shape in store.shapes([k]))
-    if fills_channel(frame.robot, chain(shapes, frame.obstacles)):
-        raise UnsupportedError(why_not_rounded(store.head))
 
 
 def _fractions(facing: Sequence[Any]) -> list[Rounding]:

@@ -78,8 +78,7 @@ def boundary(
         If the computation contradicts itself: a fault of cfree. Its `state` is the scene.
     UnsupportedError
         If a shape is not rounded, that is, bounded by lines and arcs of rational radii, without cusps: polygons, discs,
-        stadiums, grown polygons, half discs, lenses, brackets with fillets, plates with round holes. Also if a disc of
-        one side fits exactly between a convex and a concave arc of the other one about one center.
+        stadiums, grown polygons, half discs, lenses, brackets with fillets, plates with round holes.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 

@@ -16,7 +16,7 @@ from cfree.formats.scene_file import EXPORTS, check_scene_path, load_shapes, sav
 from cfree.formats.shapes import Shapes
 from cfree.scene.complement import complement
 from cfree.scene.reading import Note, together
-from cfree.scene.rounded import known_cores, rounded, rounded_shapes
+from cfree.scene.rounded import rounded, rounded_shapes
 from cfree.scene.scene import Scene, largest_of, round_count, shapes_in, shapes_of, with_polygons, with_reading
 
 MOST_HEALED = 100  # shapes that are healed to tell if that makes them exact
@@ -140,9 +140,8 @@ def as_exact(scene: Scene, error: float | None, *, remedy: str = "") -> tuple[Sc
     if not scene.curved or rounded_shapes(scene) is not None:
         return scene, ()
     error = error or largest_of(scene) / CURVE_SHARE
-    are_refused = known_cores(scene).is_refused
     parts, others, around = (
-        [None if (core := rounded(shape)) and not (are_refused and core.has_concave) else error for shape in shapes]
+        [None if rounded(shape) else error for shape in shapes]
         for shapes in (scene.robot, scene.obstacles, complement(scene))
     )
     errors = [*parts, *others, error if any(around) else None]

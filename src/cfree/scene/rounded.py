@@ -7,11 +7,10 @@ docs/theory/rounded-shapes.md.
 from __future__ import annotations
 
 import math
-from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise, product
+from itertools import pairwise
 from typing import TYPE_CHECKING, cast
 
 import cfree._core as _core
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
 
 
 FINEST_CUTS = 5  # of a quarter circle in halves, for chords that meet no other side
-RadiiByPlace = Mapping[ExactPoint, set[Fraction]]
 FINEST_FILLETS = 8  # the same where some are concave
 WIDENINGS = [Fraction(1, 2**k) for k in range(2, 7)]  # how far points are beyond the tangents of concave arcs
 
@@ -146,48 +144,9 @@ class Cores:
         return None if self.frames else cast("Polygon | None", workspace)
 
     @property
-    def fills_channel(self) -> bool:
-        """True if a disc of one shape fits exactly between a convex and a concave arc of the other about one center."""
-        return fills_channel(self.robot, self.obstacles)
-
-    @property
-    def is_refused(self) -> bool:
-        """True if concave arcs keep these out of boundaries."""
-        return self.has_concave and self.fills_channel
-
-    @property
     def is_round(self) -> bool:
         """True if a shape is no polygon."""
         return any(shape.arcs or shape.radius for shape in (*self.robot, *self.obstacles))
-
-
-def fills_channel(robot: Iterable[Rounded], obstacles: Iterable[Rounded]) -> bool:
-    """True if a disc of one shape fits exactly between a convex and a concave arc of the other about one center."""
-    convex, concave = zip(*(_radii_by_place(shapes) for shapes in (robot, obstacles)), strict=True)
-    return any(
-        radius + other + rest + away == 0
-        for own in (0, 1)
-        for at, aways in concave[own].items()
-        for radii in convex[1 - own].values()
-        for away, other in product(aways, convex[own].get(at, ()))
-        for radius, rest in product(radii, radii)
-    )
-
-
-def _radii_by_place(shapes: Iterable[Rounded]) -> tuple[RadiiByPlace, RadiiByPlace]:
-    """Return radii of corners and of convex arcs by place, and those of concave arcs, which mostly are below 0."""
-    convex, concave = defaultdict[ExactPoint, set[Fraction]](set), defaultdict[ExactPoint, set[Fraction]](set)
-    for shape in shapes:
-        beyond = {arc.beyond[0] for arc in shape.arcs if arc.beyond}
-        for corner in shape.points:
-            if corner not in beyond:
-                convex[corner].add(shape.radius)
-        for arc in shape.arcs:
-            if arc.is_convex:
-                convex[arc.center].add(shape.radius + arc.radius)
-            else:
-                concave[arc.center].add(shape.radius - arc.radius)
-    return convex, concave
 
 
 def rounded(shape: AnyShape) -> Rounded | None:
@@ -415,10 +374,7 @@ def why_not_rounded(scene: Scene) -> str:
     all_shapes: list[AnyShape] = [*scene.robot, *scene.obstacles, *around]
     shapes = list(zip(names, all_shapes, strict=True))
     cores = [(name, rounded(shape)) for name, shape in shapes]
-    name = next((name for name, core in cores if core is None), None)
-    if name is None:
-        what = "a disc that fits exactly between two arcs about one center at all orientations is not computed"
-        return f"robot and obstacles: {what}; make it larger or smaller, or {remedy}"
+    name = next(name for name, core in cores if core is None)
     shape = next(shape for other, shape in shapes if other == name)
     if isinstance(shape, Curved) and all(_sides(ring, is_hole=r > 0) for r, ring in enumerate(shape.curves)):
         return f"{name}: {crossing(shape.curves, (shape.path, *shape.holes))}; move them apart, or {remedy}"
@@ -436,7 +392,7 @@ def known_cores(scene: Scene) -> Cores:
 
 
 def rounded_shapes(scene: Scene) -> Cores | None:
-    """Return the cores of a scene; None if a shape is not rounded, or arcs keep it out."""
+    """Return the cores of a scene; None if a shape is not rounded."""
     cores = known_cores(scene)
     is_whole = len(cores.robot) == len(scene.robot) and len(cores.obstacles) == len(scene.obstacles) + cores.frames
-    return cores if is_whole and not cores.is_refused else None
+    return cores if is_whole else None

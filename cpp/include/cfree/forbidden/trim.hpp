@@ -97,6 +97,12 @@ protected:
         Index from, to, lower, upper;  // two events, two curves
         double t_min, t_max;           // bounds of its t
         double lower_max = std::numeric_limits<double>::infinity(), upper_min = -lower_max;  // of its curves, if known
+        struct Side {
+            Index curve;
+            double min, max;  // bounds of its t
+        };
+        Side low() const { return {lower, t_min, lower_max}; }
+        Side high() const { return {upper, upper_min, t_max}; }
     };
     // An edge of the pillar: an obstacle edge with a robot vertex, or a robot edge with an obstacle vertex.
     struct PillarEdge {

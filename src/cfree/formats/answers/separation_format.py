@@ -167,8 +167,6 @@ class CoresModel(Strict):
     def _fits(self) -> CoresModel:
         if self.frames > len(self.obstacles):
             raise Fault(f'expected "frames" up to {len(self.obstacles)}, the number of obstacles, got {{got}}')
-        if self.result.is_refused:
-            raise Fault("channels that a disc fills; got {got}")
         return self
 
     @property
