@@ -16,7 +16,7 @@ from cfree import Curved, Scene, boundary, free_space, load, save, verify
 from cfree.curves import Arc
 from cfree.geometry import gauss_bonnet
 from cfree.verify.result import PROVED
-from facing_arcs import FAMILIES, faults, scene
+from facing_arcs import FAMILIES, faults, scene, swapped
 
 NEAR_ONE = 1 - Fraction(1, 2**60)
 HALVED = Fraction(1, 2)
@@ -96,6 +96,9 @@ def test_curvature_of_closed_surfaces_of_facing_arcs_adds_up() -> None:
         Scene(shape(LENS, by=Fraction(1, 2)), [shape(BAY)]),
         Scene([shape(BRACKET)], [shape(HALF, by=Fraction(1, 2))]),
         Scene(shape(SECTOR, by=Fraction(1, 3)), [plate()]),
+        Scene(Curved.circle((0, 0), 1), [plate(), Curved.circle((0, 0), 1)]),  # both walls everywhere
+        scene("channels", 0),  # the disc is too large by 2^-60
+        swapped(scene("tears", 11)),  # sides on lines through the origin
     ],
 )
 def test_verify_boundary_confirms_facing_arcs(made: Scene) -> None:

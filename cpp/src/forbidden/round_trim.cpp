@@ -661,7 +661,7 @@ void RoundTrimmer::on_any_circle(const Pillar& pillar, const std::vector<int>& s
         is_apart |= sign_of(with_branch(pillar.circle(k), 1), {}, at) >= 0;
     }
     const bool is_around = std::any_of(sign.begin(), sign.end(), [](int s) { return s < 0; }) ||
-                           (count == 0 && orders.compare_radius(pillar.circle(0)) > 0);
+                           (count == 0 && (orders.compare_radius(pillar.circle(0)) > 0 || (is_concave && is_opposite(pillar.circle(0)))));
     if (!is_apart && !is_around) out.bands.push_back(quadrant()), turn_bands(out);
 }
 

@@ -278,8 +278,8 @@ def _rough(level: Level) -> tuple[tuple[Any, ...], float]:
         b, a, turn = level.surface.b, level.surface.a, level.turn
         return key, float((arb(b[0]) - turn.cos * arb(a[0]) + turn.sin * arb(a[1])).mid())
     u, v = direction(level.surface, level.turn)
-    # the square of the height over the origin has no sign
-    return ("line",), float(((u * y - v * x) ** 2).mid())
+    # the height over the origin, without its sign; the power of a ball around 0 is no number
+    return ("line",), abs(float((u * y - v * x).mid()))
 
 
 def _coincide(one: list[Level], two: list[Level], scale: Scale) -> bool:

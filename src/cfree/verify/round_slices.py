@@ -449,7 +449,8 @@ def _parts(contact: Contact, pillars: Sequence[AnyPillar], size: float) -> Itera
     least = np.full(len(points), np.inf)
     for pillar in near:
         room = pillar.room(points)
-        if pillar.has(contact, SAME * size):
+        is_inside = isinstance(pillar, HollowPillar)  # then the circle is free inside
+        if pillar.has(contact, SAME * size) and is_inside == (contact.radius < 0):
             room = np.where(np.abs(room) < SURE * size, np.inf, room)  # the contact itself
         least = np.minimum(least, room)
     for point, room in zip(points.tolist(), least.tolist(), strict=True):
