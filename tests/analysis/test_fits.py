@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import oracles
-from cfree import Curved, Polygon, Pose, Scene, UnsupportedError, boundary, fits, is_free
+from cfree import Curved, Polygon, Pose, Scene, boundary, fits, is_free
 from cfree.analysis import Fit
 from cfree.curves import Arc
 from cfree.exact import AngleInterval
@@ -177,9 +177,6 @@ def test_what_fits_in_a_round_hole() -> None:
         assert fit.orientations == ALL and fit.pose is not None
         assert is_free(Scene(part, workspace=hole), fit.pose)
     assert fits(box("-6/5", "-8/5", "6/5", 1.7)[0], hole) == fits(Curved.circle((0, 0), "2.0000001"), hole) == ()
-    corner = Curved([(0, 0), (9, 0), (9, 4), (4, 4), (4, 9), (1, 9), Arc((0, 8), center=(1, 8))])
-    with pytest.raises(UnsupportedError, match=r"hole that is not convex .*scene.outer\(error\)"):
-        fits(SQUARE, corner)
 
 
 def _pocket(half_width: object, half_height: object, radius: object) -> Curved:
@@ -208,18 +205,53 @@ def test_exact_fits_in_convex_pockets(part: Any, hole: Curved, degrees: list[flo
     assert all(fit.pose is not None and is_free(Scene(part, workspace=hole), fit.pose) for fit in found)
 
 
+def _angle_plate(width: object, height: object, thickness: object, radius: object, reflex: object) -> Curved:
+    """An L with round corners, one of them reflex."""
+    w, h, t, r, q = (Fraction(value) for value in (width, height, thickness, radius, reflex))  # type: ignore[arg-type]
+    corners = [((w - r, 0), (w, r), (w - r, r)), ((w, t - r), (w - r, t), (w - r, t - r))]
+    corners += [((t + q, t), (t, t + q), (t + q, t + q))]
+    corners += [((t, h - r), (t - r, h), (t - r, h - r)), ((r, h), (0, h - r), (r, h - r)), ((0, r), (r, 0), (r, r))]
+    ring: list[Any] = []
+    for start, end, center in corners:
+        ring += [start] if not ring or ring[-1].to != start else []
+        ring.append(Arc(end, center=center, clockwise=center == (t + q, t + q)))
+    return Curved(ring)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("part", "degrees"),
+    [
+        ((6, 8, 2, "1/2", "1/2"), [0]),
+        ((6, 6, 2, 1, 1), [0]),  # the same in a mirror
+        ((6, 8, 2, "1/2", "1/4"), [0]),  # with a sharper reflex corner than the hole's, and a rounder one
+        ((6, 8, 2, "1/2", 1), []),
+        ((5, 3, 2, "1/2", "1/2"), [0]),  # it slides
+        ((2, 2, 1, "1/2", "1/2"), []),  # at intervals of orientations
+    ],
+)
+def test_exact_fits_in_a_hole_that_is_not_convex(part: tuple[Any, ...], degrees: list[float]) -> None:
+    hole = _angle_plate(6, 8, 2, "1/2", "1/2") if part[3] == "1/2" else _angle_plate(*part)
+    found = fits(_angle_plate(*part), hole)
+    assert [round(math.degrees(fit.place[2])) for fit in found if fit.orientations.is_single] == degrees
+    assert all(fit.pose and is_free(Scene(_angle_plate(*part), workspace=hole), fit.pose) for fit in found)
+
+
 def test_a_half_disc_turns_in_a_disc_of_its_radius() -> None:
     (fit,) = fits(Curved([(0, 2), Arc((0, -2), center=(0, 0))]), Curved.circle((0, 0), 2))
     assert fit.orientations == ALL and fit.place[:2] == (0, 0)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(7))
 def test_random_round_parts_fit_at_the_orientations_of_slices(seed: int) -> None:
     """Free positions at 60 orientations, by the boundary of the scene with chords: a little larger, or smaller."""
     rng = random.Random(seed)
     part: list[Any] = [Curved.circle((rng.randint(-4, 4) / 4, 0), "1/2"), _with_ends(rng.randint(1, 4))]
     hole: Any = box(0, 0, 3 + rng.randint(0, 8) / 4, 2 + rng.randint(1, 6) / 8)[0]
-    if seed >= 3:  # a polygon and a part with an arc in a pocket with fillets
+    if seed >= 6:  # in a hole that is not convex
+        part = [_pocket(Fraction(rng.randint(6, 9), 8), Fraction(rng.randint(3, 6), 8), Fraction(1, 4))]
+        hole = _angle_plate(4, 5, 2, Fraction(rng.randint(1, 3), 4), Fraction(1, 2))
+    elif seed >= 3:  # a polygon and a part with an arc in a pocket with fillets
         part = [
             box(-1, Fraction(-rng.randint(2, 6), 8), 1, Fraction(1, 2))[0],
             _pocket(Fraction(9, 8), Fraction(3, 8), Fraction(1, 4)),

@@ -407,6 +407,38 @@ def test_fits_in_concave_arcs_are_verified_and_false_ones_refuted(name: str) -> 
 # --- random scenes ---
 
 
+def four_discs(turn: Turn, *, wall: bool) -> Scene:
+    """Two discs of the robot in round holes, two beside discs: at one angle, and half a turn on, all slide around."""
+    (c, s), places = turn, points((0, 0), (20, 0), (0, 40), (20, 40))
+    first, second, third, fourth = [(c * x - s * y, s * x + c * y) for x, y in places]
+    holes = [Curved(box(x - 6, y - 6, x + 6, y + 6), [round_hole(4, (x, y))]) for x, y in (first, fourth)]
+    others = [disc(2, second), disc(2, third), *([box(-1, 2, 1, 5)] if wall else [])]
+    return Scene([disc(1, p) for p in places], [*holes, *others])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("turn", "wall"),
+    [
+        pytest.param((F(1), F(0)), True, marks=pytest.mark.long),
+        ((F(4, 5), F(3, 5)), False),
+        pytest.param((F(0), F(1)), True, marks=pytest.mark.long),
+    ],
+)
+def test_arcs_to_slide_along_at_one_orientation(turn: Turn, wall: bool) -> None:
+    """At other angles the circles part, and those in holes leave room on one side, those beside discs on the other."""
+    scene = four_discs(turn, wall=wall)
+    arcs = [ends for kind, ends in found_in(scene) if kind == "arc"]
+    assert len(arcs) == 8
+    angle = math.degrees(math.atan2(float(turn[1]), float(turn[0])))
+    assert {round(end[2] % 180, 9) for ends in arcs for end in ends} == {round(angle % 180, 9)}
+    around = [line for line in isolated_at(boundary(scene), math.radians(angle)) if len(line) > 2]
+    assert all(np.allclose(np.hypot(*line.T), 3) for line in around)
+    length = sum(float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in around)
+    hidden = math.acos(2 / 3)  # from the top to where the disc touches the wall
+    assert length == pytest.approx(3 * (math.tau - (2 * (math.pi / 2 - hidden) if wall else 0)), rel=1e-3)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_random_fits_in_concave_arcs_agree_with_exact_poses(family: str) -> None:

@@ -259,8 +259,28 @@ def pocket(r: HollowDraw) -> Scene:
     return Scene([r.hollow(ring, [], moves=True)], [r.hollow(box(-25, -25, 25, 25), [bored])])
 
 
+def slides(r: HollowDraw) -> Scene:
+    """Discs of the robot in round holes and beside discs, so that all slide along one circle, or almost."""
+    along, hair = F(r.randint(2, 4)), r.choice([F(0), F(0), F(0), F(1, 4), -F(1, 4)])
+    places = points((0, 0), r.choice([(12, 0), (9, 12), (-12, 5)]), (0, 24), (0, 0))
+    (x, y), (u, v) = places[1:3]
+    places[3] = (x + u, y + v)
+    robot, others = [], list[Any]()
+    for k, p in enumerate(places[: r.choice([2, 3, 4, 4, 4])]):
+        own = r.choice([F(1), F(1, 2), F(3, 2)])
+        robot.append(r.moving(points(p), own))
+        if k in (0, 3):
+            room: Ring = Circle(p, along + own + (hair if k else 0))  # type: ignore[assignment]
+            others.append(r.hollow(box(p[0] - 6, p[1] - 6, p[0] + 6, p[1] + 6), [room]))
+        else:
+            others.append(r.still(points(p), along - own))
+    if r.random() < 0.5:  # something that leaves a part of the circle
+        others.append(r.still(box(-2, along, F(1, 2), along + 1), r.choice([F(0), F(1, 2)])))
+    return Scene(robot, [other for other in others if other is not None])
+
+
 FAMILIES: dict[str, Callable[[HollowDraw], Scene]] = {
-    f.__name__: f for f in (hole, slot, bay, room, link, pair, inscribed, extreme, both, shaft, key, pocket)
+    f.__name__: f for f in (hole, slot, bay, room, link, pair, inscribed, extreme, both, shaft, key, pocket, slides)
 }
 
 
@@ -329,12 +349,29 @@ class HollowOracle(Oracle):
             c, s = (F(-1), F(0)) if tau is None else ((1 - tau * tau) / d, 2 * tau / d)
             yield pose_at(u - c * x + s * y, v - s * x - c * y, tau)
 
+    def on_arcs(self, seed: int) -> Iterator[Pose]:
+        """Poses at which a concave arc's circle is that of two convex ones: the places of each are as far apart."""
+        robot, obstacles = centers(self.scene)
+        pairs = [(p, q, s + t) for p, s in robot for q, t in obstacles if s + t]
+        hollow = [(p, q, rho) for p, q, rho in pairs if rho < 0]
+        turned = dict[tuple[ExactPoint, ExactPoint, Fraction, Fraction, Fraction], None]()
+        for (a, b, rho), (c, d, radius) in itertools.product(hollow, pairs):
+            (x, y), (u, v) = (c[0] - a[0], c[1] - a[1]), (d[0] - b[0], d[1] - b[1])
+            square = x * x + y * y
+            if radius == -rho and square and square == u * u + v * v:
+                turned[a, b, radius, (x * u + y * v) / square, (x * v - y * u) / square] = None
+        r = random.Random(seed)
+        for (x, y), (u, v), radius, c, s in r.sample([*turned], min(MOST, len(turned))):
+            for p, q in [(F(1), F(0)), (F(0), F(-1)), *TURNS, *((-p, q) for p, q in TURNS)]:
+                tau = None if c == -1 else s / (1 + c)
+                yield pose_at(u - c * x + s * y + radius * p, v - s * x - c * y + radius * q, tau)
+
     def missing_on_helices(self, found: Boundary, seed: int) -> tuple[list[Pose], list[Pose], int]:
-        """Free poses on helices without room that no part holds; those listed that have room; number without room."""
+        """Free poses on helices and on arcs without room that no part holds; those listed with room; number without."""
         from cfree.planning.contact_fits import Fits
 
         fits, missing, roomy, number = Fits(self.scene), [], [], 0
-        for pose in self.on_helices(seed):
+        for pose in itertools.chain(self.on_helices(seed), self.on_arcs(seed)):
             if not self.arcs.is_free(pose):
                 continue
             at = float(pose.x), float(pose.y), pose.theta

@@ -22,7 +22,7 @@ from cfree.collision.arcs import arcs_of
 from cfree.curves import Arc
 from cfree.exact.number import ExactPoint, rational_root
 from cfree.exact.pose import Pose, pose_at
-from cfree.forbidden.isolated import isolated_at
+from cfree.forbidden.isolated import isolated_at, isolated_lines
 from cfree.planning.contact_fits import Fits
 
 Shape = Curved | Polygon
@@ -214,20 +214,25 @@ class Oracle:
         for k in range(len(found.isolated)):
             part = found.isolated_part(k)
             (x0, y0, t0), (x1, y1, t1) = part.ends
-            along = None
-            inside = [part.ends[0]] if part.kind == "point" else []
+            inside: list[tuple[Place, tuple[float, float] | None]] = []
+            if part.kind == "point":
+                inside = [(part.ends[0], None)]
             if part.kind == "segment":
                 length = math.hypot(x1 - x0, y1 - y0)
                 along = (x1 - x0) / length, (y1 - y0) / length
-                inside = [(x0 + s * (x1 - x0), y0 + s * (y1 - y0), t0) for s in (0.5, 0.3, 0.77)]
+                inside = [((x0 + s * (x1 - x0), y0 + s * (y1 - y0), t0), along) for s in (0.5, 0.3, 0.77)]
+            if part.kind == "arc":
+                for p, q in itertools.pairwise(isolated_lines(found)[k][::3]):
+                    length = math.hypot(q[0] - p[0], q[1] - p[1])
+                    inside.append(((p[0], p[1], t0), ((q[0] - p[0]) / length, (q[1] - p[1]) / length)))
             if part.kind == "curve":
                 for s in (0.5, 0.31, 0.77):
                     theta = t0 + s * (t1 - t0)
-                    inside.append((*nearest(found, k, theta), theta))
-            for at in inside:
+                    inside.append(((*nearest(found, k, theta), theta), None))
+            for at, along in inside:
                 if free := self.free_beside(at, BESIDE * self.size, along, turning=part.kind != "curve"):
                     wrong.append(f"{part.kind} {k} at {at}: {free} free poses beside it")
-            for at in [*inside, *part.ends]:
+            for at in [*(at for at, _ in inside), *part.ends]:
                 pose = simple_pose(at)
                 if pose is not None and not self.arcs.is_free(pose):
                     wrong.append(f"{part.kind} {k} at {at}: forbidden")
@@ -287,7 +292,14 @@ def nearest(found: Boundary, k: int, theta: float) -> tuple[float, float]:
 
 
 def distance(line: np.ndarray, at: tuple[float, float]) -> float:
-    """Distance of a point from a segment or a point."""
+    """Distance of a point from a segment, a point or an arc, of which there are more points."""
+    if len(line) > 2:
+        p, q, r = (complex(x, y) for x, y in line[[0, len(line) // 2, -1], :2])
+        u, v = q - p, r - p
+        center = p + 1j * (u * abs(v) ** 2 - v * abs(u) ** 2) / (2 * (u.conjugate() * v).imag)
+        share = cmath.phase((complex(*at) - center) / (p - center)) / cmath.phase((r - center) / (p - center))
+        if -1e-9 < share < 1 + 1e-9:
+            return abs(abs(complex(*at) - center) - abs(p - center))
     (x0, y0), (x1, y1) = line[0], line[-1]
     dx, dy = x1 - x0, y1 - y0
     square = dx * dx + dy * dy

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <tuple>
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/scene/features.hpp"
 #include "forbidden/coincident_surfaces.hpp"
-#include "forbidden/near_fillets.hpp"
-#include "forbidden/pillar_index.hpp"
-#include "predicates/round_junction.hpp"
+#include "forbidden/open_covers.hpp"
+#include "forbidden/sliding_arcs.hpp"
 #include "predicates/round_orders.hpp"
 #include "support/parallel.hpp"
 
@@ -25,139 +23,6 @@ bool have_equal_radii(const Scene& scene, Index i, Index j) {
 }
 
 namespace {
-
-// By the correctly rounded square root, the same on every machine.
-double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
-
-Feature on_branch(Feature f, int branch) {
-    f.branch = static_cast<std::int8_t>(branch);
-    return f;
-}
-Feature contact_line_of(bool of_robot, Index edge, Index vertex) {
-    return of_robot ? Feature{Kind::edge_vertex, edge, vertex} : Feature{Kind::vertex_edge, vertex, edge};
-}
-Feature contact_circle_of(bool of_robot, Index own, Index other) {
-    return of_robot ? Feature{Kind::vertex_vertex, own, other, 1} : Feature{Kind::vertex_vertex, other, own, 1};
-}
-
-// Something that covers places: its surfaces, and whether a place is in its open inside.
-struct OpenCover {
-    std::vector<Feature> surfaces;
-    std::function<bool(RoundJunction&, const RoundSpot&)> has;
-};
-
-// Pillar of two convex pieces.
-class OpenPillar {
-public:
-    OpenPillar(const Scene& s, Index p, Index k)
-        : scene(s), a(&s.robot.piece_vertex[s.robot.piece[p]]), b(&s.obstacles.piece_vertex[s.obstacles.piece[k]]),
-          n(s.robot.piece[p + 1] - s.robot.piece[p]), m(s.obstacles.piece[k + 1] - s.obstacles.piece[k]),
-          g(n > 1 ? &s.robot.piece_edge[s.robot.piece[p]] : nullptr), f(m > 1 ? &s.obstacles.piece_edge[s.obstacles.piece[k]] : nullptr) {}
-
-    bool is_empty() const { return n == 1 && m == 1 && !has_disc(0, 0); }
-    std::vector<Feature> surfaces() const {
-        std::vector<Feature> result;
-        for (Index x = 0; x < n; ++x)
-            for (Index y = 0; y < m; ++y) {
-                if (m > 1) result.push_back(on_edge(x, y));
-                if (n > 1) result.push_back(of_edge(x, y));
-                if (has_disc(x, y)) result.push_back(circle(x, y));
-            }
-        return result;
-    }
-    // A place is outside if it is beyond an edge, or from an arc in a direction of both cones and beyond its circle.
-    bool has(RoundJunction& at, const RoundSpot& place) const {
-        for (Index x = 0; x < n; ++x)
-            for (Index y = 0; y < m; ++y) {
-                const auto is_beyond = [&](const Feature& surface) { return at.outside(surface, place) >= 0; };
-                const auto is_ahead = [&](const Feature& before, const Feature& after) {
-                    return at.ahead(before, circle(x, y), place) >= 0 && at.ahead(after, circle(x, y), place) <= 0;
-                };
-                const auto turns_over = [&](const Feature& before, const Feature& after, const Feature& line) {
-                    return at.turn(before, line) >= 0 && at.turn(after, line) <= 0;
-                };
-                if (m > 1 && is_beyond(on_edge(x, y)) && (n == 1 || turns_over(of_edge(last(x, n), y), of_edge(x, y), on_edge(x, y)))) return false;
-                if (n > 1 && is_beyond(of_edge(x, y)) && (m == 1 || turns_over(on_edge(x, last(y, m)), on_edge(x, y), of_edge(x, y)))) return false;
-                if (has_disc(x, y) && is_beyond(circle(x, y)) && (m == 1 || is_ahead(on_edge(x, last(y, m)), on_edge(x, y))) &&
-                    (n == 1 || is_ahead(of_edge(last(x, n), y), of_edge(x, y))))
-                    return false;
-            }
-        return true;
-    }
-
-private:
-    static Index last(Index x, Index count) { return (x + count - 1) % count; }
-    bool has_disc(Index x, Index y) const {
-        return (scene.robot.radius_of(a[x]).exact + scene.obstacles.radius_of(b[y]).exact).sign() > 0;
-    }
-    Feature circle(Index x, Index y) const { return {Kind::vertex_vertex, a[x], b[y], 1}; }
-    Feature on_edge(Index x, Index y) const { return {Kind::vertex_edge, a[x], f[y]}; }
-    Feature of_edge(Index x, Index y) const { return {Kind::edge_vertex, g[x], b[y]}; }
-
-    const Scene& scene;
-    const Index *a, *b;
-    Index n, m;
-    const Index *g, *f;
-};
-
-// All that may cover the places at which the vertices of a pair are as far apart as the sum of their radii, or less.
-class Covers {
-public:
-    explicit Covers(const Scene& s) : scene(s), index(s) {}
-
-    double reach() const { return index.reach(); }
-    std::vector<OpenCover> near(const Feature& pair) const {
-        const Shape &A = scene.robot, &O = scene.obstacles;
-        std::vector<OpenCover> result;
-        std::vector<Index> pieces;
-        index.near(pair.obstacle, pieces);
-        for (const Index k : pieces)
-            for (Index p = 0; p < A.pieces(); ++p) {
-                const Index *a = &A.piece_vertex[A.piece[p]], *b = &O.piece_vertex[O.piece[k]];
-                if (A.piece_layer[p] != O.piece_layer[k] || !is_near(pair, a, A.piece[p + 1] - A.piece[p], b, O.piece[k + 1] - O.piece[k])) continue;
-                const OpenPillar pillar(scene, p, k);
-                if (!pillar.is_empty()) result.push_back({pillar.surfaces(), [pillar](RoundJunction& at, const RoundSpot& place) { return pillar.has(at, place); }});
-            }
-        for (const auto& [fillet, of_robot, v, directions] : fillets_near(scene, pair, index.reach())) {
-            const Index* corners = fillet->vertex.data();
-            if (!(of_robot ? is_near(pair, corners, 4, &v, 1) : is_near(pair, &v, 1, corners, 4))) continue;
-            OpenCover cover;
-            for (const Index edge : fillet->edge) cover.surfaces.push_back(contact_line_of(of_robot, edge, v));
-            for (std::size_t k = 0; directions && k < directions->edge.size(); ++k)
-                cover.surfaces.push_back(contact_line_of(!of_robot, directions->edge[k], fillet->arc));
-            cover.surfaces.push_back(contact_circle_of(of_robot, fillet->arc, v));
-            // the open quadrangle outside of the circle, in the open triangle of directions
-            cover.has = [all = cover.surfaces](RoundJunction& at, const RoundSpot& place) {
-                return std::all_of(all.begin(), all.end(), [&](const Feature& x) { return at.outside(x, place) * (is_line(x) ? -1 : 1) > 0; });
-            };
-            result.push_back(std::move(cover));
-        }
-        return result;
-    }
-
-private:
-    // False if vertices of the two shapes are certainly too far away at every angle.
-    bool is_near(const Feature& pair, const Index* a, Index n, const Index* b, Index m) const {
-        const Shape &A = scene.robot, &O = scene.obstacles;
-        const double ax = A.x[pair.robot], ay = A.y[pair.robot], bx = O.x[pair.obstacle], by = O.y[pair.obstacle];
-        double reach = 0, own = 0, other = 0, size = std::abs(ax) + std::abs(ay) + std::abs(bx) + std::abs(by);
-        Box box;
-        for (Index x = 0; x < n; ++x) {
-            reach = std::max(reach, length_of(A.x[a[x]] - ax, A.y[a[x]] - ay)), own = std::max(own, std::abs(A.radius_of(a[x]).about.hi));
-            size = std::max(size, std::abs(A.x[a[x]]) + std::abs(A.y[a[x]]));
-        }
-        for (Index y = 0; y < m; ++y) {
-            box.add(O.x[b[y]], O.y[b[y]]), other = std::max(other, std::abs(O.radius_of(b[y]).about.hi));
-            size = std::max(size, std::abs(O.x[b[y]]) + std::abs(O.y[b[y]]));
-        }
-        const double dx = std::max({box.x0 - bx, bx - box.x1, 0.0}), dy = std::max({box.y0 - by, by - box.y1, 0.0});
-        const double apart = std::abs(A.radius_of(pair.robot).about.hi) + std::abs(O.radius_of(pair.obstacle).about.hi);
-        return length_of(dx, dy) <= (reach + own + other + apart) * (1 + 0x1p-40) + size * 0x1p-40;
-    }
-
-    const Scene& scene;
-    const PillarIndex index;
-};
 
 // A curve on a circle's surface in one chart: what is free of it, and where the two arcs touch.
 class FreeCurve {
@@ -282,9 +147,12 @@ public:
         const std::vector<Held> held = held_on(contact);
         const std::vector<Feature> touching = facing(contact);
         const std::vector<OpenCover> near = covers.near(contact);
+        const std::vector<Feature> opposite = opposite_circles(scene, contact, covers.reach());
         for (const int chart : {0, 1}) {
             for (const Held& curve : held) add_held({contact, chart}, curve, near, patch, out);
             for (const Feature& surface : touching) add_touch({contact, chart}, surface, touching, near, patch, out);
+            const HollowQuadrant quadrant{{contact, chart}, cones(contact), near};
+            for (const Feature& circle : opposite) add_sliding_arcs(scene, quadrant, circle, patch, out);
         }
     }
 
@@ -302,6 +170,12 @@ private:
         const Index own = of_robot ? pair.robot : pair.obstacle, other = of_robot ? pair.obstacle : pair.robot;
         std::array<Feature, 2> result{contact_line_of(of_robot, s.previous[own], other), contact_line_of(of_robot, own, other)};
         if (s.is_concave(own)) std::swap(result[0], result[1]);
+        return result;
+    }
+    std::vector<std::array<Feature, 2>> cones(const Feature& pair) const {  // of vertices that have one
+        std::vector<std::array<Feature, 2>> result;
+        if (scene.robot.has_extent(pair.robot)) result.push_back(cone(true, pair));
+        if (scene.obstacles.has_extent(pair.obstacle)) result.push_back(cone(false, pair));
         return result;
     }
     static void put(FreeCurve& free, const std::vector<FreeCurve::Range>& ranges, Index patch, const Surface& on, const Feature& curve, std::vector<Trapezoid>& out) {
@@ -346,15 +220,13 @@ private:
         }
         ends.push_back(chart_end(1));
         std::vector<Event> changes;
-        std::vector<std::array<Feature, 2>> cones;
-        if (scene.robot.has_extent(pair.robot)) cones.push_back(cone(true, pair));
-        if (scene.obstacles.has_extent(pair.obstacle)) cones.push_back(cone(false, pair));
-        for (const auto& edges : cones)
+        const auto ranges = cones(pair);
+        for (const auto& edges : ranges)
             for (const Feature& edge : edges) {
                 const auto roots = free.decide.event_roots(held.surface, on_branch(edge, 0), chart_end(-1), chart_end(1));
                 changes.insert(changes.end(), roots.at.begin(), roots.at.end());
             }
-        const auto meets = [&](RoundJunction& at, const RoundSpot& p) { return has_normal(at, cones, pair, p); };
+        const auto meets = [&](RoundJunction& at, const RoundSpot& p) { return has_normal(at, ranges, pair, p); };
         for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
             if (free.decide.order(ends[k], ends[k + 1]) == 0) continue;
             Vec<Int> normal = held.normal;
@@ -404,20 +276,18 @@ private:
         if (roots.all_zero) return;
         std::vector<Event> events{chart_end(-1), chart_end(1)};
         events.insert(events.end(), roots.at.begin(), roots.at.end());
-        std::vector<std::array<Feature, 2>> cones;
-        if (scene.robot.has_extent(pair.robot)) cones.push_back(cone(true, pair));
-        if (scene.obstacles.has_extent(pair.obstacle)) cones.push_back(cone(false, pair));
+        const auto ranges = cones(pair);
         for (const Event& e : events) {
             const bool is_end = e.first.kind == Kind::none;
             const auto turned = orders.turned_to(0.5 * (e.lo + e.hi));
-            const NearTouch touch = touch_in_doubles(orders, pair, surface, cones, turned);
+            const NearTouch touch = touch_in_doubles(orders, pair, surface, ranges, turned);
             if (!touch.is_there) continue;
             if (!is_end && !e.is_touch && touch.is_known && !may_be_held(orders, pair, surface, touch, others, turned)) continue;
             if (is_end && (free.decide.event_sign_on(surface, {}, e.lo, e.hi) != 0 || !free.vanishes(surface, e))) continue;
             const auto meets = [&](RoundJunction& at, const RoundSpot& p) {
                 const auto seam = [&](int turns) { return at.spot(pair, {Kind::seam, pair.robot, pair.obstacle, turns & 3}, false); };
                 const Quadrant ends = quadrant_of(scene, pair);
-                return at.is_between(pair, seam(ends.begin), seam(ends.end), p) && has_normal(at, cones, pair, p);
+                return at.is_between(pair, seam(ends.begin), seam(ends.end), p) && has_normal(at, ranges, pair, p);
             };
             put(free, free.free(e, e, {}, meets, near), patch, on, surface, out);
         }
@@ -481,11 +351,6 @@ private:
             return std::abs(away) <= hair * (size + std::abs(radius)) + 0x1p-40 * site.m;
         });
     }
-    // True if the outward normal at a place, from it to the circle's centre, is in all cones.
-    static bool has_normal(RoundJunction& at, const std::vector<std::array<Feature, 2>>& cones, const Feature& pair, const RoundSpot& p) {
-        return std::all_of(cones.begin(), cones.end(), [&](const auto& edges) { return at.ahead(edges[0], pair, p) <= 0 && at.ahead(edges[1], pair, p) >= 0; });
-    }
-
     // All surfaces that do so: of the same place of the convex vertex's shape, with features of the other one; or of the centre of the
     // arc, with features of the convex vertex's shape.
     std::vector<Held> held_on(const Feature& pair) const {
@@ -532,7 +397,7 @@ private:
 
     const Scene& scene;
     const Patches& patches;
-    const Covers covers;
+    const OpenCovers covers;
 };
 
 }  // namespace

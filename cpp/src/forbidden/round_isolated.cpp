@@ -38,8 +38,9 @@ struct RoundFlat {
 
 class RoundFinder {
 public:
-    RoundFinder(const Scene& s, const Patches& p, const Trapezoids& l, const Trapezoids& t, int thread_count)
-        : scene(s), patches(p), live(l), thin(t), threads(thread_count), first_patch(first_patches(s, p)), rows(joined(l, t)),
+    // thin: parts without width, so many of them of trimming.
+    RoundFinder(const Scene& s, const Patches& p, const Trapezoids& l, const Trapezoids& t, std::size_t of_trimming, int thread_count)
+        : scene(s), patches(p), live(l), thin(t), first_fit(static_cast<Index>(l.size() + of_trimming)), threads(thread_count), first_patch(first_patches(s, p)), rows(joined(l, t)),
           angles(s, p, rows, thread_count), live_count(static_cast<Index>(l.size())), boxes(boxes_of_rows()),
           tree({boxes.begin(), boxes.begin() + live_count}) {}
 
@@ -205,14 +206,14 @@ private:
         const Spot low = at.spot(own, lower(row), false), high = at.spot(own, upper(row), false);
         if (low.jumps || high.jumps) return {};  // a limit of curves: others name the place
         const bool is_point = at.order(own, low, high) == 0;
-        if (!is_point && is_circle(own)) return {};  // space beyond an arc is free
+        if (!is_point && is_circle(own) && row < first_fit) return {};  // space beyond an arc is free, or the fit is found by itself
         if (is_point) return is_in_any(row, rank, low, at) || is_inside_at_one_circle(own, low, at) ? std::vector<RoundFlat>{} : std::vector{RoundFlat{patch, rank, low, low, true}};
         std::vector<RoundFlat> left{{patch, rank, low, high, false}}, next;
         tree.query(boxes[row], [&](Index k) {
             const Feature other = on(k);
-            if (left.empty() || !reaches(k, rank) || !is_line(other)) return;
-            const int along = at.parallel(own, other);
-            if (along == 0 || at.side(own, other) != 0) return;
+            if (left.empty() || !reaches(k, rank)) return;
+            const int along = direction_on(own, other, at);
+            if (along == 0) return;
             const bool is_first = rounded(angles.from[k]) == rank;
             Spot first = at.spot(other, lower(k), is_first), last = at.spot(other, upper(k), is_first);
             if (along < 0) std::swap(first, last);
@@ -228,6 +229,14 @@ private:
             left.swap(next);
         });
         return left;
+    }
+
+    // Direction of a surface that is on the line, or on the quadrant, of another one; 0 of others.
+    int direction_on(const Feature& own, const Feature& other, RoundJunction& at) const {
+        if (is_line(own) != is_line(other)) return 0;
+        if (is_circle(own)) return !at.are_one_circle(own, other) ? 0 : is_concave(scene, own) == is_concave(scene, other) ? 1 : -1;
+        const int along = at.parallel(own, other);
+        return along != 0 && at.side(own, other) == 0 ? along : 0;
     }
 
     bool is_in_any(Index row, Index rank, const Spot& p, RoundJunction& at) const {
@@ -271,10 +280,10 @@ private:
     void add_flat(RoundFlat f, std::size_t start, RoundJunction& at) {
         for (std::size_t k = start; k < flats.size() && !f.is_point;) {
             const Feature own = contact(f.patch), other = contact(flats[k].patch);
-            const int along = at.parallel(own, other);
+            const int along = direction_on(own, other, at);
             Spot low = flats[k].low, high = flats[k].high;
             if (along < 0) std::swap(low, high);
-            if (along == 0 || at.side(own, other) != 0 || at.order(own, low, f.high) > 0 || at.order(own, high, f.low) < 0) {
+            if (along == 0 || at.order(own, low, f.high) > 0 || at.order(own, high, f.low) < 0) {
                 ++k;
                 continue;
             }
@@ -339,6 +348,7 @@ private:
     const Scene& scene;
     const Patches& patches;
     const Trapezoids &live, &thin;
+    const Index first_fit;  // among the rows, of those without width that trimming does not give
     const int threads;
     const std::vector<Index> first_patch;
     const Trapezoids rows;  // trapezoids, then parts without width
@@ -356,7 +366,7 @@ IsolatedParts isolated_round_parts(const Scene& scene, const Patches& patches, c
     Trapezoids all = thin;
     add_fits_of_arcs(scene, patches, threads, all);
     if (all.size() == 0) return {};
-    return RoundFinder(scene, patches, live, all, threads).run();
+    return RoundFinder(scene, patches, live, all, thin.size(), threads).run();
 }
 
 }  // namespace cfree

@@ -216,6 +216,23 @@ RoundSpot RoundJunction::spot(const Feature& on, const Feature& curve, bool is_a
     return result;
 }
 
+// A coordinate n / d of u, and the other one, minus the root of 1 - (n / d)^2.
+template <class K, class Constant, class Ring>
+static auto given_on_circle(const Ratio& given, int axis, const Constant& constant, const Ring& in) {
+    using V = decltype(constant(whole<K>(1)));
+    const V zero = in.number(whole<K>(0));
+    const auto at = [&](const K& n, const K& square, const K& d) -> CurvePlace<V> {
+        if (axis == 0) return {constant(n), zero, in.number(square), constant(d), true};
+        return {zero, constant(whole<K>(-1)), in.number(square), constant(d), true};
+    };
+    const Int square = given.d * given.d - given.n * given.n;
+    if constexpr (std::is_same_v<K, Approx>) {
+        const double t = ratio(given.n, given.d);
+        return at({t, std::abs(t)}, {(1 - t) * (1 + t), 1 + t * t}, whole<K>(1));
+    } else if constexpr (std::is_same_v<K, Ball>) return at(ball(given.n, 0), ball(square, 0), ball(given.d, 0));
+    else return at(K(given.n), K(square), K(given.d));
+}
+
 // The place on its own surface; t on another line that is the same here. On a circle of the other sense u is opposite, and the axes
 // change places.
 template <class K, class Ring>
@@ -229,6 +246,7 @@ auto RoundJunction::place(const Feature& surface, const Spot& p, int axis, const
         if (p.is_limit) return limit_of_line<K>(scene, p.on, p.curve, in);
         if (!p.given) return place_of_curve<K>(scene, p.on, p.curve, axis, in);
         const V zero = in.number(whole<K>(0));
+        if (is_circle(p.on)) return given_on_circle<K>(*p.given, axis, constant, in);
         if constexpr (std::is_same_v<K, Approx>) {
             const double t = ratio(p.given->n, p.given->d);
             return {constant(Approx{t, std::abs(t)}), zero, zero, constant(whole<K>(1)), false};

@@ -3,41 +3,29 @@
 The part is a robot whose workspace is the hole. At an orientation at which it fits, the free positions are a closed and
 bounded set. A pose on the rim of this set is on a trapezoid of the boundary or on an isolated part. So the orientations
 are those of all trapezoids and isolated parts: closed intervals, united by the exact order of their ends.
-
-In concave arcs not all fits at single orientations are isolated parts: a part may slide along an arc at one orientation
-only. The orientations are those of all fits if the hole is convex, for then free positions at one orientation are a
-convex set; or if the part is a disc, which can turn about its center. To slide, the part needs a concave arc's circle
-that is a convex contact's at one orientation: two places of the part as far apart as two of the hole.
 """
 
 from __future__ import annotations
 
 import math
-from collections import defaultdict
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise, permutations, product
-from typing import Any, NamedTuple
+from itertools import product
+from typing import Any
 
 import numpy as np
 
 import cfree._core as _core
 from cfree.collision.nearest_free import centers
 from cfree.contact.contact_lines import contact_lines, crossings
-from cfree.errors import UnsupportedError
 from cfree.exact.algebraic import between, part
 from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
 from cfree.exact.half_angle import normalize_angles, tau_in_chart, theta_in
-from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, pose_at
-from cfree.exact.vectors import cross, dot, minus
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import Trapezoids
 from cfree.forbidden.critical_angle import critical_angle
 from cfree.planning.core_ways import from_numbers
-from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import Cores, Rounded, known_cores, rounded
 from cfree.scene.scene import Scene, largest_of, shapes_in
 
 SAME = 1e-6  # of the largest shape: exact places are looked for so near to rounded ones
@@ -84,8 +72,7 @@ def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
     InvalidPolygonError
         If a shape is invalid.
     UnsupportedError
-        If a shape is not rounded, as for `boundary`. Also if the part may slide along an arc at one orientation only:
-        it is no disc, the hole is not convex, and two places of each are equally far apart, with radii that add up.
+        If a shape is not rounded, as for `boundary`.
 
     Notes
     -----
@@ -124,10 +111,6 @@ class Orientations:
 
     def __init__(self, boundary: Boundary) -> None:
         boundary.require_complete()
-        if boundary.scene.curved and not _lists_all_fits(boundary.scene):
-            remedy = "give boundary(scene.outer(error)) for intervals of orientations at which it surely fits"
-            why = "the part may slide along an arc of the hole at one orientation, and such fits are not found"
-            raise UnsupportedError(f"exact fits: {why}; {remedy}")
         self.boundary = boundary
         self._from, self._to, _, self._last = boundary._handle.angle_ranks()
 
@@ -237,91 +220,3 @@ class Orientations:
         part(*ends)
         tau = between(ends[0].hi, ends[1].lo)
         return from_numbers(_core.middle_of(core, is_isolated, row, tau.denominator, tau.numerator))
-
-
-def _lists_all_fits(scene: Scene) -> bool:
-    """True if all exact fits at single orientations are isolated parts of the boundary of a scene with round shapes."""
-    cores = known_cores(scene)
-    if not cores.has_concave:
-        return True
-    is_disc = len(cores.robot) == 1 and cores.robot[0].is_disc
-    return is_disc or _is_convex(scene.workspace) or not _may_slide_along_arcs(cores)
-
-
-class _Feature(NamedTuple):
-    """A corner or an arc of a shape: the radius of a concave arc is below 0, or was before the shape was grown."""
-
-    radius: Fraction
-    is_convex: bool
-
-
-def _may_slide_along_arcs(cores: Cores) -> bool:
-    """Return True if the circle of a concave arc may be that of a convex contact at one orientation.
-
-    The two circles are about ``b - Ra`` and ``d - Rc``, so ``a`` and ``c`` of the part are as far apart as ``b`` and
-    ``d``. Radii of contacts are sums of those of their features. The concave one is below 0, and both add up to 0.
-    """
-    own, others = (_features(shapes) for shapes in (cores.robot, cores.obstacles))
-
-    def are_opposite(a: _Feature, b: _Feature, c: _Feature, d: _Feature) -> bool:
-        is_concave = a.is_convex != b.is_convex and a.radius + b.radius < 0
-        return is_concave and c.is_convex and d.is_convex and a.radius + b.radius + c.radius + d.radius == 0
-
-    kinds = [{kind for _, kind in features} for features in (own, others)]
-    if not any(
-        are_opposite(a, b, c, d) for a, c in product(kinds[0], repeat=2) for b, d in product(kinds[1], repeat=2)
-    ):
-        return False
-    apart = [_kinds_by_distance(features) for features in (own, others)]
-    return any(
-        are_opposite(a, b, c, d)
-        for distance in apart[0].keys() & apart[1].keys()
-        for (a, c), (b, d) in product(apart[0][distance], apart[1][distance])
-    )
-
-
-def _features(shapes: Iterable[Rounded]) -> set[tuple[ExactPoint, _Feature]]:
-    """Return corners and arcs with their places."""
-    found = set[tuple[ExactPoint, _Feature]]()
-    for shape in shapes:
-        inside = {arc.beyond[0] for arc in shape.arcs if arc.beyond}  # vertices that stand for concave arcs
-        found |= {(corner, _Feature(shape.radius, True)) for corner in shape.points if corner not in inside}
-        found |= {
-            (arc.center, _Feature(shape.radius + (arc.radius if arc.is_convex else -arc.radius), arc.is_convex))
-            for arc in shape.arcs
-        }
-    return found
-
-
-def _kinds_by_distance(
-    features: Iterable[tuple[ExactPoint, _Feature]],
-) -> dict[Fraction, set[tuple[_Feature, _Feature]]]:
-    """Return the kinds of all pairs at different places, by the square of their distance."""
-    result = defaultdict[Fraction, set[tuple[_Feature, _Feature]]](set)
-    for (p, first), (q, second) in permutations(features, 2):
-        d = minus(q, p)
-        if any(d):
-            result[dot(d, d)].add((first, second))
-    return result
-
-
-def _is_convex(hole: Any) -> bool:
-    """True if a polygon or a round shape that has a core is convex."""
-    if isinstance(hole, Polygon):
-        return hole.is_convex
-    shape = rounded(hole)
-    if shape is None or shape.has_concave:
-        return False
-    if not isinstance(shape.core, Polygon):
-        return True
-    ring, *holes = shape.core.exact_rings
-    arcs = {(arc.start, arc.end): arc.center for arc in shape.arcs}
-    sides = [(p, q, arcs.get((p, q))) for p, q in pairwise([*ring, ring[0]])]
-    first = [minus(q, p) if center is None else _left(minus(p, center)) for p, q, center in sides]
-    last = [minus(q, p) if center is None else _left(minus(q, center)) for p, q, center in sides]
-    turns = zip(last, [*first[1:], first[0]], strict=True)
-    return not holes and shape.core.is_convex and all(cross(before, after) >= 0 for before, after in turns)
-
-
-def _left(v: ExactPoint) -> ExactPoint:
-    return -v[1], v[0]

@@ -82,7 +82,7 @@ class Trapezoids(Value):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class IsolatedParts(Trapezoids):
-    """Exact fits that are on no trapezoid: free curves, segments and points.
+    """Exact fits that are on no trapezoid: free curves, segments, arcs and points.
 
     They have the same columns as `Trapezoids`, of trapezoids without width, and the patches that name their curves and
     angles. No two of them overlap, and none lies on a trapezoid of the boundary, though it may end on one.
@@ -104,7 +104,7 @@ class IsolatedParts(Trapezoids):
 
     @property
     def kind(self) -> NDArray[np.uint8]:
-        """Kinds: 1 a curve over an interval of orientations, 2 a segment at one orientation, 3 a point."""
+        """Kinds: 1 a curve over an interval of orientations, 2 a segment or an arc at one orientation, 3 a point."""
         turns = (self.from_first != self.to_first) | (self.from_second != self.to_second) | (self.from_lo != self.to_lo)
         turns |= (self.from_place != self.to_place) | (self.from_patch != self.to_patch)
         is_point = (self.lower == self.upper) & (self.lower_patch == self.upper_patch)

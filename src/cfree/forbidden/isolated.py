@@ -1,4 +1,4 @@
-"""Exact fits as lines to draw: curves, segments at one orientation, and points (lines of length 0)."""
+"""Exact fits as lines to draw: curves, segments and arcs at one orientation, and points (lines of length 0)."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.contact.kind import Kind
 from cfree.exact.half_angle import tau_in
-from cfree.forbidden.columns import CURVE
+from cfree.forbidden.columns import CURVE, SEGMENT
 
 if TYPE_CHECKING:
     from cfree.forbidden.record import BoundaryRecord
@@ -28,9 +29,8 @@ def isolated_lines(boundary: BoundaryRecord) -> list[Floats]:
     parts, lines = boundary.isolated, []
     for k, (kind, first, last) in enumerate(zip(parts.kind, parts.theta_from, parts.theta_to, strict=True)):
         if kind != CURVE:
-            theta = np.array([first, last])
-            patch, t = [parts.lower_patch[k], parts.upper_patch[k]], [parts.first_t[k], parts.last_t[k]]
-            lines.append(_raised(boundary.evaluate(patch, t, theta), theta))
+            place = _at_one_angle(boundary, k, float(first))
+            lines.append(_raised(place, np.full(len(place), first)))
             continue
         pieces = [(first, last)] if first >= 0 or last <= 0 else [(first, 0.0), (0.0, last)]
         for start, stop in pieces:
@@ -40,7 +40,7 @@ def isolated_lines(boundary: BoundaryRecord) -> list[Floats]:
 
 
 def isolated_at(boundary: BoundaryRecord, theta: float) -> list[Floats]:
-    """Return the isolated parts at one orientation: points (1, 2) of curves, segments and points (2, 2)."""
+    """Return the isolated parts at an orientation: points (1, 2) of curves, segments and points (2, 2), arcs (n, 2)."""
     parts, lines = boundary.isolated, []
     for k, (kind, first, last) in enumerate(zip(parts.kind, parts.theta_from, parts.theta_to, strict=True)):
         turned = first + (theta - first + SAME) % math.tau - SAME
@@ -49,9 +49,32 @@ def isolated_at(boundary: BoundaryRecord, theta: float) -> list[Floats]:
         if kind == CURVE:
             lines.append(_on_curve(boundary, k, np.array([turned])))
         else:
-            patch, t = [parts.lower_patch[k], parts.upper_patch[k]], [parts.first_t[k], parts.last_t[k]]
-            lines.append(boundary.evaluate(patch, t, [turned, turned]))
+            lines.append(_at_one_angle(boundary, k, float(turned)))
     return lines
+
+
+def is_isolated_arc(boundary: BoundaryRecord, k: int) -> bool:
+    """True if an isolated part is an arc at one orientation."""
+    parts = boundary.isolated
+    is_on_circle = boundary.contact_kind[parts.patch[k]] & 15 == Kind.VERTEX_VERTEX
+    return bool(parts.kind[k] == SEGMENT and is_on_circle)
+
+
+def _at_one_angle(boundary: BoundaryRecord, k: int, theta: float) -> Floats:
+    """Return the ends of a segment, a point twice, or points along an arc, which is in a quadrant of its circle."""
+    parts = boundary.isolated
+    patch, t = [parts.lower_patch[k], parts.upper_patch[k]], [parts.first_t[k], parts.last_t[k]]
+    ends = boundary.evaluate(patch, t, [theta, theta])
+    if not is_isolated_arc(boundary, k):
+        return ends
+    one = int(parts.patch[k])
+    rho, quadrant = float(boundary.patch_radius[one]), int(boundary.contact_kind[one]) >> 4
+    psi = math.pi / 2 * (quadrant + (rho < 0))  # where t is 0
+    center = boundary.evaluate([one], [0.0], [theta])[0] - rho * np.array([math.cos(psi), math.sin(psi)])
+    first, last = (math.atan2(y, x) for x, y in ends - center)
+    turn = (last - first + math.pi) % math.tau - math.pi
+    along = np.linspace(first, first + turn, 2 + int(abs(turn) / STEP))
+    return np.asarray(center + abs(rho) * np.column_stack((np.cos(along), np.sin(along))))
 
 
 def _on_curve(boundary: BoundaryRecord, k: int, theta: Floats) -> Floats:

@@ -11,6 +11,7 @@ from cfree.contact.surface import evaluate
 from cfree.curves.curved import Curved
 from cfree.errors import InvariantError
 from cfree.exact.half_angle import theta_in
+from cfree.forbidden.isolated import is_isolated_arc
 from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.libraries import ArrayLike, NDArray, np
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
@@ -125,19 +126,19 @@ class Trapezoid:
 
 @dataclass(frozen=True, slots=True)
 class IsolatedPart:
-    """A free curve, a segment at one orientation, or a point that is on no trapezoid.
+    """A free curve, a segment or an arc at one orientation, or a point that is on no trapezoid.
 
     Attributes
     ----------
     index : int
     kind : str
-        "curve", "segment" or "point".
+        "curve", "segment", "arc" or "point". An arc is less than a quarter of the circle of its patch, or just that.
     patch : int
         A contact that holds along it.
     lower, upper : Contact
-        The curves on the patch that bound it: for a curve the curve itself, for a segment its two ends.
+        The curves on the patch that bound it: for a curve the curve itself, for a segment or an arc its two ends.
     start, stop : CriticalAngle
-        Equal for a segment and a point.
+        Equal but for a curve.
     ends : ((float, float, float), (float, float, float))
         (x, y, theta) of its two ends, rounded; equal for a point.
     """
@@ -159,7 +160,7 @@ class IsolatedPart:
         (x0, y0), (x1, y1) = boundary.evaluate(patch, t, theta).tolist()
         return cls(
             index=k,
-            kind={1: "curve", 2: "segment", 3: "point"}[int(p.kind[k])],
+            kind="arc" if is_isolated_arc(boundary, k) else {1: "curve", 2: "segment", 3: "point"}[int(p.kind[k])],
             patch=int(p.patch[k]),
             lower=contact(boundary, int(p.lower[k])),
             upper=contact(boundary, int(p.upper[k])),

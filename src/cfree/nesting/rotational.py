@@ -132,7 +132,7 @@ class RotationalNFP(Value):
 
     @checked
     def exact_fits(self, theta: float) -> list[Floats]:
-        """Return the exact fits of no width near one orientation, in radians: points (1, 2) and segments (2, 2)."""
+        """Return the exact fits of no width near an orientation: points (1, 2), segments (2, 2) and arcs (n, 2)."""
         return isolated_at(self.boundary, theta)
 
     @cached_property
