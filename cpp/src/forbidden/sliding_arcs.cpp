@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cfree/support/lookout.hpp"
 #include "forbidden/coincident_surfaces.hpp"
 #include "predicates/round_orders.hpp"
 
