@@ -1,3 +1,4 @@
+// Pillars that are open, by signs of a place: nothing is computed but whether it is inside.
 #include "forbidden/open_covers.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
+// Cut a quadrant at an angle where it is on another circle, and find the parts that nothing covers.
 #include "forbidden/sliding_arcs.hpp"
 
 #include <algorithm>
 
 #include "cfree/support/lookout.hpp"
-#include "forbidden/coincident_surfaces.hpp"
 #include "predicates/round_orders.hpp"
 
 namespace cfree {

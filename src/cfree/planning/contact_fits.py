@@ -1,12 +1,14 @@
-"""Places where contacts of vertices, arcs and segments hold a robot: on a line, or about a point.
+"""Places where contacts of vertices, arcs and segments hold a robot: on a line, about a point, or on a circle.
 
 Two contacts that oppose each other, with no room between them or a little, hold the robot on a line; an arc in an arc
-of its own radius turns about its center. Numbers that are not rational are replaced by rational ones close to them, so
-all that comes from here is a proposal, to be proved free.
+of its own radius turns about its center; an arc that fills the channel between two arcs about one center goes around.
+Numbers that are not rational are replaced by rational ones close to them, so all that comes from here is a proposal, to
+be proved free.
 """
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -14,7 +16,7 @@ from fractions import Fraction
 from itertools import chain, combinations, islice, product
 
 from cfree.collision.arcs import Curve, curves_of
-from cfree.exact.half_angle import half_angle_rotation
+from cfree.exact.half_angle import half_angle_rotation, sum_of_angles
 from cfree.exact.number import ExactPoint, rational_root, simplest_between
 from cfree.exact.pose import Pose, pose_at
 from cfree.libraries import Floats, NDArray, np
@@ -59,6 +61,29 @@ class Center:
         """Return the pose at an orientation."""
         (x, y), (a, b) = self.place, _rotated(self.own, tau)
         return pose_at(x - a, y - b, tau)
+
+
+@dataclass(frozen=True)
+class Ring:
+    """A circle on which contacts hold a point of the robot; directions from the center where they may end.
+
+    Directions are tangents of half their angles.
+    """
+
+    own: ExactPoint
+    center: ExactPoint
+    radius: Fraction
+    ends: tuple[Fraction | None, ...]
+
+    def seen(self, x: float, y: float, theta: float) -> complex:
+        """Return the way from the center to the robot's point at a pose."""
+        at = complex(x, y) + cmath.rect(1, theta) * complex(*map(float, self.own))
+        return at - complex(*map(float, self.center))
+
+    def turning(self, direction: Fraction | None, tau: Fraction | None) -> Center:
+        """Return what turns with the robot about the center, its point in a direction at an orientation."""
+        u, v = _rotated((self.radius, Fraction(0)), sum_of_angles(direction, tau and -tau))
+        return Center((self.own[0] - u, self.own[1] - v), self.center)
 
 
 @dataclass(frozen=True)
@@ -189,6 +214,27 @@ class Fits:
                     (u, v) = other.center
                     if own.radius == -other.radius and math.hypot(place[0] + a - u, place[1] + b - v) <= near:
                         yield Center(own.center, other.center)
+
+    def rings(self, place: ExactPoint, tau: Fraction | None, near: float) -> Iterator[Ring]:
+        """Yield circles on which two arcs about one center, near a pose, hold an arc of the robot between them."""
+        for one, other in combinations(islice(self._contacts(place, tau, near), MOST_CONTACTS), 2):
+            inner, outer = (one, other) if one.radius > 0 else (other, one)
+            are_circles = one.n is None and other.n is None and isinstance(one.own, Round) and one.own == other.own
+            if are_circles and one.center == other.center and 0 < inner.radius <= -outer.radius:
+                assert isinstance(one.own, Round)
+                own, (a, b) = one.own, _rotated(one.own.center, tau)
+                center = one.center[0] + a, one.center[1] + b
+                ends = self._ends(center, {inner.radius - own.radius, own.radius - outer.radius})
+                yield Ring(own.center, center, (inner.radius - outer.radius) / 2, tuple(ends))
+
+    def _ends(self, center: ExactPoint, radii: set[Fraction]) -> Iterator[Fraction | None]:
+        """Yield directions from a center to the vertices at some distances."""
+        for other in self._others:
+            if isinstance(other, Round):
+                x, y = other.center[0] - center[0], other.center[1] - center[1]
+                radius = rational_root(x * x + y * y)
+                if radius in radii:
+                    yield y / (x + radius) if x + radius else None
 
     def _close(self, x: float, y: float, near: float) -> list[Feature]:
         return [other for other in self._others if _distance(other, x, y) <= self._reach + near]

@@ -1,7 +1,8 @@
-"""Motions through places where a robot with round edges fits exactly: along a line, or about a point.
+"""Motions through places where a robot with round edges fits exactly: along a line, about a point, or on a circle.
 
 A path among polygons inside of the shapes passes such a place nearly. The contacts near it give the exact one: two
-contacts that oppose each other hold the robot on a line, and an arc in an arc of its own radius turns about its center.
+contacts that oppose each other hold the robot on a line, an arc in an arc of its own radius turns about its center, and
+between two arcs about one center an arc goes around.
 Each is tried if its numbers are rational; the motion through it is proved free, and searches join its ends.
 """
 
@@ -14,6 +15,7 @@ from itertools import chain, islice, pairwise, product
 from typing import TYPE_CHECKING
 
 from cfree.collision.motion import Translation
+from cfree.exact.half_angle import sum_of_angles, theta_from
 from cfree.exact.number import ExactPoint, simplest_between
 from cfree.exact.pose import Pose, pose_at
 from cfree.libraries import np
@@ -21,6 +23,7 @@ from cfree.libraries import np
 if TYPE_CHECKING:
     from cfree.paths.path import Path
     from cfree.planning.arc_planner import ArcPlanner
+    from cfree.planning.contact_fits import Ring
     from cfree.planning.options import Options
 
 SAMPLES = 600  # poses at which a path is looked at
@@ -29,11 +32,16 @@ MOST_TRIES, FEW_TRIES = 80, 20  # searches that join them; in one of many querie
 MOST_WAYS = 8  # motions out of a contact
 MOST_PAIRS = 12  # searches between motions out of contacts
 LOOKS = 5  # poses of a forbidden part of a path near which fits are looked for
+LEAST_RUN = 3  # poses of one
 NEAR = 16  # errors of polygons within which a contact counts as near
 TOUCHING = 1e-9  # largest distance of a contact, relative to the robot
 FAR = 100  # of these: distances are not bounded beyond
 WIDELY = 1.2  # radians by which a robot is turned about the center of an arc that is held on a line
 FARTHER = (1.25, 2.0, 1.0, 0.5)  # lengths of a motion through a place, relative
+BEYOND = (0.02, 0.1)  # shares of a turn around a channel at both ends
+NEAR_END = 0.2  # radians from the end of a channel
+LARGEST_TURN = 1.5  # radians, of one motion
+IN_ORDER = 1e-6  # of a path: places of one run of poses, one after another
 
 Way = list[Pose]
 
@@ -85,10 +93,10 @@ def _links(planner: ArcPlanner, path: Path, error: float) -> list[Way]:
     lines = dict[tuple[object, ...], tuple[float, float, Way]]()
     for position, run in _narrow_runs(planner, path):
         steps = math.hypot(*(run[-1, :2] - run[0, :2]))
-        for portal in _portals(planner, run, NEAR * error):
+        for number, portal in enumerate(_portals(planner, run, NEAR * error)):
             key, is_back = _line_of(planner, *portal)
             own = portal[::-1] if is_back else portal
-            first, ahead, way = lines.get(key, (position, 0.0, own))
+            first, ahead, way = lines.get(key, (position + number * IN_ORDER, 0.0, own))
             lines[key] = first, ahead + (-steps if is_back else steps), _joined(planner, way, own)
     through = list[tuple[float, float, Way]]()
     for position, ahead, way in lines.values():  # in the direction in which the path passes the line
@@ -161,11 +169,21 @@ def _joined(planner: ArcPlanner, one: Way, other: Way) -> Way:
 
 
 def _portals(planner: ArcPlanner, run: np.ndarray, near: float) -> Iterator[Way]:
-    """Yield motions through exact fits near some poses, proved free."""
-    rows = run[[len(run) * k // (2 * LOOKS) for k in range(1, 2 * LOOKS, 2)]]
-    for x, y, theta in rows[np.argsort(abs(np.arange(LOOKS) - LOOKS // 2))].tolist():
-        place = _about(x, near), _about(y, near)  # few digits: motions are decided faster
-        for tau in planner.fits.angles(x, y, theta, near):
+    """Yield motions through exact fits near some poses, proved free; of a channel those before, in and after it."""
+    looks = [
+        ((_about(x, near), _about(y, near)), planner.fits.angles(x, y, theta, near))  # few digits: decided faster
+        for x, y, theta in run[[len(run) * k // (2 * LOOKS) for k in (5, 3, 7, 1, 9)]].tolist()
+    ]
+    around = (_around(planner, place, tau, run, near) for place, taus in looks for tau in taus)
+    if channel := next(chain.from_iterable(around), None):
+        inside, ways = channel
+        for part, own in ((run[: inside.start + 1], ways), (run[inside.stop - 1 :], [])):
+            if LEAST_RUN <= len(part) < len(run):
+                yield from _portals(planner, part, near)
+            yield from map(list, own)
+        return
+    for place, taus in looks:
+        for tau in taus:
             portal = next(chain(_turns(planner, place, tau, run, near), _lines(planner, place, tau, run, near)), None)
             if portal is not None:
                 yield [*portal]
@@ -197,6 +215,50 @@ def _turns(
         begin, end = map(center.pose, taus)
         if begin != end and planner.checker.joins([begin, end]):
             yield begin, end
+
+
+def _around(
+    planner: ArcPlanner, place: ExactPoint, tau: Fraction | None, run: np.ndarray, near: float
+) -> Iterator[tuple[slice, list[tuple[Pose, Pose]]]]:
+    """Yield the part of a run that is in a channel, and turns one after another about its center, about so far."""
+    for ring in planner.fits.rings(place, tau, near):
+        seen = np.array([ring.seen(*row) for row in run.tolist()])
+        here = int(np.argmin(np.hypot(run[:, 0] - float(place[0]), run[:, 1] - float(place[1]))))
+        (out,) = np.nonzero(abs(abs(seen) - float(ring.radius)) > near)
+        before, after = out[out < here], out[out > here]
+        inside = slice(before[-1] if len(before) else 0, (after[0] if len(after) else len(seen) - 1) + 1)
+        directions = np.unwrap(np.angle(seen[inside]))
+        first, last, theta = float(directions[0]), float(directions[-1]), float(_about(run[0, 2], 2.0**-10))
+        for begin, end in _ends_of_turn(ring, first, last):
+            start = Pose(0, 0, theta).tau
+            center, stop = ring.turning(begin, start), sum_of_angles(start, sum_of_angles(end, begin and -begin))
+            steps = 1 + int(abs(last - first) / LARGEST_TURN)
+            between = [Pose(0, 0, theta + (last - first) * k / steps).tau for k in range(1, steps)]
+            ways = [*pairwise(map(center.pose, [start, *between, stop]))]
+            if all(one != other and planner.checker.joins([one, other]) for one, other in ways):
+                sense = math.copysign(1.0, last - first)
+                least = sense * math.remainder(theta_from(begin) - first, math.tau)
+                most = sense * (last - first + math.remainder(theta_from(end) - last, math.tau))
+                ahead = sense * (directions - first)
+                (rows,) = np.nonzero((least <= ahead) & (ahead <= most))
+                if len(rows):
+                    yield slice(inside.start + int(rows[0]), inside.start + int(rows[-1]) + 1), ways
+                break
+
+
+def _ends_of_turn(ring: Ring, first: float, last: float) -> Iterator[tuple[Fraction | None, Fraction | None]]:
+    """Yield directions of a turn: beyond the given ones; where the channel may end if that is near; or before."""
+
+    def end_near(angle: float) -> Fraction | None:
+        apart = [abs(math.remainder(theta_from(end) - angle, math.tau)) for end in ring.ends]
+        return ring.ends[int(np.argmin(apart))] if min(apart, default=math.pi) < NEAR_END else Pose(0, 0, angle).tau
+
+    for share in BEYOND:
+        more = share * (last - first)
+        yield Pose(0, 0, first - more).tau, Pose(0, 0, last + more).tau
+    yield end_near(first), end_near(last)
+    less = BEYOND[0] * (last - first)
+    yield Pose(0, 0, first + less).tau, Pose(0, 0, last - less).tau
 
 
 def _lines(
