@@ -24,7 +24,16 @@ from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.formats.scene_file import load_scene
 from cfree.palette import EDGE_EDGE, EDGE_VERTEX, HELIX, MARK, VERTEX_EDGE
 from cfree.plot import depth_sort, pieces
-from cfree.plot.boundary import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
+from cfree.plot.boundary import (
+    extent,
+    legend_below,
+    new_axes,
+    plot_boundary,
+    plot_overview,
+    plot_slice,
+    plot_workspace,
+    save_figure,
+)
 from cfree.scene.scene import Scene
 from compared import scene_of
 from overlaps import touching
@@ -38,6 +47,20 @@ SQUARE = [(3, 3), (5, 3), (5, 5), (3, 5)]
 @pytest.fixture(scope="module")
 def fig9() -> Boundary:
     return boundary(load_scene(SCENES / "paper_fig9.json"))
+
+
+@pytest.mark.parametrize("count", [4, 6, 9])
+def test_a_legend_is_in_the_figure_whatever_its_width(count: int) -> None:
+    ax = new_axes((7, 6))
+    for k in range(count):
+        ax.plot([0, 1], [k, 2], label=f"contact {k}")
+    ax.set_aspect("equal")
+    legend_below(ax, ncols=count)
+    ax.figure.canvas.draw()
+    legend = ax.get_legend()
+    assert legend is not None
+    box, figure = legend.get_window_extent(), ax.figure.bbox
+    assert figure.x0 <= box.x0 and box.x1 <= figure.x1 + 1
 
 
 def pixels(figure: Figure) -> np.ndarray:

@@ -378,13 +378,22 @@ def _draw_fits(ax: Any, lines: list[NDArray[np.float64]]) -> None:
         ax.plot(*points.T, "o" if is_dot else "-", color=MARK, markersize=5, linewidth=2.2, zorder=20)
 
 
-def legend_below(ax: Axes, **options: Any) -> None:
-    """Add a legend below the axis label, for any height of the axes."""
+def legend_below(ax: Axes, ncols: int, **options: Any) -> None:
+    """Add a legend below the axis label, for any height of the axes; farther left, or of fewer columns, if wide."""
     from matplotlib.transforms import ScaledTranslation
 
     figure: Any = ax.figure
     below = ax.transAxes + ScaledTranslation(0, -0.5, figure.dpi_scale_trans)
-    ax.legend(loc="upper left", bbox_to_anchor=(0, 0), bbox_transform=below, frameon=False, **options)
+    ax.apply_aspect()
+    for columns in range(ncols, 0, -1):
+        legend = ax.legend(
+            loc="upper left", bbox_to_anchor=(0, 0), bbox_transform=below, frameon=False, ncols=columns, **options
+        )
+        extent, window = legend.get_window_extent(), ax.get_window_extent()
+        beyond = extent.x1 - figure.bbox.x1
+        if beyond <= extent.x0:
+            legend.set_bbox_to_anchor((-max(0.0, beyond) / window.width, 0), below)
+            break
 
 
 def around(boxes: Iterable[Window]) -> Window:
