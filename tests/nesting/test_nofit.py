@@ -65,6 +65,7 @@ def test_random_pairs_equal_exact_slices(seed: int) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_many_random_pairs_equal_exact_slices() -> None:
     for seed in range(300):
         draw = random.Random(f"slow test {seed}")

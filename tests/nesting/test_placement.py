@@ -137,6 +137,7 @@ def test_random_layouts_never_overlap(seed: int) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_many_random_layouts_never_overlap() -> None:
     for seed in range(40):
         check_layout(random_layout(random.Random(f"slow layout {seed}")))

@@ -39,6 +39,7 @@ def test_bombs_of_thousands_of_parts_are_read_or_refused(name: str, tmp_path: Pa
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_many_damaged_files_are_read_or_refused_with_one_error(tmp_path: Path) -> None:
     for number in range(700_000, 700_300):
         assert not result_of(number, tmp_path)[2], f"file {number}"
