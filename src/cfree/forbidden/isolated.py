@@ -5,17 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cfree.contact.kind import Kind
 from cfree.exact.half_angle import tau_in
 from cfree.forbidden.columns import CURVE, SEGMENT
+from cfree.libraries import Floats, np
 
 if TYPE_CHECKING:
     from cfree.forbidden.record import BoundaryRecord
-
-Floats = NDArray[np.float64]
 
 STEP = math.radians(2)
 SAME = 1e-9  # radians; for pictures only
