@@ -10,7 +10,7 @@ import pytest
 import cfree
 import cfree.verify
 from cfree import Curved, Pose, Scene
-from cfree.curves import Arc
+from cfree.curves import Arc, Circle
 
 Point = tuple[F, F]
 Turn = Callable[[object, object], Point]
@@ -155,6 +155,19 @@ def test_a_path_joins_poses_on_isolated_parts(name: str) -> None:
     path = cfree.plan(scene, start, goal)
     assert isinstance(path, cfree.Path) and (path.start, path.goal) == (start, goal)
     assert cfree.verify.answer(scene, path).verified
+
+
+@pytest.mark.parametrize("place", [(0, 0), (1, 0)])
+def test_a_disc_turns_around_in_a_ring_that_it_fills_and_does_not_leave_it(place: Point) -> None:
+    """The reference point may be elsewhere: the disc turns with the robot, then about its own center."""
+    ring = Curved([(-6, -6), (6, -6), (6, 6), (-6, 6)], [Circle((0, 0), 4)])
+    scene = Scene(Curved.circle(place, 1), [ring, Curved.circle((0, 0), 2)])
+    start, *goals = [Pose(x - place[0], y - place[1]) for x, y in ((3, 0), (0, 3), (-3, 0))]
+    for goal in goals:
+        path = cfree.plan(scene, start, goal)
+        assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
+    proof = cfree.plan(scene, start, Pose(9, 9))
+    assert isinstance(proof, cfree.Separated) and proof.of == "closed"
 
 
 def test_no_path_leaves_a_point_or_a_curve_that_is_held_on_all_sides() -> None:

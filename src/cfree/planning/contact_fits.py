@@ -80,6 +80,14 @@ class Ring:
         at = complex(x, y) + cmath.rect(1, theta) * complex(*map(float, self.own))
         return at - complex(*map(float, self.center))
 
+    def directions(self, pose: Pose) -> list[Fraction | None]:
+        """Return the direction of the robot's point at a pose, or nothing if it is not on the circle."""
+        a, b = _rotated(self.own, pose.tau)
+        x, y = pose.x + a - self.center[0], pose.y + b - self.center[1]
+        if x * x + y * y != self.radius**2:
+            return []
+        return [y / (x + self.radius) if x + self.radius else None]
+
     def turning(self, direction: Fraction | None, tau: Fraction | None) -> Center:
         """Return what turns with the robot about the center, its point in a direction at an orientation."""
         u, v = _rotated((self.radius, Fraction(0)), sum_of_angles(direction, tau and -tau))

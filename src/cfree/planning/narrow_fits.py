@@ -23,7 +23,7 @@ from cfree.libraries import np
 if TYPE_CHECKING:
     from cfree.paths.path import Path
     from cfree.planning.arc_planner import ArcPlanner
-    from cfree.planning.contact_fits import Ring
+    from cfree.planning.contact_fits import Center, Ring
     from cfree.planning.options import Options
 
 SAMPLES = 600  # poses at which a path is looked at
@@ -354,7 +354,27 @@ def ways_out(planner: ArcPlanner, pose: Pose, other: Pose) -> list[Way]:
         taus = [other.tau, *(Pose(0, 0, pose.theta + k * math.pi / 4).tau for k in (2, -2, 1, -1, 4))]
         turned = (center.pose(tau) for tau in taus if tau != pose.tau)
         ways += [[pose, end] for end in turned if planner.checker.joins([pose, end])]
-    return sorted(ways, key=lambda way: -math.hypot(*map(float, _apart(*way))))[:MOST_WAYS]
+    across = list[Way]()
+    for ring in islice(dict.fromkeys(planner.fits.rings(place, pose.tau, near)), MOST_PLACES):
+        for here in ring.directions(pose):
+            center, goals = ring.turning(here, pose.tau), ring.directions(other)
+            for end in dict.fromkeys([*goals, *ring.ends]):
+                found = [way for way in _both_ways(center, pose, here, end) if planner.checker.joins(way)]
+                (across if end in goals else ways).extend(found)
+    return across + sorted(ways, key=lambda way: -math.hypot(*map(float, _apart(way[0], way[-1]))))[:MOST_WAYS]
+
+
+def _both_ways(center: Center, pose: Pose, here: Fraction | None, end: Fraction | None) -> Iterator[Way]:
+    """Yield turns about the center of a channel from one direction to another, either way around."""
+    turn = sum_of_angles(end, here and -here)
+    short = math.remainder(theta_from(turn), math.tau)
+    if not short:
+        return
+    stop = center.pose(sum_of_angles(pose.tau, turn))
+    for angle in (short, short - math.copysign(math.tau, short)):
+        steps = 1 + int(abs(angle) / LARGEST_TURN)
+        between = [center.pose(Pose(0, 0, pose.theta + angle * k / steps).tau) for k in range(1, steps)]
+        yield [pose, *between, stop]
 
 
 def way_out_of_contacts(
@@ -364,6 +384,9 @@ def way_out_of_contacts(
     begins, ends = ways_out(planner, start, goal), ways_out(planner, goal, start)
     if not begins and not ends:
         return None
+    for begin in begins:
+        if planner.checker.joins([begin[-1], goal]):
+            return [*begin, goal]
     pairs = product(begins or [[start]], ends or [[goal]])
     for begin, end in islice(pairs, MOST_PAIRS):
         joined = [begin[-1]] if begin[-1] == end[-1] else planner.quick(begin[-1], end[-1], options, guesses)
