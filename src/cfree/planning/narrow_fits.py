@@ -232,9 +232,7 @@ def _around(
         for begin, end in _ends_of_turn(ring, first, last):
             start = Pose(0, 0, theta).tau
             center, stop = ring.turning(begin, start), sum_of_angles(start, sum_of_angles(end, begin and -begin))
-            steps = 1 + int(abs(last - first) / LARGEST_TURN)
-            between = [Pose(0, 0, theta + (last - first) * k / steps).tau for k in range(1, steps)]
-            ways = [*pairwise(map(center.pose, [start, *between, stop]))]
+            ways = [*pairwise([center.pose(start), *_stops(center, theta, last - first, stop)])]
             if all(one != other and planner.checker.joins([one, other]) for one, other in ways):
                 sense = math.copysign(1.0, last - first)
                 least = sense * math.remainder(theta_from(begin) - first, math.tau)
@@ -244,6 +242,13 @@ def _around(
                 if len(rows):
                     yield slice(inside.start + int(rows[0]), inside.start + int(rows[-1]) + 1), ways
                 break
+
+
+def _stops(center: Center, theta: float, angle: float, stop: Fraction | None) -> Way:
+    """Return the poses of a turn by an angle from an orientation on, to one that is given exactly."""
+    steps = 1 + int(abs(angle) / LARGEST_TURN)
+    taus = [Pose(0, 0, theta + angle * k / steps).tau for k in range(1, steps)]
+    return [*map(center.pose, [*taus, stop])]
 
 
 def _ends_of_turn(ring: Ring, first: float, last: float) -> Iterator[tuple[Fraction | None, Fraction | None]]:
@@ -370,11 +375,9 @@ def _both_ways(center: Center, pose: Pose, here: Fraction | None, end: Fraction 
     short = math.remainder(theta_from(turn), math.tau)
     if not short:
         return
-    stop = center.pose(sum_of_angles(pose.tau, turn))
+    stop = sum_of_angles(pose.tau, turn)
     for angle in (short, short - math.copysign(math.tau, short)):
-        steps = 1 + int(abs(angle) / LARGEST_TURN)
-        between = [center.pose(Pose(0, 0, pose.theta + angle * k / steps).tau) for k in range(1, steps)]
-        yield [pose, *between, stop]
+        yield [pose, *_stops(center, pose.theta, angle, stop)]
 
 
 def way_out_of_contacts(

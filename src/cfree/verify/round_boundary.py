@@ -29,6 +29,7 @@ from cfree.verify.round_pieces import Piece, Reader, Scale
 from cfree.verify.round_proof import Features, RoundSeparation
 from cfree.verify.round_separation import scale_of, side_findings, size_of
 from cfree.verify.round_slices import SURE, compared, pillar_of
+from cfree.verify.round_surfaces import middle
 from cfree.verify.round_world import ArcFilletPair, FilletPair, Part, Place, RoundWorld, is_apart
 from cfree.words import counted
 
@@ -210,7 +211,8 @@ class _Covering:
 
     def covers(self, piece: Piece, scale: Scale) -> bool:
         turn = scale.turn(piece.chart, (piece.start + piece.stop) // 2)
-        return self.covers_place(_middle(piece, turn), turn, scale.near)
+        ends = piece.lower.point(turn), piece.upper.point(turn)
+        return self.covers_place(middle(piece.surface, *ends, turn), turn, scale.near)
 
     def covers_place(self, place: Place, turn: Turn, near: arb) -> bool:
         """True if two pieces overlap by more than a distance where the robot is at a place."""
@@ -231,19 +233,6 @@ def _around(part: Part) -> tuple[complex, float]:
     """Center and radius of a disc around a piece."""
     center = complex(part.rough.mean())
     return center, float((np.abs(part.rough - center) + part.radii).max())
-
-
-def _middle(piece: Piece, turn: Turn) -> tuple[arb, arb]:
-    """A point in the middle of a trapezoid at an angle."""
-    (a, b), (c, d) = piece.lower.point(turn), piece.upper.point(turn)
-    x, y = (a + c) / 2, (b + d) / 2
-    s = piece.surface
-    if s.edge is not None:
-        return x, y
-    p = arb(s.b[0]) - turn.cos * arb(s.a[0]) + turn.sin * arb(s.a[1])
-    q = arb(s.b[1]) - turn.sin * arb(s.a[0]) - turn.cos * arb(s.a[1])
-    far = abs(arb(s.radius)) / ((x - p) * (x - p) + (y - q) * (y - q)).sqrt()  # no powers of balls around 0
-    return p + far * (x - p), q + far * (y - q)
 
 
 def _of_fits(checked: int, total: int) -> Check:

@@ -14,7 +14,7 @@ from cfree.forbidden.columns import CURVE, SEGMENT
 from cfree.verify.result import Finding
 from cfree.verify.round_algebra import Turn
 from cfree.verify.round_pieces import Reader
-from cfree.verify.round_surfaces import Fault, Surface, UndecidedError
+from cfree.verify.round_surfaces import Fault, UndecidedError, middle
 from cfree.verify.round_world import Place
 
 BESIDE = Fraction(1, 1 << 22)  # of the size: its square is far above what places may be off
@@ -60,10 +60,10 @@ class IsolatedParts:
         if start > stop or (kind == CURVE) != (start < stop):
             return "its angles are not in order"
         turn = self._reader.scale.turn(chart, (start + stop) // 2)
-        (a, b), (c, d) = (self._point(k, side, turn) for side in ("lower", "upper"))
+        ends = (a, b), (c, d) = self._point(k, "lower", turn), self._point(k, "upper", turn)
         place = (a + c) / 2, (b + d) / 2
         if kind == SEGMENT:
-            place = self._onto(k, place, turn)
+            place = middle(self._reader.surface(*self._contact(int(parts.patch[k]))[0]), *ends, turn)
         if not all(x.is_finite() and x.rad() < self._reader.scale.near for x in place):
             raise UndecidedError("the limit of a curve")
         if self._covers(place, turn, self._reader.scale.near):
@@ -79,17 +79,6 @@ class IsolatedParts:
             if not self._covers((place[0] + step.real, place[1] + step.imag), turn, self._reader.scale.near):
                 return "there is room beside it"
         return ""
-
-    def _onto(self, k: int, place: Place, turn: Turn) -> Place:
-        """Return the middle of a segment; of an arc that of its chord, moved away from the center onto the circle."""
-        contact, _ = self._contact(int(self._stored.isolated.patch[k]))
-        surface = self._reader.surface(*contact)
-        if surface.edge is not None:
-            return place
-        x, y = _center(surface, turn)
-        u, v = place[0] - x, place[1] - y
-        by = abs(arb(surface.radius)) / (u * u + v * v).sqrt()
-        return x + by * u, y + by * v
 
     def _contact(self, patch: int) -> tuple[tuple[int, int, int], int]:
         """Contact of a patch, and its quadrant."""
@@ -110,10 +99,3 @@ class IsolatedParts:
         contact, quadrant = self._contact(int(getattr(parts, f"{side}_patch")[k]))
         surface = self._reader.surface(*contact)
         return self._reader.curve(surface, quadrant, int(getattr(parts, side)[k])).point(turn)
-
-
-def _center(circle: Surface, turn: Turn) -> Place:
-    a, b = circle.a, circle.b
-    x = arb(b[0]) - turn.cos * arb(a[0]) + turn.sin * arb(a[1])
-    y = arb(b[1]) - turn.sin * arb(a[0]) - turn.cos * arb(a[1])
-    return x, y

@@ -16,7 +16,7 @@ from cfree.exact.pose import Pose
 from cfree.verify.parity import chart_of
 from cfree.verify.round_algebra import Ball, Turn
 from cfree.verify.round_pieces import Piece, Scale
-from cfree.verify.round_surfaces import UndecidedError, direction
+from cfree.verify.round_surfaces import UndecidedError, at_turn, direction
 
 MOST = 40  # poses that are tried
 
@@ -75,7 +75,6 @@ def _crossing(piece: Piece, turn: Turn, height: arb, on: tuple[Ball, Ball]) -> B
     if s.edge is not None:
         u, v = direction(s, turn)
         return on[0] + (height - on[1]) * u / v
-    x = arb(s.b[0]) - turn.cos * arb(s.a[0]) + turn.sin * arb(s.a[1])
-    y = arb(s.b[1]) - turn.sin * arb(s.a[0]) - turn.cos * arb(s.a[1])
+    x, y = at_turn((s.b, s.a), turn)
     half = (arb(s.radius) ** 2 - (height - y) * (height - y)).sqrt()  # no power of a ball around 0
     return x + half if (piece.quadrant in (0, 3)) == (s.radius > 0) else x - half

@@ -277,6 +277,16 @@ def at_turn(e: Moving, turn: Turn) -> tuple[Ball, Ball]:
     return arb(p) - turn.cos * arb(r) + turn.sin * arb(s), arb(q) - turn.sin * arb(r) - turn.cos * arb(s)
 
 
+def middle(surface: Surface, one: tuple[Ball, Ball], other: tuple[Ball, Ball], turn: Turn) -> tuple[Ball, Ball]:
+    """Point half-way between two of a line; of a circle that of the chord, moved away from the center onto it."""
+    x, y = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
+    if surface.edge is not None:
+        return x, y
+    p, q = at_turn((surface.b, surface.a), turn)
+    far = abs(arb(surface.radius)) / ((x - p) * (x - p) + (y - q) * (y - q)).sqrt()  # no powers of balls around 0
+    return p + far * (x - p), q + far * (y - q)
+
+
 BALLS = Forms(Balls)
 Made = Callable[[Forms], list[Trig]]
 Place = Callable[[Turn], Any]
