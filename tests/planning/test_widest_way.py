@@ -74,15 +74,58 @@ def test_other_scenes_are_left_to_intervals() -> None:
     def is_known(robot: Any, *obstacles: Any, **limits: Any) -> bool:
         return widest_way(Scene(robot, obstacles, **limits), Pose(0, 9), Pose(9, 0)) is not None
 
-    aside, half = Curved.circle((1, 0), 1), Curved([(1, 0), Arc((-1, 0), center=(0, 0))])
+    aside, oval = Curved.circle((1, 0), 1), Curved.ellipse((0, 0), (1, 2))
     assert is_known(POINT) and is_known(aside, WEDGE)
     assert not is_known(WEDGE) and not is_known(aside, bounds=(-9, -9, 9, 9)) and not is_known([POINT, aside])
-    assert not is_known(POINT, half) and not is_known(POINT, workspace=Curved.circle((0, 0), 20))
+    assert not is_known(POINT, oval) and not is_known(POINT, workspace=Curved.ellipse((0, 0), (20, 30)))
+
+
+def wall(arc: Arc, x: Any, y: Any, up: int) -> Curved:
+    """A wall from -60 to 60 below a line, or above it, with an arc around (x, y) in the place of a piece of it."""
+    a, b = 60 * up, y - 9 * up
+    return Curved([(2 * x - arc.to[0], y), arc, (-a, y), (-a, b), (a, b), (a, y)])
+
+
+def bump(x: Any, y: Any, up: int) -> Curved:
+    x, y = Fraction(x), Fraction(y)
+    return wall(Arc((x - up, y), center=(x, y)), x, y, up)
+
+
+def bay(up: int) -> Curved:
+    return wall(Arc((-3 * up, 0), center=(0, 0), clockwise=True), 0, 0, up)
+
+
+@pytest.mark.parametrize(
+    "obstacles, x, y, radius",
+    [
+        ([bump(0, 0, 1), bump(2, 4, -1)], 40, 2, Surd(-1, 1, 5)),  # two arcs
+        ([bump(0, 0, 1), box(-60, 4, 60, 9)[0]], 40, 2, Fraction(3, 2)),  # an arc and an edge
+        (
+            [bump(0, 0, 1), [(1, 3), (60, 90), (-60, 90)]],
+            40,
+            2,
+            Surd(Fraction(-1, 2), Fraction(1, 2), 10),
+        ),  # and a corner
+        ([bump(0, 0, 1), bump("1/2", "15/8", -1)], 40, 1, Fraction(0)),  # arcs that cross
+        ([bay(1), Curved.circle((0, -1), 1), box(-60, 0, 60, 9)[0]], 2, -1, Fraction(1, 2)),  # a pin in a bay
+        ([bay(1), [(0, -2), (1, 1), (-1, 1)], box(-60, 0, 60, 9)[0]], 2, -1, Fraction(1, 2)),  # a corner in a bay
+        ([bay(1), bay(-1), box(-1, -9, 1, 1)[0]], 2, 0, Surd(Fraction(3, 2), Fraction(-1, 2), 2)),  # a bar across a bay
+    ],
+)
+def test_gaps_at_arcs_have_closed_forms(obstacles: Any, x: int, y: int, radius: Any) -> None:
+    """From the left to the right."""
+    way = widest_way(Scene(POINT, obstacles, workspace=box(-50, -99, 50, 99)[0]), Pose(-x, y), Pose(x, y))
+    assert way and way.radius == radius
 
 
 @pytest.mark.parametrize("seed", [6, 15, 19])
 def test_cells_of_discs_a_little_smaller_and_larger_agree(seed: int) -> None:
     assert fuzz_widest.check(seed)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_cells_agree_among_shapes_with_arcs(seed: int) -> None:
+    assert fuzz_widest.check(seed, fuzz_widest.with_arcs)
 
 
 @pytest.mark.slow

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
 
 from cfree.errors import IncompleteError, InvalidPoseError, UnsupportedError
@@ -21,11 +20,12 @@ from cfree.exact.vectors import cross, dot, unit
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import free_space
 from cfree.paths.path import Path
-from cfree.planning.enclosure import Feature, nearest
+from cfree.planning.encounters import Feature, encounters
 from cfree.planning.plan import plan
-from cfree.planning.widest_way import features_of
+from cfree.planning.widest_way import features_of, features_of_shape
 from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import rounded
+from cfree.scene.features import BOUNDS
+from cfree.scene.rounded import known_cores
 from cfree.scene.scene import AnyShape, Scene
 
 TRIES = 3  # numbers that are tried, the simplest first
@@ -76,19 +76,17 @@ def only_touches(scene: Scene, start: Pose, goal: Pose) -> bool:
 
 
 def _is_in_contact(scene: Scene, pose: Pose) -> bool:
-    """True if the robot touches something at a free pose; False also if a shape has arcs."""
-    robot, obstacles = ([rounded(part) for part in parts] for parts in (scene.robot, scene.obstacles))
-    shapes = [shape for shape in (*robot, *obstacles) if shape is not None and not shape.arcs]
-    if len(shapes) < len(robot) + len(obstacles) or not isinstance(scene.workspace, Polygon | None):
+    """True if the robot touches something at a free pose; False also if shapes are not rounded."""
+    cores = known_cores(scene)
+    if len(cores.robot) < len(scene.robot) or len(cores.obstacles) < len(scene.obstacles) + cores.frames:
         return False
-    own = [_moved(f, pose) for f in features_of(shapes[: len(robot)], None)]
-    others = [*features_of(shapes[len(robot) :], scene.workspace)]
-    return any(nearest(f, g)[0] == (f.radius + g.radius) ** 2 for f in own for g in others if f.may_touch(g))
+    own = [_moved(f, pose) for part in cores.robot for f in features_of_shape(part, BOUNDS)]
+    others = [*features_of(cores, scene.workspace)]
+    return any(met.growth == 0 for f in own for g in others if f.may_touch(g) for met in encounters(f, g))
 
 
 def _moved(feature: Feature, pose: Pose) -> Feature:
-    p, q = pose.apply_exact([feature.p, feature.q])
-    return replace(feature, p=p, q=q)
+    return feature.mapped(lambda p: pose.apply_exact([p])[0], lambda x: x)
 
 
 def widths_and_gaps(scene: Scene) -> Iterator[tuple[Fraction, Fraction]]:

@@ -1,8 +1,8 @@
 """The largest disc that gets from one place to another, exactly, and where it is stopped.
 
-All features of the obstacles, segments and discs, grow at one rate. Where two of them meet, halfway between their
-nearest points, they join to a chain; when a chain first closes around start or goal alone, no disc as large as that
-passes. docs/theory/separations.md, "The widest way of a disc", has the proof.
+All features of the obstacles, segments, arcs and discs, grow at one rate. Where two of them meet, halfway between two
+points nearest to each other, they join to a chain. When a chain first closes around start or goal alone, no disc as
+large as that passes. docs/theory/separations.md, "The widest way of a disc", has the proof.
 """
 
 from __future__ import annotations
@@ -16,13 +16,15 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.orientation import Location, locate
 from cfree.exact.pose import Pose
 from cfree.exact.surd import Surd
-from cfree.exact.vectors import foot
-from cfree.planning.enclosure import Feature, first_enclosure
+from cfree.exact.vectors import cross, dot, minus
+from cfree.planning.enclosure import first_enclosure
+from cfree.planning.encounters import Feature, Rim, encounters
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BOUNDS, WORKSPACE
+from cfree.scene.hull_triangles import meeting_of_tangents
 from cfree.scene.naming import placed
-from cfree.scene.rounded import Rounded, rounded
-from cfree.scene.scene import Scene
+from cfree.scene.rounded import CoreArc, Cores, Rounded, known_cores, rounded
+from cfree.scene.scene import AnyShape, Scene
 
 
 @dataclass(frozen=True)
@@ -95,8 +97,7 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
     Returns
     -------
     WidestWay, or None
-        None if the robot is not one disc, about its reference point if there are bounds; or if shapes are not polygons,
-        grown polygons or discs, and the workspace a polygon.
+        None if the robot is not one disc, about its reference point if there are bounds; or if shapes are not rounded.
 
     Examples
     --------
@@ -109,6 +110,16 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
     -1 + 3/2 sqrt(2) = 1.1213203435596426 margin -5/4 + 3/2 sqrt(2)
     >>> print(way.at)
     between obstacle 0, 2 x 2 at (0, 0) and obstacle 1, 2 x 2 at (3, 3) at (1.5, 1.5)
+
+    Half a disc with a handle beside a wall, in a round room:
+
+    >>> from cfree.curves import Arc
+    >>> half = Curved([(0, -3), Arc((0, 3), center=(0, 0)), (0, 1), (-12, 1), (-12, -1), (0, -1)])
+    >>> wall = [(4, -3), (12, -3), (12, 3), (4, 3)]
+    >>> scene = Scene(Curved.circle((0, 0), "1/4"), [half, wall], workspace=Curved.circle((0, 0), 11))
+    >>> way = widest_way(scene, Pose(0, 7), Pose(0, -7))
+    >>> print(way.radius, way.at.obstacles)
+    1/2 (0, 1)
     """
     disc = rounded(scene.robot[0]) if len(scene.robot) == 1 else None
     if disc is None or not disc.is_disc:
@@ -116,15 +127,14 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
     (center,) = disc.points
     if scene.bounds and any(center):
         return None
-    shapes = [rounded(shape) for shape in scene.obstacles]
-    known = [shape for shape in shapes if shape is not None and not shape.arcs]
-    if len(known) < len(shapes) or not isinstance(scene.workspace, Polygon | None):
+    cores = known_cores(scene)
+    if len(cores.obstacles) < len(scene.obstacles) + cores.frames:
         return None
     (p,), (q,) = start.apply_exact([center]), goal.apply_exact([center])
     ends = p, q
-    if any(_is_blocked(scene, known, end) for end in ends):
+    if any(_is_blocked(scene, cores, end) for end in ends):
         return WidestWay(disc, Surd(0))
-    features = [*features_of(known, scene.workspace)]
+    features = [*features_of(cores, scene.workspace)]
     if not features:
         return WidestWay(disc, None)
     rooms = [_room_at(end, features) for end in ends]
@@ -143,40 +153,73 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
 # --- features ---
 
 
-def features_of(shapes: Sequence[Rounded], workspace: Polygon | None) -> Iterator[Feature]:
-    """Yield the features of grown cores and of a workspace; those of one owner follow each other."""
-    for k, shape in enumerate(shapes):
-        if isinstance(shape.core, Polygon):
-            yield from (Feature(p, q, shape.radius, k) for p, q in _edges(shape.core))
-        else:
-            yield Feature(shape.core[0], shape.core[-1], shape.radius, k)
-    if workspace is not None:
-        yield from (Feature(p, q, Fraction(0), WORKSPACE) for p, q in _edges(workspace))
+def features_of(cores: Cores, workspace: AnyShape | None) -> Iterator[Feature]:
+    """Yield the features of obstacles and workspace; those of one owner follow each other."""
+    own = len(cores.obstacles) - cores.frames
+    for k, shape in enumerate(cores.obstacles):
+        yield from features_of_shape(shape, k if k < own else WORKSPACE)
+    if isinstance(workspace, Polygon):
+        yield from features_of_shape(Rounded(workspace, Fraction(0)), WORKSPACE)
+
+
+def features_of_shape(shape: Rounded, owner: int) -> Iterator[Feature]:
+    """Yield the features of a grown core."""
+    if isinstance(shape.core, Polygon):
+        yield from (Feature(p, q, shape.radius, owner) for p, q in _edges(shape.core))
+    else:
+        yield Feature(shape.core[0], shape.core[-1], shape.radius, owner)
+    for arc in shape.arcs:
+        corner = arc.beyond[1] if arc.beyond else meeting_of_tangents(arc.start, arc.end, arc.center)
+        rim = Rim(arc.center, arc.radius, corner, arc.is_convex)
+        yield Feature(arc.start, arc.end, shape.radius, owner, rim)
 
 
 def _edges(polygon: Polygon) -> Iterator[tuple[ExactPoint, ExactPoint]]:
     for ring in polygon.exact_rings:
-        yield from pairwise([*ring, ring[0]])
+        yield from _closed(ring)
 
 
-def _is_blocked(scene: Scene, shapes: Sequence[Rounded], point: ExactPoint) -> bool:
-    """True if a point is inside the polygon of an obstacle, or outside of the workspace or the bounds."""
+def _closed(ring: Sequence[ExactPoint]) -> Iterator[tuple[ExactPoint, ExactPoint]]:
+    return pairwise([*ring, ring[0]])
+
+
+def _is_blocked(scene: Scene, cores: Cores, point: ExactPoint) -> bool:
+    """True if a point is inside of an obstacle before it is grown, or outside of the workspace or the bounds."""
     x, y = point
     if scene.bounds:
         x0, y0, x1, y1 = scene.bounds
         if not (x0 <= x <= x1 and y0 <= y <= y1):
             return True
-    if isinstance(scene.workspace, Polygon) and locate(point, _edges(scene.workspace)) is Location.OUTSIDE:
+    workspace = cores.straight(scene.workspace)
+    if workspace and locate(point, _edges(workspace)) is Location.OUTSIDE:
         return True
-    cores = (shape.core for shape in shapes if isinstance(shape.core, Polygon))
-    return any(locate(point, _edges(core)) is Location.INSIDE for core in cores)
+    if cores.frames:
+        frame = cores.obstacles[-cores.frames].core
+        assert isinstance(frame, Polygon)
+        if locate(point, _closed(frame.exact_rings[0])) is Location.OUTSIDE:
+            return True
+    return any(_is_inside(shape, point) for shape in cores.obstacles)
+
+
+def _is_inside(shape: Rounded, point: ExactPoint) -> bool:
+    """True if a point is inside of a core with its arcs."""
+    if not isinstance(shape.core, Polygon):
+        return False
+    return locate(point, _edges(shape.core)) is Location.INSIDE or any(_is_at_arc(arc, point) for arc in shape.arcs)
+
+
+def _is_at_arc(arc: CoreArc, point: ExactPoint) -> bool:
+    """True if a point is between an arc and its chord, or a concave arc and its corner."""
+    towards = minus(point, arc.center)
+    far = dot(towards, towards) - arc.radius**2
+    if arc.beyond is None:
+        return far < 0 and cross(minus(arc.end, arc.start), minus(point, arc.start)) < 0
+    corners = arc.start, arc.beyond[1], arc.end
+    return far > 0 and all(cross(minus(q, p), minus(point, p)) < 0 for p, q in _closed(corners))
 
 
 def _room_at(point: ExactPoint, features: Sequence[Feature]) -> tuple[Surd, int]:
     """Return the distance of a point from the features, and the owner of the nearest."""
-    distances = ((foot(point, f.p, f.q)[0], f) for f in features)
-    nearest = dict[Fraction, tuple[Fraction, Feature]]()  # by radius
-    for square, f in distances:
-        if f.radius not in nearest or square < nearest[f.radius][0]:
-            nearest[f.radius] = square, f
-    return min((Surd.root(square) - f.radius, f.owner) for square, f in nearest.values())
+    here = Feature(point, point, Fraction(0), BOUNDS)
+    distances = ((2 * met.growth, f.owner) for f in features for met in encounters(here, f))
+    return min(distances)

@@ -43,12 +43,9 @@ def hull_triangle(start: ExactPoint, end: ExactPoint, arc: Span | None, wider: F
     """
     if arc is None:
         return HullTriangle((start, end))
-    first, last = minus(start, arc.center), minus(end, arc.center)
-    square = dot(first, first)
-    share = square / (square + dot(first, last))
-    tangents = tuple(c + share * (x + y) for c, x, y in zip(arc.center, first, last, strict=True))
+    tangents = meeting_of_tangents(start, end, arc.center)
     if arc.sense > 0:
-        return HullTriangle((start, end, (tangents[0], tangents[1])))
+        return HullTriangle((start, end, tangents))
 
     def beyond(by: Fraction) -> ExactPoint:
         x, y = (t + by * (t - (p + q) / 2) for t, p, q in zip(tangents, start, end, strict=True))
@@ -56,6 +53,14 @@ def hull_triangle(start: ExactPoint, end: ExactPoint, arc: Span | None, wider: F
 
     near, far = beyond(wider / 2), beyond(wider)
     return HullTriangle((start, end, far), (near, far))
+
+
+def meeting_of_tangents(start: ExactPoint, end: ExactPoint, center: ExactPoint) -> ExactPoint:
+    """Return the point in which the tangents of a circle at two of its points meet."""
+    first, last = minus(start, center), minus(end, center)
+    square = dot(first, first)
+    share = square / (square + dot(first, last))
+    return center[0] + share * (first[0] + last[0]), center[1] + share * (first[1] + last[1])
 
 
 def meeting(triangles: Sequence[HullTriangle]) -> set[int]:
