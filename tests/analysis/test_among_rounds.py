@@ -90,6 +90,7 @@ def test_the_largest_margin_of_a_robot_in_contact_is_0() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_an_interval_that_stays_wide_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(among_rounds, "WORK", 4_000)
     monkeypatch.setattr(curved, "round_cells", lambda *_: None)
@@ -114,6 +115,7 @@ def test_the_nearest_miss_between_discs(robot: Curved) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_the_nearest_miss_of_an_open_ring_ends_after_counted_work(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its corners are not rational when it is inset, so that it becomes polygons, whose searches in vain take long."""
     (a, b), (c, d) = ((4 * radius / 5, 3 * radius / 5) for radius in (Fraction(3, 5), Fraction(3, 10)))

@@ -58,6 +58,7 @@ def met(three: tuple[Surface, ...]) -> list[tuple[float, float, float]]:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_the_census_of_two_triangles_has_the_triple_contacts_that_the_arrangement_has_not() -> None:
     found = census(TRIANGLES)
     assert len(found.surfaces) == 18 and sum(found.relations.values()) == 816 == math.comb(18, 3)

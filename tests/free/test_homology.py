@@ -105,6 +105,7 @@ def random_scene(seed: int) -> PlainScene:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_homology_is_that_of_slices_glued_by_mayer_and_vietoris() -> None:
     compared = Counter[tuple[int, int, int]]()
     for seed in range(12):

@@ -218,6 +218,7 @@ def replaced(scene: Scene, **parts: Any) -> Scene:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_fewer_obstacles_never_separate() -> None:
     for scene in random_questions(8):
         if reachable(scene):

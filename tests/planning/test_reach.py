@@ -43,6 +43,7 @@ def test_a_reversing_car_turns_round_in_a_dead_end_where_a_forward_one_cannot() 
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_proofs_from_both_ends_are_verified_by_both_checkers(tmp_path: Any) -> None:
     # an open field, with a nook that is left ahead only, or entered only
     nook = [

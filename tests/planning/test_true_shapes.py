@@ -99,6 +99,7 @@ def test_a_disc_passes_many_gaps_of_a_lattice_one_after_the_other(seed: int) -> 
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_clear_path_through_an_exact_fit_is_free_among_the_shapes_themselves() -> None:
     """Its detours with a margin are found among polygons inside of the shapes."""
     assert fault(999) == ("gate of discs, exact: Path", "")

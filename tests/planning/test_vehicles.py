@@ -284,6 +284,7 @@ def test_too_many_manoeuvres_with_a_clearance_are_proved_by_a_path_that_keeps_it
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_too_many_manoeuvres_among_round_shapes_are_told_at_once() -> None:
     scene = Scene(Curved.circle((0, 0), "1/2"), [Curved.circle((2, 0), 1)], bounds=(-5, -5, 5, 5))
     with pytest.raises(UndecidedError, match=r"^a path of a car") as caught:

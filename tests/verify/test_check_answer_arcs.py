@@ -188,6 +188,7 @@ SOLID = [STADIUM, BAY, MOON, FILLET]
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_planned_paths_in_random_round_scenes_are_verified_by_both() -> None:
     planned = 0
     for seed in range(12):

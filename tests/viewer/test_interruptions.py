@@ -77,6 +77,7 @@ def turned(tried: Tried, seconds: float = 3) -> float:
     return (frames(tried) - before) / passed
 
 
+@pytest.mark.long
 def test_a_hundred_thousand_triangles_turn_and_rest(tried: Tried) -> None:
     tried.page.set_viewport_size({"width": 1280, "height": 720})
     tried.page.select_option("#scenes", "paper_fig9")

@@ -139,6 +139,7 @@ def test_handles_are_moved_by_keys(park: Tried) -> None:
     assert park.page.locator(".handle.forward").get_attribute("aria-valuetext") == "5.7°"
 
 
+@pytest.mark.long
 def test_drag_of_a_handle_that_the_system_cancels_is_none(browser: Any, tmp_path: Path) -> None:
     phone = opened(browser, tmp_path, **PHONE)
     box = phone.page.locator(".handle.left circle").last.bounding_box()
