@@ -23,6 +23,11 @@ struct Octagon {
             high[i] = high[i] < o.high[i] ? o.high[i] : high[i];
         }
     }
+    bool meets(const Octagon& o) const {
+        for (int i = 0; i < 4; ++i)
+            if (o.high[i] < low[i] || high[i] < o.low[i]) return false;
+        return true;
+    }
     // A disc.
     void add(double x, double y, double radius) {
         constexpr double root_of_two = 1.4375;  // a little more than it

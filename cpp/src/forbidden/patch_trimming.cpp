@@ -98,12 +98,18 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
     seams(contact, touching);
     const std::size_t before = out.size();
     for (int r = 0; r < range.count; ++r) {
-        const auto& pillars = near.on({contact, range.chart[r]}, range.from[r].lo, range.to[r].hi);
+        const Surface surface{contact, range.chart[r]};
+        const double lo = range.from[r].lo, hi = range.to[r].hi;
+        if (near.cover_at_once(surface, lo, hi)) {
+            ++count.pairs;
+            continue;
+        }
+        const auto& pillars = near.on(surface, lo, hi);
         if (near.cover_all(contact)) {
             ++count.pairs;
             continue;
         }
-        Trimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r]);
+        Trimmer trimmer(scene, surface, range.from[r], range.to[r]);
         for (const Feature& owner : before_it) {
             const Range shared = range_of(scene, owner, count.decisions);
             for (int s = 0; s < shared.count; ++s)

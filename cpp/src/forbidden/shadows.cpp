@@ -2,15 +2,19 @@
 #include "forbidden/shadows.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "cfree/support/elementary.hpp"
 
 namespace cfree {
 
 namespace {
+
+constexpr std::size_t most_recent = 8;        // pillars that are tried again
+constexpr Index many_pieces = 8;              // of a robot for which it pays to look at one pose of each slice first
+constexpr Index few = 12, corners_tried = 8;  // vertices of a polygon; about so many of a larger one are tried first
 
 // Clip a convex polygon to |x|, |y| <= `reach`.
 void clip(std::vector<Vec<double>>& polygon, double reach) {
@@ -33,14 +37,27 @@ bool contains(const std::vector<Index>& list, Index from, Index to, Index what) 
     return std::find(list.begin() + from, list.begin() + to, what) != list.begin() + to;
 }
 
+Vec<double> place_of(const Shape& s, Index vertex) { return {s.x[vertex], s.y[vertex]}; }
+
+Vec<double> edge_of(const Shape& s, Index edge) { return place_of(s, s.w[edge]) - place_of(s, s.v[edge]); }
+
+std::uint64_t sign_bit(double x) { return std::bit_cast<std::uint64_t>(x) >> 63; }
+
 double larger(const Vec<double>& d) { return std::max(std::abs(d.x), std::abs(d.y)); }
 
 }  // namespace
 
+Shadows::Shadows(const Scene& s) : scene(s), at_robot(static_cast<std::size_t>(s.robot.ring_vertices)) {
+    const Shape& A = scene.robot;
+    const auto last = A.rounded.begin() + A.ring_vertices;
+    if (std::find(A.rounded.begin(), last, true) == last) return;
+    for (Index v = 0; v < A.ring_vertices; ++v) rounded_size = std::max(rounded_size, 2 * larger(place_of(A, v)));
+}
+
 void Shadows::look(const Shape& s, Index origin, Index piece, Side& side) const {
-    const Vec<double> o{s.x[origin], s.y[origin]};
+    const Vec<double> o = place_of(s, origin);
     for (Index n = s.piece[piece]; n < s.piece[piece + 1]; ++n) {
-        const Vec<double> v{s.x[s.piece_vertex[n]], s.y[s.piece_vertex[n]]};
+        const Vec<double> v = place_of(s, s.piece_vertex[n]);
         side.seen.push_back(v - o);
         const bool is_rounded = s.rounded[origin] | s.rounded[s.piece_vertex[n]];
         side.size = std::max(side.size, is_rounded ? 2 * std::max(larger(v), larger(o)) : larger(v - o));
@@ -58,9 +75,14 @@ void Shadows::look_at_robot(Index origin, Side& side) const {
 void Shadows::around(Index j, const std::vector<Index>& pieces, double reach) {
     near = pieces;
     at_obstacle.is_known = false;
+    recent.clear();
+    robot_size = std::max(reach, rounded_size);
     obstacles.clear(), within_reach.clear();
     for (const Index k : near) look(scene.obstacles, j, k, obstacles);
     within_reach.size = obstacles.size;
+    placed.assign(near.size(), {});
+    for (Index x = 0; x < obstacles.count(); ++x)
+        for (Index v = obstacles.start[x]; v < obstacles.start[x + 1]; ++v) placed[x].add(obstacles.seen[v].x, obstacles.seen[v].y);
     std::vector<Vec<double>> polygon;
     for (Index x = 0; x < obstacles.count(); ++x) {
         polygon.assign(obstacles.seen.begin() + obstacles.start[x], obstacles.seen.begin() + obstacles.start[x + 1]);
@@ -125,9 +147,11 @@ void Shadows::stand(const Shape& s, Index edge, bool of_robot, Standing& out) co
 
 // True if a turning vertex may just reach the height of an edge along the line.
 bool Shadows::may_pinch(Index q, Index x, double slack) const {
-    for (const double height : still->parallel[x])
+    for (const double height : still->parallel[x]) {
+        if (std::isnan(height)) break;
         for (Index v = turning->start[q]; v < turning->start[q + 1]; ++v)
             if (std::abs(radius[v] - height) <= slack) return true;
+    }
     return false;
 }
 
@@ -136,7 +160,7 @@ const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double l
     const bool on_edge = contact.kind == Kind::vertex_edge;
     const Shape& own = on_edge ? scene.obstacles : scene.robot;
     const Index edge = on_edge ? contact.obstacle : contact.robot;
-    const Vec<double> v{own.x[own.v[edge]], own.y[own.v[edge]]}, w{own.x[own.w[edge]], own.y[own.w[edge]]};
+    const Vec<double> v = place_of(own, own.v[edge]), w = place_of(own, own.w[edge]);
     E = w - v;
     slices.cut(lo, hi, surface.chart);
     Standing& standing = on_edge ? at_obstacle : at_robot[edge];
@@ -185,14 +209,15 @@ void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
     const double *along0 = still->along0.data(), *along1 = still->along1.data(), *across0 = still->across0.data(),
                  *across1 = still->across1.data();
     crossing.assign(count, 0), meeting.assign(count, 0);
+    std::uint64_t *crosses_in = crossing.data(), *meets_in = meeting.data();
     for (int s = 0; s < slices.count; ++s) {
         const Octagon& box = in_slice(s, q);
         const double low = box.low[0], high = box.high[0] + length, below = box.low[1], above = box.high[1];
-        const std::uint64_t bit = std::uint64_t{1} << s;
-        for (std::size_t x = 0; x < count; ++x) {
-            const bool crosses = (across1[x] >= below) & (across0[x] <= above);
-            crossing[x] |= crosses ? bit : 0;
-            meeting[x] |= crosses & (along1[x] >= low) & (along0[x] <= high) ? bit : 0;
+        for (std::size_t x = 0; x < count; ++x) {  // by signs of differences, without a branch: compilers make vectors of it
+            const std::uint64_t passes = sign_bit(across1[x] - below) | sign_bit(above - across0[x]);
+            const std::uint64_t misses = passes | sign_bit(along1[x] - low) | sign_bit(high - along0[x]);
+            crosses_in[x] |= (passes ^ 1) << s;
+            meets_in[x] |= (misses ^ 1) << s;
         }
     }
     const Index own = robot_turns ? q : near[q];
@@ -221,57 +246,122 @@ void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
     }
 }
 
-bool Shadows::cover_all(const Feature& contact) {
-    const double most = (1 - 0x1p-20) * slices.count * length;
-    const bool on_edge = contact.kind == Kind::vertex_edge;
-    const Index i = contact.robot;
-    for (const Pillar& x : pillars) {
-        if (x.cover < most) return false;
-        // at each angle a pillar is convex: it is enough that it covers the helices at both ends of the line
-        if (on_edge ? covers_helix(x, i, {0, 0}) && covers_helix(x, i, E)
-                    : covers_helix(x, scene.robot.v[i], {0, 0}) && covers_helix(x, scene.robot.w[i], {0, 0}))
-            return true;
+bool Shadows::cover_at_once(const Surface& surface, double lo, double hi) {
+    slices.cut(lo, hi, surface.chart);
+    if (scene.robot.pieces() < many_pieces) return recent_cover(surface.contact, 0, slices.count);
+    for (int s = 0; s < slices.count; ++s)
+        if (!recent_cover(surface.contact, s, s + 1) && !covers_slice(surface.contact, s)) return false;
+    return true;
+}
+
+bool Shadows::recent_cover(const Feature& contact, int from, int to) {
+    for (auto it = recent.begin(); it != recent.end(); ++it) {
+        if (!covers(contact, *it, from, to, false)) continue;
+        std::rotate(recent.begin(), it, it + 1);
+        return true;
     }
     return false;
 }
 
-// True if the pieces overlap all the way along the helix of robot vertex a at a point of the obstacles, relative to the
-// patch's: in each slice a vertex of one stays inside the other. Its arc is in the triangle of its control points.
-bool Shadows::covers_helix(const Pillar& pillar, Index a, const Vec<double>& at) {
-    const auto place = still == &at_obstacle ? pillar.still : pillar.turning;
-    const std::span ring(obstacles.seen.data() + obstacles.start[place], obstacles.seen.data() + obstacles.start[place + 1]);
-    seen_robot.clear();
-    look(scene.robot, a, pillar.p, seen_robot);
+// Try the pieces whose boxes meet in the middle of the line at the middle of a slice: all that may cover it.
+bool Shadows::covers_slice(const Feature& contact, int s) {
+    const Shape& A = scene.robot;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const Index a = on_edge ? contact.robot : A.v[contact.robot];
+    const double tau = (slices.at[s] + slices.at[s + 1]) / 2;
+    const Vec<double> R = slices.corner(tau, tau);
+    const auto turned = [&](Index v) {
+        const Vec<double> d = place_of(A, v) - place_of(A, a);
+        return Vec<double>{R.x * d.x - R.y * d.y, R.x * d.y + R.y * d.x};
+    };
+    const Vec<double> E = on_edge ? edge_of(scene.obstacles, contact.obstacle) : turned(A.w[contact.robot]);
+    const double x = (on_edge ? 0.5 : -0.5) * E.x, y = (on_edge ? 0.5 : -0.5) * E.y;
+    for (Index p = 0; p < A.pieces(); ++p) {
+        Octagon around;
+        for (Index n = A.piece[p]; n < A.piece[p + 1]; ++n) {
+            const Vec<double> v = turned(A.piece_vertex[n]);
+            around.add(v.x + x, v.y + y);
+        }
+        for (Index place = 0; place < obstacles.count(); ++place) {
+            if (A.piece_layer[p] != scene.obstacles.piece_layer[near[place]] || !around.meets(placed[place])) continue;
+            if (covers_and_is_kept(contact, {p, place}, s, s + 1)) return true;
+        }
+    }
+    return false;
+}
+
+// True if a pillar certainly covers some slices of a patch; it is tried first for the next ones.
+bool Shadows::covers_and_is_kept(const Feature& contact, Overlap pieces, int from, int to) {
+    if (!covers(contact, pieces, from, to, true)) return false;
+    if (recent.size() == most_recent) recent.pop_back();
+    recent.insert(recent.begin(), pieces);
+    return true;
+}
+
+bool Shadows::cover_all(const Feature& contact) {
+    const double most = (1 - 0x1p-20) * slices.count * length;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    for (const Pillar& x : pillars) {
+        if (x.cover < most) return false;
+        if (covers_and_is_kept(contact, {x.p, on_edge ? x.still : x.turning}, 0, slices.count)) return true;
+    }
+    return false;
+}
+
+// True if a pillar certainly covers some slices of a patch. At each angle it is convex: it is enough that it covers the helices
+// at both ends of the line. If `anew` is false, only the witness is tried in the first slice.
+bool Shadows::covers(const Feature& contact, Overlap& pieces, int from, int to, bool anew) const {
+    const Shape& A = scene.robot;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const Index i = contact.robot;
+    const Vec<double> end = on_edge ? edge_of(scene.obstacles, contact.obstacle) : Vec<double>{0, 0};
+    return covers_helix(pieces, on_edge ? i : A.v[i], {0, 0}, from, to, anew) &&
+           covers_helix(pieces, on_edge ? i : A.w[i], end, from, to, anew);
+}
+
+// True if the pieces overlap in some slices all the way along the helix of robot vertex a at a point of the obstacles, relative
+// to the patch's: in each slice a vertex of one stays inside the other. Its arc is in the triangle of its control points.
+bool Shadows::covers_helix(Overlap& pieces, Index a, const Vec<double>& at, int from, int to, bool anew) const {
+    const Shape& A = scene.robot;
+    const Vec<double>* ring = obstacles.seen.data() + obstacles.start[pieces.place];
+    const Index first = A.piece[pieces.p], robot_count = A.piece[pieces.p + 1] - first;
+    const Index ring_count = obstacles.start[pieces.place + 1] - obstacles.start[pieces.place], count = robot_count + ring_count;
+    const auto of_ring = [&](Index k) { return ring[k]; };
+    const auto of_robot = [&](Index k) { return place_of(A, A.piece_vertex[first + k]) - place_of(A, a); };
     // Let relative coordinates of the robot be at most m, of obstacles at most M, as above: control points, at most 2.2 m from
     // `at`, are within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The other
     // case is alike.
-    const double m = seen_robot.size, M = obstacles.size, margin = 0x1p-43 * (m + M) * (m + M) + 0x1p-900;
-    const auto is_inside = [&](std::span<const Vec<double>> polygon, const Vec<double>& p) {
-        const Vec<double>* last = &polygon.back();
-        for (const Vec<double>& v : polygon) {
-            if (!(cross(v - *last, p - *last) > margin)) return false;
-            last = &v;
+    const double m = robot_size, M = obstacles.size, margin = 0x1p-43 * (m + M) * (m + M) + 0x1p-900;
+    const auto is_within = [&](const auto& vertex, Index size, Index step, const Vec<double>& p) {  // every so many vertices
+        Vec<double> v = vertex(0);
+        for (Index k = step; size > 2; k += step) {
+            const Vec<double> w = k < size ? vertex(k) : vertex(0);
+            if (!(cross(w - v, p - v) > margin)) return false;
+            if (k >= size) return true;
+            v = w;
         }
-        return polygon.size() > 2;
+        return false;
     };
-    const std::size_t robot_count = seen_robot.seen.size(), count = robot_count + ring.size();
-    std::size_t witness = 0;
-    for (int s = 0; s < slices.count; ++s) {
-        const double from = slices.at[s], to = slices.at[s + 1];
-        const Vec<double> rotations[] = {slices.corner(from, to), slices.corner(from, from), slices.corner(to, to)};
-        const auto stays = [&](std::size_t k) {
+    const auto is_inside = [&](const auto& vertex, Index size, const Vec<double>& p) {
+        return (size > few && is_within(vertex, size, size / corners_tried, p)) || is_within(vertex, size, 1, p);
+    };
+    for (int s = from; s < to; ++s) {
+        const double lo = slices.at[s], hi = slices.at[s + 1];
+        const Vec<double> rotations[] = {slices.corner(lo, hi), slices.corner(lo, lo), slices.corner(hi, hi)};
+        const auto stays = [&](Index k) {
             return std::all_of(rotations, rotations + 3, [&](const Vec<double>& R) {
                 if (k < robot_count) {
-                    const Vec<double>& d = seen_robot.seen[k];
-                    return is_inside(ring, {R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y});
+                    const Vec<double> d = of_robot(k);
+                    return is_inside(of_ring, ring_count, {R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y});
                 }
-                const Vec<double> d = ring[k - robot_count] - at;
-                return is_inside(seen_robot.seen, {R.x * d.x + R.y * d.y, R.x * d.y - R.y * d.x});
+                const Vec<double> d = of_ring(k - robot_count) - at;
+                return is_inside(of_robot, robot_count, {R.x * d.x + R.y * d.y, R.x * d.y - R.y * d.x});
             });
         };
-        std::size_t tried = 0;
-        for (; tried < count && !stays(witness); ++tried) witness = witness + 1 == count ? 0 : witness + 1;
-        if (tried == count) return false;
+        const Index most = anew || s > from ? count : 1;
+        Index tried = 0;
+        for (; tried < most && !stays(pieces.witness); ++tried) pieces.witness = pieces.witness + 1 == count ? 0 : pieces.witness + 1;
+        if (tried == most) return false;
     }
     return true;
 }

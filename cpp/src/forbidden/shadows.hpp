@@ -17,7 +17,7 @@ namespace cfree {
 
 class Shadows {
 public:
-    explicit Shadows(const Scene& s) : scene(s), at_robot(static_cast<std::size_t>(s.robot.ring_vertices)) {}
+    explicit Shadows(const Scene& s);
 
     // Prepare for the patches of obstacle ring vertex j and the edge from it, with the pieces near it; no two points of the
     // robot are farther apart than `reach`.
@@ -31,6 +31,9 @@ public:
         std::size_t ranges;    // each slice's range on the line
         double cover;          // approximate share of the patch
     };
+    // True if pillars certainly cover all of a patch between two angles of a chart, its rim included, and this costs little to
+    // see: one that covered all of a patch not long ago, or, among many pieces of the robot, one for each slice.
+    bool cover_at_once(const Surface& surface, double lo, double hi);
     // Pillars that may cover some of a patch between two angles of a chart, in the best order for subtraction.
     const std::vector<Pillar>& on(const Surface& surface, double lo, double hi);
     // Slices of that patch; Trimmer::left sets the live range in them.
@@ -61,12 +64,21 @@ private:
         std::vector<std::array<double, 2>> parallel;           // place across of its edges along the line; NaN: none
         bool is_known = false, any_parallel = false;
     };
+    // A robot piece and one of the near pieces, by its place, with a vertex of one that has been inside the other.
+    struct Overlap {
+        Index p, place;
+        Index witness = 0;
+    };
     void look(const Shape& shape, Index origin, Index piece, Side& side) const;
     void look_at_robot(Index origin, Side& side) const;
     void stand(const Shape& shape, Index edge, bool of_robot, Standing& out) const;
     void turn(double sign, double slack);
     void turn_to(double x, double y, double sign, std::vector<Octagon>& out) const;
-    bool covers_helix(const Pillar& pillar, Index robot_vertex, const Vec<double>& at);
+    bool recent_cover(const Feature& contact, int from, int to);
+    bool covers_slice(const Feature& contact, int slice);
+    bool covers_and_is_kept(const Feature& contact, Overlap pieces, int from, int to);
+    bool covers(const Feature& contact, Overlap& pieces, int from, int to, bool anew) const;
+    bool covers_helix(Overlap& pieces, Index robot_vertex, const Vec<double>& at, int from, int to, bool anew) const;
     bool may_pinch(Index turning_piece, Index still_piece, double slack) const;
     Range range_of(int slice, Index turning_piece, Index still_piece) const;
     void add_pillars(Index turning_piece, const Feature& contact, double slack);
@@ -74,6 +86,7 @@ private:
 
     const Scene& scene;
     std::vector<Index> near;
+    std::vector<Octagon> placed;           // around the near pieces as they are, relative to the vertex
     Side obstacles, within_reach, robot;   // the near pieces, their parts that the robot can touch, and the robot's
     Standing at_obstacle;                  // fixed with the edge from the obstacle vertex
     std::vector<Standing> at_robot;        // fixed with the robot's edges
@@ -82,7 +95,9 @@ private:
     std::vector<double> along, across, radius;  // turning vertices
     std::vector<Octagon> turned;                // one per slice and piece, rounded outwards
     std::vector<Octagon> corners[2];            // scratch: octagons at the angles between two slices
-    Side seen_robot;                            // scratch: one piece
+    double rounded_size = 0;                    // twice the largest coordinate of the robot, if one of them is rounded
+    double robot_size = 0;                      // bound of coordinates of the robot's vertices, relative to one of them
+    std::vector<Overlap> recent;                // pillars that covered all of a patch, the last one first
     Vec<double> E;                              // vector of the patch's edge
     double length = 0;                          // |E|^2
     std::vector<std::uint64_t> crossing, meeting;          // slices, by fixed piece
