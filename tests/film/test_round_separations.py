@@ -44,11 +44,6 @@ def stadium() -> Scene:
     return Scene(STADIUM, row, workspace=round_room, start=(-5, 0, 0), goal=(4, 0, 0))
 
 
-def grown() -> Scene:
-    walls = [Curved([(6, 0), (7, 0), (7, 2), (6, 2)], grown="1/2"), Curved([(6, 4), (7, 4), (7, 6), (6, 6)], grown=1)]
-    return Scene(Curved([(0, 0), (1, 0), (1, 1), (0, 1)], grown="1/3"), walls, workspace=HALL, **ENDS)
-
-
 def hole() -> Scene:
     return Scene(SQUARE, [plate()], start=(0, 0, 0), goal=(9, 9, 0))
 
@@ -60,14 +55,17 @@ def fillets() -> Scene:
 
 
 def two_parts() -> Scene:
-    robot = [STADIUM, Curved.circle((1, 0), "2/3")]
-    return Scene(robot, posts(6, 1, "3.2", 5), workspace=HALL, start=(2, 3, 0), goal=(9, 3, 0))
+    robot = [STADIUM, Curved([(0, 0), (1, 0), (1, 1)], grown="1/3")]
+    walls = [
+        Curved([(6, 0), (7, 0), (7, 2), (6, 2)], grown="1/2"),
+        Curved([(6, 4), (7, 4), (7, 6), (6, 6)], grown="3/4"),
+    ]
+    return Scene(robot, walls, workspace=HALL, start=(2, 3, 0), goal=(9, 3, 0))
 
 
 SCENES: dict[str, tuple[Callable[[], Scene], str]] = {
     "disc": (disc, "surface of a slightly smaller robot"),
     "stadium": (stadium, "surface of a slightly smaller robot"),
-    "grown": (grown, "surface of a slightly smaller robot"),
     "hole": (hole, "surface of a slightly smaller robot"),
     "fillets": (fillets, "surface of slightly smaller obstacles"),
     "two parts": (two_parts, "surface of a slightly smaller robot"),

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from cfree.planning.proof import Proof
     from cfree.scene.scene import Scene
 
+DIGITS = 6  # of the share of a polygon that is outside of a shape, which may be rounding
+
 
 def answer_of(boundary: Boundary) -> Separated:
     """Return the proof that there is no path between the ends of a scene.
@@ -113,12 +115,16 @@ def _blocking(answer: Separated, scene: Scene) -> list[int]:
     """Return the blocking obstacles, by their numbers in a scene; polygons in an answer are inside its round shapes."""
     if answer.rounded or answer.scene is None or not scene.curved:
         return [*answer.obstacles]
+    import shapely
+
     shapes = smooth_geometries(scene, scene.obstacles)
-    found = []
+    tree, found = shapely.STRtree(shapes), list[int]()
     for number in answer.obstacles:
-        if number >= 0:
-            polygon = answer.scene.obstacles[number].to_shapely()
-            around = [k for k, shape in enumerate(shapes) if shape.covers(polygon)]
-            number = min(around, key=lambda k: float(shapes[k].area))
-        found.append(number)
+        if number < 0:
+            found.append(number)
+            continue
+        polygon = answer.scene.obstacles[number].to_shapely()
+        around = tree.query_nearest(polygon.representative_point()).tolist()
+        outside = [round(polygon.difference(shapes[k]).area / polygon.area, DIGITS) for k in around]
+        found.append(min(zip(outside, (shapes[k].area for k in around), around, strict=True))[2])
     return [*dict.fromkeys(found)]

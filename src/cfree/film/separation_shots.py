@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 SHARES = 0.35, 0.4  # shares of the film in which the robot tries and the surface closes
 GLASS = 0.45  # opacity of the surface above the robot's orientation
+BESIDE = 0.02  # share of a surface's sides between its ends and the places tried
 NAMED = 4  # obstacles named at most: the line ends before the pose in small pictures
 
 
@@ -55,8 +56,7 @@ def separation_shots(
     surface : str
         Describes the shapes whose contacts form the surface, if they are not the scene's.
     """
-    (x0, y0, x1, y1), radius = window, robot_radius(boundary.scene)
-    free = FreeMotions(boundary, (x0 + radius, y0 + radius, x1 - radius, y1 - radius))
+    free = FreeMotions(boundary, _inner(window, robot_radius(boundary.scene)))
     places = free.tried(answer.start, answer.goal)
     stops = [answer.start, *places, answer.start]
     paths = [free.path(a, b) for a, b in pairwise(stops)]
@@ -76,6 +76,13 @@ def separation_shots(
         replace(shot, title="Contacts close a surface", moments=[moments[k] for k in second], level=level),
         replace(shot, title=_conclusion(answer), moments=[moments[k] for k in third]),
     ]
+
+
+def _inner(window: Window, radius: float) -> Window:
+    """Return the rectangle of the places tried: all of the robot is in the window, and they are not at its sides."""
+    x0, y0, x1, y1 = window
+    dx, dy = (radius + BESIDE * (side - 2 * radius) for side in (x1 - x0, y1 - y0))
+    return x0 + dx, y0 + dy, x1 - dx, y1 - dy
 
 
 def _conclusion(answer: Separated) -> str:
