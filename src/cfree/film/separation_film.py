@@ -92,7 +92,7 @@ def separation_film(
 
 
 def surface_in_words(answer: Separated, scene: Scene) -> str:
-    """Describe the shapes whose contacts form the surface; empty if they are the scene's, or polygons in their place.
+    """Describe the shapes whose contacts form the surface, among round shapes or for a clearance; else return "".
 
     Examples
     --------
