@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from itertools import combinations
 
 import numpy as np
@@ -84,9 +85,17 @@ def test_reflex_vertices_have_contact_surfaces_as_well() -> None:
         census(Scene([(0, 0), (1, 0), (0, 1)], [dart]), max_triples=9)
 
 
-def test_the_census_is_of_polygons() -> None:
-    with pytest.raises(UnsupportedError, match="outer"):
-        census(Scene(SQUARE, [Curved.circle((5, 5), 1)]))
+@pytest.mark.parametrize("ask", [census, arrangement])
+def test_round_shapes_are_refused_with_the_remedy(ask: Callable[[Scene], object]) -> None:
+    for scene in (
+        Scene(SQUARE, [Curved.circle((5, 5), 1)]),
+        Scene(Curved(SQUARE, grown=1), []),
+        Scene(SQUARE, workspace=Curved.circle((0, 0), 9)),
+    ):
+        with pytest.raises(UnsupportedError) as refused:
+            ask(scene)
+        (line,) = str(refused.value).splitlines()
+        assert "round shapes, and this takes polygons" in line and "cfree convert --outer or --inner" in line
 
 
 @pytest.mark.slow

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from cfree.cli.app import app
 from cfree.cli.describe import expected_patches
 from cfree.forbidden.kinds import KINDS
 from cfree.scene.features import grown_features
+from cfree.scene.scene import with_ends
 from rounded_scenes import MIXED, SCENES, disc, stadium
 
 OVAL = '{"ellipse": {"center": [3, 3], "radii": [2, 1]}}'
@@ -145,13 +147,37 @@ def test_plan_takes_an_exact_boundary(discs: Path, tmp_path: Path) -> None:
     assert facts("plan", tmp_path / "a.npz")["answer"] == facts("plan", discs)["answer"]
 
 
-def test_what_takes_polygons_only_says_so_in_a_line(discs: Path, tmp_path: Path) -> None:
-    assert run("boundary", discs, "-o", tmp_path / "a.npz").exit_code == 0
-    result = run("film", tmp_path / "a.npz", "-o", tmp_path / "a.gif", "--storyboard", "separation")
-    assert result.exit_code == 2
-    (line,) = result.stderr.splitlines()
-    assert "polygons" in line and "cfree convert --inner" in line
-    assert run("boundary", discs, "--folder", tmp_path / "f").exit_code == 0
+def test_a_film_of_a_separation_takes_no_other_curves(oval: Path, tmp_path: Path) -> None:
+    scene = cfree.load_scene(oval)
+    cfree.save(with_ends(scene, cfree.Pose(0, 0), cfree.Pose(9, 9)), oval)
+    for options in ((), ("--tolerance", "0.01")):
+        result = run("film", oval, "-o", tmp_path / "a.gif", "--storyboard", "separation", *options)
+        assert result.exit_code == 2
+        (line,) = result.stderr.splitlines()
+        assert "obstacle 0: not bounded by lines and arcs" in line and "cfree convert --inner" in line
+
+
+@pytest.mark.slow
+def test_proofs_among_round_shapes_are_filmed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the shapes' own surface, where a gap is closed by a hair, and by polygons inside them; to a place as well."""
+    shown: list[tuple[Any, Any]] = []
+
+    def seen(answer: Any, found: Any, file: Path, **_: Any) -> None:
+        shown.append((answer, found))
+        file.touch()
+
+    monkeypatch.setattr("cfree.film.film_separation", seen)
+    scene, answer, film = tmp_path / "scene.json", tmp_path / "answer.json", tmp_path / "a.gif"
+    hall = [(0, 0), (12, 0), (12, 6), (0, 6)]
+    for hair, goal in ((Fraction(1, 2**60), "10,3,0"), (Fraction(1, 2), "10,3")):
+        posts = [disc(6, 3 + sign * (Fraction(3, 2) - hair), Fraction(1, 2)) for sign in (-1, 1)]
+        closed = cfree.Scene(disc(0, 0, 1), posts, workspace=hall, start=(2, 3, 0))
+        cfree.save(closed, scene)
+        assert run("plan", scene, "--goal", goal, "-o", answer, "--film", film).exit_code == 1
+        assert run("film", scene, answer, "-o", film).exit_code == 0
+        (first, found), (second, again) = shown[-2:]
+        assert first == second and (first.rounded is not None) == (hair < 1e-9)
+        assert found.scene == again.scene == closed
 
 
 def test_rounded_scenes_of_files_have_their_shapes(tmp_path: Path) -> None:

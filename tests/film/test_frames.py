@@ -18,8 +18,9 @@ from cfree.exact.pose import Poses
 from cfree.film.box import Box
 from cfree.film.camera import Camera
 from cfree.film.frame import Stage
-from cfree.film.montage import answer_of, separation_film, shots_of, views
+from cfree.film.montage import shots_of, views
 from cfree.film.path_film import PathStage
+from cfree.film.separation_film import answer_of, separation_film
 from cfree.film.space import STAYS, _within
 from cfree.film.turntable import ALL_AROUND, Turntable
 from cfree.forbidden.boundary import Boundary, boundary
@@ -61,6 +62,7 @@ def test_no_text_of_a_film_touches_another(five: Boundary, hall: Boundary) -> No
         (Stage(five, SMALL, 4), ours),
         (Stage(gap, SMALL, 4), theirs),
         separation_film(hall, answer_of(hall), 12, SMALL, 4),
+        separation_film(gap, answer_of(gap), 12, SMALL, 4),
     ]
     for stage, chosen in films:
         for _ in some_frames(stage, chosen):

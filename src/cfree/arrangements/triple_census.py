@@ -15,6 +15,7 @@ from cfree.arrangements.statistics import pseudo_vertex_bound
 from cfree.arrangements.triples import TripleContact, triple_of
 from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.surface import Surface, contact_surface
+from cfree.curves.curved import REFUSED
 from cfree.errors import UnsupportedError
 from cfree.exact.algebraic import Exact, ratio
 from cfree.exact.forms import value_at
@@ -73,7 +74,7 @@ def census(scene: Scene, *, max_triples: int = MOST_TRIPLES) -> Census:
     Raises
     ------
     UnsupportedError
-        If there are more triples, or round shapes.
+        If there are more triples; or round shapes, then the message names the remedy.
 
     Notes
     -----
@@ -89,9 +90,7 @@ def census(scene: Scene, *, max_triples: int = MOST_TRIPLES) -> Census:
     cfree.errors.UnsupportedError: 32 contact surfaces make 4,960 triples, more than max_triples=100; give more
     """
     if scene.curved:
-        raise UnsupportedError(
-            "the census of triple contacts is of polygons: give scene.outer(error) or scene.inner(error)"
-        )
+        raise UnsupportedError(f"the census of triple contacts: {REFUSED}")
     surfaces = tuple(
         contact_surface(robot, obstacle, kind(i, j))
         for robot in scene.robot

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from cfree.cli import drawing
 from cfree.cli.faults import BAD_INPUT, INCOMPLETE, REFUTED, fail
-from cfree.cli.files import bar
+from cfree.cli.files import bar, computed
 from cfree.cli.reading import AS_READ
 from cfree.cli.terminal import printable
 from cfree.scene.naming import all_placed
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     from cfree.vehicles.vehicle import Vehicle
 
 
-def _is_rounded(answer: object) -> bool:
-    """True for a proof by a surface among rounded shapes."""
-    return getattr(answer, "rounded", None) is not None
+def _is_rounded(answer: Motions | Proof | AllSeparated) -> bool:
+    """True for a proof by a surface among rounded shapes, or several of them."""
+    return getattr(getattr(answer, "proofs", (answer,))[0], "rounded", None) is not None
 
 
 @dataclass
@@ -248,6 +248,8 @@ class Answering:
         owner, path = getattr(self.planner, "obstacle_of", None), self.path
         if path is not None and path.scene is None and path.curved:  # it is among the shapes themselves
             return [smoothed(path.curved, k) for k in obstacles]
+        if _is_rounded(self.answer):
+            return [*obstacles]
         return [*dict.fromkeys(owner(k, outward=path is not None) for k in obstacles)] if owner else [*obstacles]
 
     @cached_property
@@ -290,6 +292,7 @@ class Answering:
         from cfree.planning.goals import AllSeparated
         from cfree.planning.stuck import Stuck
         from cfree.planning.unreachable import Unreachable
+        from cfree.scene.rounded import rounded_shapes
 
         if isinstance(self.answer, Motions):
             with bar("film") as progress:
@@ -302,13 +305,11 @@ class Answering:
         if isinstance(shown, Unreachable):
             self._leave_out("film", film, "boxes hold the car, and no surface separates start and goal")
             return
-        if _is_rounded(shown):
-            self._leave_out("film", film, "the surface is one among round shapes; a picture shows it")
-            return
         if not len(shown.pieces):
             self._leave_out("film", film, "no surface separates start and goal, but exact fits do")
             return
-        boundary = self.planner.free_space.boundary
+        is_exact = self.scene.curved and rounded_shapes(self.scene) is not None
+        boundary = computed(self.scene, None) if is_exact else self.planner.free_space.boundary
         with bar("film") as progress:
             film_separation(shown, boundary, film, progress=progress)
 

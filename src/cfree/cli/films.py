@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from cfree.film import Storyboard
     from cfree.scene.scene import Scene
 
+INSIDE = "give what cfree convert --inner writes: a proof among polygons inside the shapes holds for these"
+
 
 def film_scenes(
     sources: Sequence[Path],
@@ -27,17 +29,24 @@ def film_scenes(
     ------
     ValueError
         Before any computation, if an option makes no sense, or a scene lacks start or goal that the storyboard needs.
+    UnsupportedError
+        Then as well, if a separation is wanted and a shape is neither a polygon nor rounded.
     """
+    from cfree.errors import UnsupportedError
     from cfree.film import length_of, save_film
     from cfree.film.montage import check_options
     from cfree.forbidden.boundary import Boundary
+    from cfree.scene.rounded import rounded_shapes, why_not_rounded
 
     seconds = length_of(storyboard, output) if seconds is None else seconds
     check_options(len(sources), seconds, fps, size)
-    inputs = [read_source(source, "none" if storyboard == "separation" else "rounded") for source in sources]
+    inputs = [read_source(source, "all" if storyboard == "separation" else "rounded") for source in sources]
     if storyboard != "turntable":
         for source, data in zip(sources, inputs, strict=True):
-            _check_ends(source, data.scene if isinstance(data, Boundary) else data)
+            scene = data.scene if isinstance(data, Boundary) else data
+            _check_ends(source, scene)
+            if scene.curved and rounded_shapes(scene) is None:  # only for a separation
+                raise UnsupportedError(f"{source}: {why_not_rounded(scene, INSIDE)}")
     boundaries = [computed(data, None) for data in inputs]
     with bar("film") as progress:
         save_film(boundaries, output, seconds=seconds, fps=fps, size=size, storyboard=storyboard, progress=progress)
@@ -71,6 +80,7 @@ def film_answer(
     from cfree.paths.path import Path as Motions
     from cfree.planning.goals import AllSeparated
     from cfree.planning.separation import Separated
+    from cfree.scene.rounded import rounded_shapes
     from cfree.scene.scene import Scene
 
     check_frames(fps, size)
@@ -91,10 +101,10 @@ def film_answer(
         raise ValueError(f"{file}: a proof about a vehicle has no surface to film; leave the answer out")
     seconds = length_of("separation", output) if seconds is None else seconds
     check_options(1, seconds, fps, size)
-    if scene.curved:  # a proof contains the polygons it was computed with
-        if answer.scene is None:
-            raise ValueError(f"{file}: no polygons for the round shapes of the scene; plan anew")
-        data = answer.scene
+    if scene.curved and not shown.rounded and shown.scene is None:
+        raise ValueError(f"{file}: no polygons for the round shapes of the scene; plan anew")
+    if scene.curved and rounded_shapes(scene) is None and shown.scene is not None:
+        data = shown.scene  # a proof contains the polygons it was computed with
     boundary = computed(data, None)
     with bar("film") as progress:
         film_separation(shown, boundary, output, seconds=seconds, fps=fps, size=size, progress=progress)

@@ -69,6 +69,8 @@ def save_film(
     ------
     ValueError
         If an option makes no sense, or a scene has nothing to show: no contact, or no surface that separates its ends.
+    UndecidedError
+        If a separation is wanted, and among round shapes neither a path nor a proof is found.
     UnsupportedError
         If the format is unknown, or PyAV is missing.
 
@@ -182,7 +184,8 @@ def film_separation(
     ----------
     answer : Separated
     boundary : Boundary
-        The boundary of the scene that the answer is for.
+        The boundary of the scene that the answer is for. If its shapes are round, that of the polygons in the answer
+        will do as well.
     file : path
         ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
     seconds : float, optional
@@ -204,7 +207,10 @@ def film_separation(
     Notes
     -----
     The robot moves along paths of the planner. They lead to the poses nearest to the goal and farthest from it, chosen
-    from some thousand reachable poses.
+    from some thousand reachable poses. If the answer is for a clearance, the robot keeps it.
+
+    A proof among round shapes has the surface of slightly smaller shapes, or of polygons inside them. The film then
+    says so.
 
     Examples
     --------
@@ -216,7 +222,8 @@ def film_separation(
     ...     film_separation(proof, cfree.boundary(scene), f"{folder}/proof.gif", seconds=1, fps=6, size=(320, 180))
     """
     from cfree.film.encode import check_film_path, write
-    from cfree.film.montage import check_options, separation_film, splice
+    from cfree.film.montage import check_options, splice
+    from cfree.film.separation_film import separation_film
 
     suffix = check_film_path(file)
     size = size or SIZES.get(suffix, SIZE)

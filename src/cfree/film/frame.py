@@ -61,6 +61,8 @@ class View:
         True for parts that have been swept: these are visible above the plane as well.
     driven : (Gears, float), optional
         The path that a vehicle drives, and the robot's travel on it.
+    surface : str
+        Describes a surface that is not the boundary's, in place of the contact.
     """
 
     title: str
@@ -73,6 +75,7 @@ class View:
     goal: Pose | None
     stays: NDArray[np.bool_]
     driven: tuple[Gears, float] | None = None
+    surface: str = ""
 
 
 def new_frame(size: tuple[int, int]) -> tuple[Figure, float]:
@@ -105,11 +108,13 @@ class Stage:
         The patches shown, by default all of the boundary.
     window : four floats, optional
         x0, y0, x1, y1: the rectangle shown, by default everything.
+    scene : Scene, optional
+        The scene drawn at the left, by default the boundary's.
     """
 
     def __init__(
         self, boundary: Boundary, size: tuple[int, int], fps: int, surface: Boundary | None = None,
-        window: Window | None = None,
+        window: Window | None = None, scene: Scene | None = None,
     ) -> None:  # fmt: skip
         self.boundary, trail = boundary, TRAIL * fps
         self.figure, height = new_frame(size)
@@ -118,7 +123,7 @@ class Stage:
         window, names = window or _with_ends(boundary), axis_names(boundary.scene)
         low, top = 1.25 / height, 1 - 0.95 / height
         place = 0.65 / width, low, 0.43 - 0.65 / width, top - low
-        self.plane = Plane(figure, place, boundary.scene, view, names, trail)
+        self.plane = Plane(figure, place, scene or boundary.scene, view, names, trail)
         place = 0.45, 0.72 / height, 0.54, 1 - 1.28 / height
         self.space = Space(figure, place, boundary, window, names, trail, surface)
         left = 0.2 / width
@@ -128,7 +133,7 @@ class Stage:
         self.pose = figure.text(1 - left, 1 - 0.63 / height, "", fontsize=10.5, ha="right", family=MONO, **text)
         self.dot = figure.text(left, 0.33 / height, "●", fontsize=16, va="center")
         self.caption = figure.text(left + 0.25 / width, 0.34 / height, "", fontsize=12.5, **text)
-        legend(figure, boundary, 0.34 / height, 6 if width > ROOMY else 3, {"forbidden": FORBIDDEN, "free": FREE})
+        legend(figure, boundary, 0.34 / height, 7 if width > ROOMY else 3, {"forbidden": FORBIDDEN, "free": FREE})
 
     def draw(self, view: View) -> Image:
         """Draw the frame as (height, width, 3) bytes."""
@@ -139,7 +144,7 @@ class Stage:
         self.title.set_text(view.title)
         word, colour = (view.note, GREY) if view.driven is None else view.driven[0].word(view.driven[1])
         self.note.set(text=word, color=colour)
-        self.caption.set_text(caption(contact, view.recent[-1].touch))
+        self.caption.set_text(view.surface or caption(contact, view.recent[-1].touch))
         self.dot.set_color(RIM if contact is None else TOUCH[contact.kind])
         self.pose.set_text(numbers(pose))
         return image_of(self.figure)

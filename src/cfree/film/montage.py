@@ -11,17 +11,11 @@ import numpy as np
 from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
-from cfree.errors import UnsupportedError
 from cfree.film.camera import AZIMUTHS
 from cfree.film.frame import TRAIL, Stage, View
-from cfree.film.separation_shots import separation_shots, separation_window
+from cfree.film.separation_film import answer_of, separation_film
 from cfree.film.storyboard import SECONDS, STORYBOARDS, Shot, storyboard
 from cfree.film.turntable import turntable_frames
-from cfree.free.space import free_space
-from cfree.planning.planner import Planner
-from cfree.planning.separation import Separated
-from cfree.plot.answer import surface_of
-from cfree.scene.scene import required
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -109,44 +103,6 @@ def pictures(
     yield from splice(films, fps, progress)
 
 
-def separation_film(
-    boundary: Boundary, answer: Separated, frames: int, size: tuple[int, int], fps: int
-) -> tuple[Stage, list[Shot]]:
-    """Return the film of a separation: its stage and its shots.
-
-    Raises
-    ------
-    ValueError
-        If no surface separates start and goal, but exact fits do.
-    """
-    if not len(answer.pieces):
-        raise ValueError("nothing to show: no surface separates start and goal, but exact fits do")
-    surface = surface_of(answer, boundary.scene)
-    window = separation_window(answer, surface)
-    return Stage(boundary, size, fps, surface, window), separation_shots(boundary, answer, window, frames)
-
-
-def answer_of(boundary: Boundary) -> Separated:
-    """Return the proof that there is no path between the ends of a scene.
-
-    Raises
-    ------
-    ValueError
-        If there is a path, or the scene has no ends.
-    UnsupportedError
-        If there are round shapes.
-    """
-    scene = boundary.scene
-    if scene.curved:
-        remedy = "give boundary(scene.inner(error)), or what cfree convert --inner writes"
-        raise UnsupportedError(f"films of separations: among polygons only; {remedy}")
-    start, goal = required(scene, None, None)
-    answer = Planner(scene, free_space(boundary)).plan(start, goal)
-    if not isinstance(answer, Separated):
-        raise ValueError("there is a path from start to goal, and no proof; film it with the storyboard path")
-    return answer
-
-
 def splice(
     films: Sequence[tuple[Stage, Sequence[Shot]]], fps: int, progress: Callable[[float], object] | None
 ) -> Iterator[Image]:
@@ -200,7 +156,7 @@ def views(stage: Stage, shots: Sequence[Shot], fps: int) -> Iterator[tuple[View,
                 stays[list(shot.swept.parts)] = True
             state = float(azimuth[frame]), shown, float(ghost[frame])
             recent = shot.moments[max(0, k - round(TRAIL * fps)) : k + 1]
-            view = View(shot.title, shot.note, recent, *state, lines, shot.goal, stays, driven)
+            view = View(shot.title, shot.note, recent, *state, lines, shot.goal, stays, driven, shot.surface)
             yield view, shot.cut and k == 0
             frame += 1
         if shot.kind in KEPT:

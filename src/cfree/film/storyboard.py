@@ -82,6 +82,8 @@ class Shot:
         The pose the robot moves to.
     gears : Gears, optional
         The path that a vehicle drives from `link` on.
+    surface : str
+        Describes a surface that is not the boundary's, in place of the contact.
     """
 
     kind: str
@@ -97,6 +99,7 @@ class Shot:
     colour: str = PATH
     goal: Pose | None = None
     gears: Gears | None = None
+    surface: str = ""
 
     def travels(self) -> list[float]:
         """Return the robot's travel on the path that a vehicle drives, for each moment from `link` on."""

@@ -50,7 +50,7 @@ from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.features import BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, features_of_cores, scene_features
 from cfree.scene.naming import all_placed, numbered, placed
-from cfree.scene.scene import Scene, box_of, robot_radius
+from cfree.scene.scene import Scene, box_of, grown_scene, robot_radius
 from cfree.scene.smooth import smooth
 from cfree.words import MOST_NAMES, listed
 
@@ -185,7 +185,7 @@ def picture(
     true = _scene_of(answer, scene)
     scene = of_polygons(answer, true)
     if isinstance(answer, Separated):
-        return _picture_of_separation(answer, scene)
+        return _picture_of_separation(answer, scene, true)
     track = Track.of(own(answer, true), scene)
     figure, ax = new_picture(track.window, boundary is not None, below=0.65 if track.gears is None else 1.0)
     draw_track(ax, track, preferences or NONE)
@@ -209,8 +209,8 @@ def _scene_of(answer: Path | Proof, scene: Scene | None) -> Scene:
     return scene
 
 
-def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
-    """Draw start, goal and the blocking obstacles; beside them the separating surface."""
+def _picture_of_separation(answer: Separated, scene: Scene, true: Scene) -> Figure:
+    """Draw start, goal and the blocking obstacles, as polygons; beside them the separating surface."""
     window, shown = window_of(scene, [answer.start, answer.goal]), looks(answer, scene)
     figure, ax = new_picture(window, len(answer.pieces) > 0)
     draw_surroundings(ax, shown)
@@ -224,7 +224,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     for name, pose in ends.items():
         labels.name_robot(scene, pose, name)
     if len(answer.pieces):
-        draw_surface(figure, ax, answer, scene, labels)
+        draw_surface(figure, ax, answer, true, labels)
     for k in [k for k in answer.obstacles if k >= 0][:MOST_NAMES]:
         labels.point_at(box_of(shown.obstacles[k]), plain(placed(scene, k)), BARRIER)
     labels.name_bounds(scene)
@@ -263,9 +263,18 @@ def draw_surface(
 
 
 def surface_of(answer: Separated, scene: Scene) -> Boundary:
-    """Return the surface of a separation as a boundary of its trapezoids alone, for drawing only."""
-    if answer.rounded:
+    """Return the surface of a separation as a boundary of its trapezoids alone, for drawing only.
+
+    Parameters
+    ----------
+    answer : Separated
+    scene : Scene
+        The scene that the answer is for, with its round shapes.
+    """
+    if answer.rounded:  # round shapes, or polygons grown by a clearance
+        scene = grown_scene(scene, answer.clearance) if answer.clearance else scene
         return _surface(answer.pieces, scene, features_of_cores(answer.rounded, scene, answer.bounds))
+    scene = of_polygons(answer, scene)
     if answer.of == "closed":
         scene = Scene(answer.robot, scene.obstacles, bounds=answer.bounds, workspace=scene.workspace, units=scene.units)
     return _surface(answer.pieces, scene, scene_features(scene))

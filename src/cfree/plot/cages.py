@@ -201,7 +201,7 @@ def _held(scene: Scene, proof: Separated, headline: str, details: str) -> tuple[
     shown = looks(proof, polygons)
     window, swept, theta = window_of(shown, [proof.start]), None, proof.start.theta
     if len(proof.pieces):
-        surface = surface_of(proof, polygons)
+        surface = surface_of(proof, scene)
         swept = _swept(scene, proof.start, around_surface(surface, 0.0), angles_around(surface, math.degrees(theta)))
         window = window if swept is None else around([window, swept.bounds])
     figure, ax = new_picture(window, len(proof.pieces) > 0)
@@ -215,7 +215,7 @@ def _held(scene: Scene, proof: Separated, headline: str, details: str) -> tuple[
     labels = Labels(ax, polygons)
     labels.avoid_robot(polygons, [proof.start], BODY)
     if len(proof.pieces):
-        draw_surface(figure, ax, proof, polygons, labels, close=True)
+        draw_surface(figure, ax, proof, scene, labels, close=True)
     _name(ax, scene)
     headed(figure, scene, headline, details)
     return figure, ax

@@ -358,7 +358,10 @@ def is_disc_about_reference(scene: Scene) -> bool:
     return all(isinstance(path, Circle) and not any(path.center) for path in paths)
 
 
-def why_not_rounded(scene: Scene) -> str:
+REMEDY = "give scene.outer(error) or scene.inner(error), on the command line what cfree convert --outer writes"
+
+
+def why_not_rounded(scene: Scene, remedy: str = REMEDY) -> str:
     """Explain which shape keeps a scene from being one of rounded shapes, and what to do.
 
     Examples
@@ -367,7 +370,6 @@ def why_not_rounded(scene: Scene) -> str:
     >>> print(why_not_rounded(Scene(Curved.circle((0, 0), 1), [Curved.ellipse((3, 0), (1, 2))])))
     obstacle 0: not bounded by lines and arcs of rational radii, without cusps; ...
     """
-    remedy = "give scene.outer(error) or scene.inner(error), on the command line what cfree convert --outer writes"
     names = [f"robot[{k}]" if len(scene.robot) > 1 else "robot" for k in range(len(scene.robot))]
     around = complement(scene)
     names += [*scene.obstacle_names, *["workspace"] * len(around)]
