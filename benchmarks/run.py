@@ -25,6 +25,7 @@ BENCHES = (
     "frames",
     "exact",
     "growth",
+    "vertices",
     "threads",
     "slice",
     "surface",

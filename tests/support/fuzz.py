@@ -9,6 +9,7 @@ A scene is named by its kind and number: the same name is the same scene for eve
 from __future__ import annotations
 
 import argparse
+import math
 import multiprocessing
 import random
 import sys
@@ -20,6 +21,8 @@ from fractions import Fraction
 from itertools import count
 from pathlib import Path
 from typing import Any
+
+import shapely
 
 import shapes
 from cfree import Boundary, boundary, load_scene
@@ -279,6 +282,17 @@ def crowds(rng: random.Random) -> PlainScene:
     return PlainScene(robot, walls, None, box(0, 0, rng.randint(5, 7), rng.randint(5, 7)))
 
 
+def spikes(rng: random.Random) -> PlainScene:
+    """A star of many convex pieces among shapes as large as it: most patches are deep inside of pillars."""
+    count = rng.randint(8, 16)
+    radii = [rng.randint(4, 8) if k % 2 else rng.randint(1, 3) for k in range(count)]
+    angles = [math.tau * k / count for k in range(count)]
+    ring = [(round(r * math.cos(a)), round(r * math.sin(a))) for r, a in zip(radii, angles, strict=True)]
+    if len({*ring}) < count or not shapely.Polygon(ring).is_valid:
+        return spikes(rng)
+    return PlainScene([(ring, [])], [placed(rng, lattice(rng, 9), 9) for _ in range(rng.randint(1, 4))])
+
+
 def far(rng: random.Random) -> PlainScene:
     """Scene turned by a long rational, offset by 1e9, its reference point 100 or a million away: all, or some of it."""
     plain = rng.choice([boxes, lattices, corridor, fit, parts])(rng)
@@ -331,7 +345,7 @@ def walled(rng: random.Random, plain: PlainScene) -> PlainScene:
 KINDS: dict[str, Callable[[random.Random], PlainScene]] = {
     f.__name__: f
     for f in (boxes, lattices, congruent, fit, corridor, cut, chain, sliver, words, feet, pythagorean,
-              parts, tiny, rims, mazes, crowds, far)
+              parts, tiny, rims, mazes, crowds, spikes, far)
 }  # fmt: skip
 
 

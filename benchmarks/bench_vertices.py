@@ -1,0 +1,71 @@
+"""Robots of many vertices among 40 convex obstacles: the boundary, one thread, by the number of the robot's vertices.
+
+Convex robots have vertices on a circle, stars every other one nearer to the middle, at somewhat random angles.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+from families import Floats, convex
+from measure import Report
+
+import cfree
+
+COUNTS, ROUNDS = (4, 8, 16, 32, 64, 128), 5
+RADIUS = 2.0
+
+
+def run(quick: bool) -> Report:
+    report = Report(
+        "Robots of many vertices",
+        ("robot", "vertices", "trapezoids", "ms", "µs/trapezoid"),
+        notes=["ms of the processor"],
+    )
+    obstacles = [ring.tolist() for ring in convex(40, 1, 7.0).rings()]
+    for name, robot_of in (("convex", inscribed), ("star", star)):
+        counts = [count for count in COUNTS[:3] if quick] or COUNTS[name == "star" :]
+        times = []
+        for count in counts:
+            scene = cfree.Scene(robot_of(count).tolist(), obstacles)
+            seconds, trapezoids = boundary_time(scene, 1 if quick else ROUNDS)
+            times.append((count, seconds, seconds / trapezoids))
+            report.rows.append(
+                (name, str(count), f"{trapezoids:,}", f"{1e3 * seconds:.0f}", f"{1e6 * times[-1][2]:.1f}")
+            )
+        (first, low, each_of_first), (last, high, each_of_last) = times[0], times[-1]
+        span = f"{name} robots, {first} to {last} vertices"
+        if name == "convex":
+            report.figure("time a trapezoid, last to first", span, each_of_last / each_of_first, "<=", 3)
+        else:
+            exponent = math.log(high / low) / math.log(last / first)
+            report.figure("growth of time, exponent in the vertices", span, exponent, "<=", 1.3)
+    return report
+
+
+def inscribed(count: int) -> Floats:
+    return around(count, RADIUS * np.ones(count))
+
+
+def star(count: int) -> Floats:
+    noise = np.random.default_rng(count + 1).uniform(-0.1, 0.1, count)
+    return around(count, RADIUS * (np.where(np.arange(count) % 2, 1.0, 0.5) + noise))
+
+
+def around(count: int, radii: Floats) -> Floats:
+    """Points at angles that are about equally far apart."""
+    angles = math.tau * (np.arange(count) + np.random.default_rng(count).uniform(-0.3, 0.3, count)) / count
+    return radii[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def boundary_time(scene: cfree.Scene, rounds: int) -> tuple[float, int]:
+    """The least processor time of a boundary, and its trapezoids."""
+    best, trapezoids = math.inf, 0
+    for _ in range(rounds):
+        fresh = cfree.Scene(scene.robot, scene.obstacles)
+        begin = time.process_time()
+        trapezoids = cfree.boundary(fresh, threads=1, max_seconds=math.inf).stats.trapezoids
+        best = min(best, time.process_time() - begin)
+    return best, trapezoids
