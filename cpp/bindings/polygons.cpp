@@ -108,25 +108,27 @@ cfree::ClosedCurve curve_of(const nb::list& pieces) {
     return curve;
 }
 
-std::shared_ptr<Polygon> polygon_of(nb::handle rings) {
+// Polygons are in the memory of their Python objects.
+std::optional<Polygon> polygon_of(nb::handle rings) {
     const Elements items(rings.ptr());
-    if (!items) return nullptr;
+    if (!items) return {};
     std::vector<cfree::RatioRing> read(static_cast<std::size_t>(items.size()));
     for (Py_ssize_t r = 0; r < items.size(); ++r)
-        if (!read_ring(items[r], read[static_cast<std::size_t>(r)])) return nullptr;
-    return read.empty() ? nullptr : std::make_shared<Polygon>(std::move(read));
+        if (!read_ring(items[r], read[static_cast<std::size_t>(r)])) return {};
+    return read.empty() ? std::optional<Polygon>() : Polygon(std::move(read));
 }
 
 // Polygons without holes, one for each ring; none for what is to be looked at by itself, or is wrong.
-std::vector<std::shared_ptr<Polygon>> polygons_of(nb::list outers) {
-    std::vector<std::shared_ptr<Polygon>> found(outers.size());
-    for (std::size_t k = 0; k < found.size(); ++k) {
+nb::list polygons_of(const nb::list& outers) {
+    nb::list found;
+    for (const nb::handle outer : outers) {
         std::vector<cfree::RatioRing> read(1);
-        if (!read_ring(nb::object(outers[k]).ptr(), read[0])) continue;
+        std::optional<Polygon> polygon;
         try {
-            found[k] = std::make_shared<Polygon>(std::move(read));
+            if (read_ring(outer.ptr(), read[0])) polygon.emplace(std::move(read));
         } catch (const cfree::InvalidPolygon&) {  // said where its place is known
         }
+        found.append(std::move(polygon));
     }
     return found;
 }
@@ -184,13 +186,16 @@ void bind_polygons(nb::module_& m) {
     });
     nb::class_<Polygon>(m, "Polygon")
         .def_static("of", &polygon_of, "rings"_a, nb::sig("def of(rings: Sequence[typing.Any]) -> Polygon | None"))
-        .def_static("thin", [](const nb::object& points) -> std::shared_ptr<Polygon> {
+        .def_static("thin", [](const nb::object& points) -> std::optional<Polygon> {
             cfree::RatioRing ring;
-            if (!read_ring(points.ptr(), ring)) return nullptr;
-            return std::make_shared<Polygon>(Polygon::thin(ring));
+            if (!read_ring(points.ptr(), ring)) return {};
+            return Polygon::thin(ring);
         }, "points"_a, "A point, or a segment.", nb::sig("def thin(points: list[typing.Any]) -> Polygon | None"))
         .def_static("of_each", &polygons_of, "outers"_a, nb::sig("def of_each(outers: list[typing.Any]) -> list[Polygon | None]"))
-        .def_prop_ro("numerators", [](const Polygon& p) { return integers(p.vertices.X, p.vertices.Y); },
+        .def_prop_ro("numerators", [](const Polygon& p) {
+            const auto [x, y] = p.vertices.coordinates();
+            return integers(x, y);
+        },
                      nb::for_getter(nb::sig("def numerators(self) -> tuple[tuple[int, int], ...]")))
         .def_prop_ro("denominator", [](const Polygon& p) { return integer(p.denominator); })
         .def_prop_ro("ring_offsets", [](const Polygon& p) { return p.offsets; })
@@ -202,16 +207,15 @@ void bind_polygons(nb::module_& m) {
         .def_prop_ro("vertices", [](const Polygon& p) {
             std::vector<double> xy;
             for (Index k = 0; k < p.vertices.size(); ++k)
-                for (const Int* c : {&p.vertices.X[k], &p.vertices.Y[k]}) xy.push_back(cfree::nearest(*c, p.denominator));
+                for (const Int& c : {p.vertices.X(k), p.vertices.Y(k)}) xy.push_back(cfree::nearest(c, p.denominator));
             auto* kept = new std::vector<double>(std::move(xy));
             nb::capsule owner(kept, [](void* q) noexcept { delete static_cast<std::vector<double>*>(q); });
             return Made<const double, 2>(kept->data(), {kept->size() / 2, 2}, owner);
         }, nb::rv_policy::automatic)
         .def_prop_ro("box", [](const Polygon& p) {  // least x, least y, greatest x, greatest y
-            const auto [x0, x1] = std::minmax_element(p.vertices.X.begin(), p.vertices.X.end());
-            const auto [y0, y1] = std::minmax_element(p.vertices.Y.begin(), p.vertices.Y.end());
-            const auto rounded = [&](const Int& c) { return cfree::nearest(c, p.denominator); };
-            return std::tuple(rounded(*x0), rounded(*y0), rounded(*x1), rounded(*y1));
+            const auto box = p.vertices.box();
+            const auto rounded = [&](std::size_t k) { return cfree::nearest(box[k], p.denominator); };
+            return std::tuple(rounded(0), rounded(1), rounded(2), rounded(3));
         })
         .def_prop_ro("convex", [](const Polygon& p) {
             return Made<const bool>(reinterpret_cast<const bool*>(p.convex.data()), {p.convex.size()});

@@ -36,7 +36,7 @@ static Int doubled_area(const Points& v, const std::vector<Index>& ring) {
     Int area = 0;
     for (std::size_t k = 0; k < ring.size(); ++k) {
         const Index p = ring[k], q = ring[k + 1 < ring.size() ? k + 1 : 0];
-        area += v.X[p] * v.Y[q] - v.X[q] * v.Y[p];
+        area += v.X(p) * v.Y(q) - v.X(q) * v.Y(p);
     }
     return area;
 }
@@ -94,7 +94,7 @@ static void numbers_are_what_they_are_written_as() {
 static void rings_are_cleaned_and_turned_around() {
     const Polygon p = polygon_of({{{"0", "0"}, {"0", "1/2"}, {"0", "1"}, {"1", "0"}, {"1", "0"}, {"0", "0"}}});
     CHECK(p.vertices.size() == 3 && p.denominator == 1 && p.removed.size() == 2 && p.is_convex());
-    CHECK(p.vertices.orient(0, 1, 2) > 0 && p.vertices.X[0] == 0 && p.vertices.X[1] == 1);
+    CHECK(p.vertices.orient(0, 1, 2) > 0 && p.vertices.X(0) == 0 && p.vertices.X(1) == 1);
     const Polygon holed = polygon_of({square, {{"1", "1"}, {"2", "1"}, {"1", "2"}}});
     CHECK(holed.vertices.orient(4, 5, 6) < 0 && !holed.is_convex());
 }

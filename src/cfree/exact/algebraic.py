@@ -66,10 +66,15 @@ class Root:
         part(self, other)
         return self.hi < other.lo
 
+    @cached_property
+    def _sign_below(self) -> int:
+        """Sign of the polynomial at `lo`, which narrowing keeps."""
+        return sign(self.poly, self.lo)
+
     def narrow(self) -> None:
         if self.lo < self.hi:  # else the root is rational
             middle = (self.lo + self.hi) / 2
-            if sign(self.poly, middle) == sign(self.poly, self.lo):
+            if sign(self.poly, middle) == self._sign_below:
                 self.lo = middle
             else:
                 self.hi = middle

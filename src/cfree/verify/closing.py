@@ -121,6 +121,9 @@ class Names:
         self.crossing = lru_cache(maxsize=None)(self._crossing)
         self.curve = lru_cache(maxsize=None)(self._curve)
         self.place = lru_cache(maxsize=None)(self._place)
+        self.line = lru_cache(maxsize=None)(self._line)
+        self._edge = lru_cache(maxsize=None)(self._edge_of)
+        self._around = lru_cache(maxsize=None)(self._edges_around)
         edges: list[set[Edge]] = [set(), set()]
         for kind, *both in map(name_of, columns.names):
             for which, k in enumerate(both):
@@ -132,10 +135,10 @@ class Names:
     def _number(self, which: int, point: Vector) -> int:
         return self._numbers[which].setdefault(point, len(self._numbers[which]))
 
-    def _edge(self, which: int, k: int) -> Edge:
+    def _edge_of(self, which: int, k: int) -> Edge:
         return self.world.edge(self._shapes[which], k)
 
-    def _around(self, which: int, k: int) -> list[Edge]:
+    def _edges_around(self, which: int, k: int) -> list[Edge]:
         """Edges that begin or end at a vertex of the robot, or of the obstacles."""
         shape = self._shapes[which]
         if not self.world.is_own(shape, k):
@@ -166,7 +169,7 @@ class Names:
         one, other = self.points(contact), self.points(code)
         return self._name(other if is_helix(code) else common(one, other) or frozenset((one, other)))
 
-    def line(self, contact: int, angle: int) -> Points:
+    def _line(self, contact: int, angle: int) -> Points:
         """Name of a contact's line at an angle, which is named by one pair, or by none."""
         if not is_helix(angle):
             return self.crossing(contact, angle)
@@ -197,7 +200,7 @@ class Names:
 
 
 def is_helix(code: int) -> bool:
-    return name_of(code)[0] == HELIX
+    return code >> 61 == HELIX
 
 
 def line_of(edge: Edge) -> Any:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from math import isfinite
+from types import NoneType
 from typing import Any
 
 import cfree._core as _core
@@ -205,7 +206,7 @@ def is_encodable(text: str) -> bool:
 def plain(value: Any, depth: int = MAX_NESTING) -> Any:
     """Return free-form JSON with floats, if it is shallow and encodable, so that it can be saved again."""
     value = number_of(value) if isinstance(value, Literal) else value
-    if isinstance(value, Shape):
+    if not isinstance(value, (dict, list, str, int, float, Decimal, NoneType)):
         raise Fault("a polygon, where its numbers are to be kept")
     if depth == 0:
         raise Fault(f"nested more than {MAX_NESTING} deep; flatten it")
