@@ -298,12 +298,20 @@ void bind_polygons(nb::module_& m) {
             using Box = std::optional<std::tuple<double, double, double, double>>;
             return f.rim ? std::apply([](auto... c) { return Box({c...}); }, *f.rim) : Box();
         });
-    m.def("range_fault", [](std::vector<std::shared_ptr<Polygon>> robot, std::vector<std::shared_ptr<Polygon>> obstacles,
-                            std::shared_ptr<Polygon> workspace, std::optional<std::array<nb::object, 4>> bounds) {
-        const auto fault = cfree::range_fault(shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds)));
+    m.def("range_fault", [](const nb::list& robot, const nb::list& obstacles, const Polygon* workspace,
+                            std::optional<std::array<nb::object, 4>> bounds) {
+        cfree::SceneShapes shapes = shapes_of({}, {}, {}, std::move(bounds));
+        // Python owns the polygons as long as this takes
+        const auto borrowed = [](const Polygon* polygon) { return std::shared_ptr<const Polygon>(std::shared_ptr<const Polygon>(), polygon); };
+        for (const auto& [from, to] : {std::pair{&robot, &shapes.robot}, {&obstacles, &shapes.obstacles}}) {
+            to->reserve(from->size());
+            for (const nb::handle polygon : *from) to->push_back(borrowed(nb::cast<const Polygon*>(polygon)));
+        }
+        if (workspace) shapes.workspace = borrowed(workspace);
+        const auto fault = cfree::range_fault(shapes);
         using Answer = std::optional<std::tuple<std::string, Index, std::string>>;
         return fault ? Answer({fault->kind, fault->index, fault->message}) : Answer();
     }, "robot"_a, "obstacles"_a, "workspace"_a.none(), "bounds"_a.none(),
-       nb::sig("def range_fault(robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
+       nb::sig("def range_fault(robot: list[Polygon], obstacles: list[Polygon], workspace: Polygon | None, "
                "bounds: Sequence[fractions.Fraction] | None) -> tuple[str, int, str] | None"));
 }

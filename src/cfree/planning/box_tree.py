@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,23 +19,27 @@ class BoxTree:
 
     Parameters
     ----------
-    boxes : (n, 4) float64
+    boxes : iterable of four numbers
         xmin, ymin, xmax, ymax.
+    count : int
+        Number of boxes.
 
     Examples
     --------
-    >>> tree = BoxTree(np.array([(0.0, 0, 1, 1), (5, 5, 6, 6), (1, 1, 2, 2)]))
+    >>> tree = BoxTree([(0, 0, 1, 1), (5, 5, 6, 6), (1, 1, 2, 2)], 3)
     >>> tree.meeting(np.array([(1.0, 1, 1, 1), (0, 0, 9, 0)])).tolist()
     [0, 2]
     """
 
-    def __init__(self, boxes: Floats) -> None:
-        x, y = boxes[:, 0] + boxes[:, 2], boxes[:, 1] + boxes[:, 3]
-        per_strip = WIDTH * math.ceil(math.sqrt(len(boxes) / WIDTH) or 1)
-        strip = np.empty(len(boxes), np.int32)
-        strip[x.argsort(kind="stable")] = np.arange(len(boxes)) // per_strip
-        self._numbers = np.lexsort((y, strip)).astype(np.int32)
-        self._levels = [boxes[self._numbers]]  # from the boxes themselves to the few around all
+    def __init__(self, boxes: Iterable[Sequence[float]], count: int) -> None:
+        leaves = np.fromiter(chain.from_iterable(boxes), np.float64, 4 * count).reshape(-1, 4)
+        strip = np.empty(count, np.int32)
+        per_strip = WIDTH * math.ceil(math.sqrt(count / WIDTH) or 1)
+        strip[(leaves[:, 0] + leaves[:, 2]).argsort(kind="stable")] = np.arange(count, dtype=np.int32) // per_strip
+        self._numbers = np.lexsort((leaves[:, 1] + leaves[:, 3], strip)).astype(np.int32)
+        for column in leaves.T:
+            column[:] = column[self._numbers]
+        self._levels = [leaves]  # from the boxes themselves to the few around all
         while len(level := self._levels[-1]) > WIDTH:
             first = np.arange(0, len(level), WIDTH)
             low, high = np.minimum.reduceat(level[:, :2], first), np.maximum.reduceat(level[:, 2:], first)

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import chain
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -43,8 +42,7 @@ class SceneGround:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.radius = robot_radius(scene) * WIDE
-        boxes = chain.from_iterable(polygon._handle.box for polygon in scene.obstacles)
-        self._tree = BoxTree(np.fromiter(boxes, np.float64, 4 * len(scene.obstacles)).reshape(-1, 4))
+        self._tree = BoxTree((polygon._handle.box for polygon in scene.obstacles), len(scene.obstacles))
 
     @cached_property
     def atlas(self) -> LazyAtlas:

@@ -10,7 +10,7 @@ from typing import Any
 
 import cfree._core as _core
 from cfree.errors import InvalidPolygonError
-from cfree.formats.scenes.scene_values import Shape, shape_at_once
+from cfree.formats.scenes.scene_values import Named, shape_at_once
 from cfree.formats.text.json_text import with_numbers
 from cfree.polygons.polygon import Polygon, polygon_of
 
@@ -52,7 +52,7 @@ def _is_made(value: Any) -> bool:
     waiting = [value]
     while waiting:
         part = waiting.pop()
-        if isinstance(part, (Shape, ReadFeature)):
+        if isinstance(part, (Polygon, Named, ReadFeature)):
             return True
         if isinstance(part, (list, dict)):
             waiting += part.values() if isinstance(part, dict) else part
