@@ -9,9 +9,9 @@ import time
 from itertools import pairwise
 from typing import Any
 
-from bench_growth import peak_memory
 from families import SIZES, city
 from measure import Report
+from memory import peak_memory
 
 import cfree
 

@@ -5,16 +5,15 @@ from __future__ import annotations
 import json
 import math
 import os
-import resource
 import subprocess
 import sys
 import tempfile
 import time
-from pathlib import Path
 from typing import Any
 
 from families import SIZES, convex
 from measure import Report, Times, checksum, measured
+from memory import peak_memory
 
 import cfree
 from cfree import save
@@ -83,14 +82,6 @@ def child(size: int) -> dict[str, Any]:
         "peak": peak_memory(),
         "checksum": checksum(columns),
     }
-
-
-def peak_memory() -> int:
-    """Bytes; from the system's own record where there is one: getrusage counts what the parent had, too."""
-    if os.path.exists("/proc/self/status"):
-        lines = Path("/proc/self/status").read_text().splitlines()
-        return 1024 * int(next(line for line in lines if line.startswith("VmHWM")).split()[1])
-    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 def timed_reading(path: str, read: list[cfree.Scene], rounds: int) -> list[Times]:

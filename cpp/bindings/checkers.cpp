@@ -92,7 +92,7 @@ static std::vector<EdgeDistances::Segment> segments_of(const std::vector<const c
     std::vector<EdgeDistances::Segment> segments;
     for (const cfree::Polygon* p : polygons) {
         const auto end = [&](cfree::Index k) -> std::array<double, 2> {
-            return {cfree::nearest(p->vertices.X[k], p->denominator), cfree::nearest(p->vertices.Y[k], p->denominator)};
+            return {cfree::nearest(p->vertices.X(k), p->denominator), cfree::nearest(p->vertices.Y(k), p->denominator)};
         };
         for (std::size_t ring = 0; ring + 1 < p->offsets.size(); ++ring)
             for (cfree::Index k = p->offsets[ring]; k < p->offsets[ring + 1]; ++k) {

@@ -108,25 +108,27 @@ cfree::ClosedCurve curve_of(const nb::list& pieces) {
     return curve;
 }
 
-std::shared_ptr<Polygon> polygon_of(nb::handle rings) {
+// Polygons are in the memory of their Python objects.
+std::optional<Polygon> polygon_of(nb::handle rings) {
     const Elements items(rings.ptr());
-    if (!items) return nullptr;
+    if (!items) return {};
     std::vector<cfree::RatioRing> read(static_cast<std::size_t>(items.size()));
     for (Py_ssize_t r = 0; r < items.size(); ++r)
-        if (!read_ring(items[r], read[static_cast<std::size_t>(r)])) return nullptr;
-    return read.empty() ? nullptr : std::make_shared<Polygon>(std::move(read));
+        if (!read_ring(items[r], read[static_cast<std::size_t>(r)])) return {};
+    return read.empty() ? std::optional<Polygon>() : Polygon(std::move(read));
 }
 
 // Polygons without holes, one for each ring; none for what is to be looked at by itself, or is wrong.
-std::vector<std::shared_ptr<Polygon>> polygons_of(nb::list outers) {
-    std::vector<std::shared_ptr<Polygon>> found(outers.size());
-    for (std::size_t k = 0; k < found.size(); ++k) {
+nb::list polygons_of(const nb::list& outers) {
+    nb::list found;
+    for (const nb::handle outer : outers) {
         std::vector<cfree::RatioRing> read(1);
-        if (!read_ring(nb::object(outers[k]).ptr(), read[0])) continue;
+        std::optional<Polygon> polygon;
         try {
-            found[k] = std::make_shared<Polygon>(std::move(read));
+            if (read_ring(outer.ptr(), read[0])) polygon.emplace(std::move(read));
         } catch (const cfree::InvalidPolygon&) {  // said where its place is known
         }
+        found.append(std::move(polygon));
     }
     return found;
 }
@@ -184,13 +186,16 @@ void bind_polygons(nb::module_& m) {
     });
     nb::class_<Polygon>(m, "Polygon")
         .def_static("of", &polygon_of, "rings"_a, nb::sig("def of(rings: Sequence[typing.Any]) -> Polygon | None"))
-        .def_static("thin", [](const nb::object& points) -> std::shared_ptr<Polygon> {
+        .def_static("thin", [](const nb::object& points) -> std::optional<Polygon> {
             cfree::RatioRing ring;
-            if (!read_ring(points.ptr(), ring)) return nullptr;
-            return std::make_shared<Polygon>(Polygon::thin(ring));
+            if (!read_ring(points.ptr(), ring)) return {};
+            return Polygon::thin(ring);
         }, "points"_a, "A point, or a segment.", nb::sig("def thin(points: list[typing.Any]) -> Polygon | None"))
         .def_static("of_each", &polygons_of, "outers"_a, nb::sig("def of_each(outers: list[typing.Any]) -> list[Polygon | None]"))
-        .def_prop_ro("numerators", [](const Polygon& p) { return integers(p.vertices.X, p.vertices.Y); },
+        .def_prop_ro("numerators", [](const Polygon& p) {
+            const auto [x, y] = p.vertices.coordinates();
+            return integers(x, y);
+        },
                      nb::for_getter(nb::sig("def numerators(self) -> tuple[tuple[int, int], ...]")))
         .def_prop_ro("denominator", [](const Polygon& p) { return integer(p.denominator); })
         .def_prop_ro("ring_offsets", [](const Polygon& p) { return p.offsets; })
@@ -202,16 +207,15 @@ void bind_polygons(nb::module_& m) {
         .def_prop_ro("vertices", [](const Polygon& p) {
             std::vector<double> xy;
             for (Index k = 0; k < p.vertices.size(); ++k)
-                for (const Int* c : {&p.vertices.X[k], &p.vertices.Y[k]}) xy.push_back(cfree::nearest(*c, p.denominator));
+                for (const Int& c : {p.vertices.X(k), p.vertices.Y(k)}) xy.push_back(cfree::nearest(c, p.denominator));
             auto* kept = new std::vector<double>(std::move(xy));
             nb::capsule owner(kept, [](void* q) noexcept { delete static_cast<std::vector<double>*>(q); });
             return Made<const double, 2>(kept->data(), {kept->size() / 2, 2}, owner);
         }, nb::rv_policy::automatic)
         .def_prop_ro("box", [](const Polygon& p) {  // least x, least y, greatest x, greatest y
-            const auto [x0, x1] = std::minmax_element(p.vertices.X.begin(), p.vertices.X.end());
-            const auto [y0, y1] = std::minmax_element(p.vertices.Y.begin(), p.vertices.Y.end());
-            const auto rounded = [&](const Int& c) { return cfree::nearest(c, p.denominator); };
-            return std::tuple(rounded(*x0), rounded(*y0), rounded(*x1), rounded(*y1));
+            const auto box = p.vertices.box();
+            const auto rounded = [&](std::size_t k) { return cfree::nearest(box[k], p.denominator); };
+            return std::tuple(rounded(0), rounded(1), rounded(2), rounded(3));
         })
         .def_prop_ro("convex", [](const Polygon& p) {
             return Made<const bool>(reinterpret_cast<const bool*>(p.convex.data()), {p.convex.size()});
@@ -294,12 +298,20 @@ void bind_polygons(nb::module_& m) {
             using Box = std::optional<std::tuple<double, double, double, double>>;
             return f.rim ? std::apply([](auto... c) { return Box({c...}); }, *f.rim) : Box();
         });
-    m.def("range_fault", [](std::vector<std::shared_ptr<Polygon>> robot, std::vector<std::shared_ptr<Polygon>> obstacles,
-                            std::shared_ptr<Polygon> workspace, std::optional<std::array<nb::object, 4>> bounds) {
-        const auto fault = cfree::range_fault(shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds)));
+    m.def("range_fault", [](const nb::list& robot, const nb::list& obstacles, const Polygon* workspace,
+                            std::optional<std::array<nb::object, 4>> bounds) {
+        cfree::SceneShapes shapes = shapes_of({}, {}, {}, std::move(bounds));
+        // Python owns the polygons as long as this takes
+        const auto borrowed = [](const Polygon* polygon) { return std::shared_ptr<const Polygon>(std::shared_ptr<const Polygon>(), polygon); };
+        for (const auto& [from, to] : {std::pair{&robot, &shapes.robot}, {&obstacles, &shapes.obstacles}}) {
+            to->reserve(from->size());
+            for (const nb::handle polygon : *from) to->push_back(borrowed(nb::cast<const Polygon*>(polygon)));
+        }
+        if (workspace) shapes.workspace = borrowed(workspace);
+        const auto fault = cfree::range_fault(shapes);
         using Answer = std::optional<std::tuple<std::string, Index, std::string>>;
         return fault ? Answer({fault->kind, fault->index, fault->message}) : Answer();
     }, "robot"_a, "obstacles"_a, "workspace"_a.none(), "bounds"_a.none(),
-       nb::sig("def range_fault(robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
+       nb::sig("def range_fault(robot: list[Polygon], obstacles: list[Polygon], workspace: Polygon | None, "
                "bounds: Sequence[fractions.Fraction] | None) -> tuple[str, int, str] | None"));
 }

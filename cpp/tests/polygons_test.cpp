@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <random>
 #include <set>
@@ -36,7 +37,7 @@ static Int doubled_area(const Points& v, const std::vector<Index>& ring) {
     Int area = 0;
     for (std::size_t k = 0; k < ring.size(); ++k) {
         const Index p = ring[k], q = ring[k + 1 < ring.size() ? k + 1 : 0];
-        area += v.X[p] * v.Y[q] - v.X[q] * v.Y[p];
+        area += v.X(p) * v.Y(q) - v.X(q) * v.Y(p);
     }
     return area;
 }
@@ -94,7 +95,7 @@ static void numbers_are_what_they_are_written_as() {
 static void rings_are_cleaned_and_turned_around() {
     const Polygon p = polygon_of({{{"0", "0"}, {"0", "1/2"}, {"0", "1"}, {"1", "0"}, {"1", "0"}, {"0", "0"}}});
     CHECK(p.vertices.size() == 3 && p.denominator == 1 && p.removed.size() == 2 && p.is_convex());
-    CHECK(p.vertices.orient(0, 1, 2) > 0 && p.vertices.X[0] == 0 && p.vertices.X[1] == 1);
+    CHECK(p.vertices.orient(0, 1, 2) > 0 && p.vertices.X(0) == 0 && p.vertices.X(1) == 1);
     const Polygon holed = polygon_of({square, {{"1", "1"}, {"2", "1"}, {"1", "2"}}});
     CHECK(holed.vertices.orient(4, 5, 6) < 0 && !holed.is_convex());
 }
@@ -175,7 +176,35 @@ static void rings_that_cross_are_found() {
     CHECK(!is_inside(polygon_of({square}), polygon_of({square})));
 }
 
+// Points of a coarse grid, at 0 and so far away that they are no machine integers, in one of the two and in both axes.
+static void signs_are_those_of_points_far_away() {
+    std::mt19937 random(11);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<Int> x, y, far_x, far_y;
+        const Int by_x = round % 3 ? Int(1) << 63 : Int(0), by_y = round % 3 == 1 ? Int(0) : -(Int(1) << 200);
+        for (int k = 0; k < 6; ++k) {
+            x.push_back(static_cast<int>(random() % 4) - 2), y.push_back(static_cast<int>(random() % 4) - 2);
+            far_x.push_back(x.back() + by_x), far_y.push_back(y.back() + by_y);
+        }
+        const Points near(x, y), far(far_x, far_y);
+        CHECK(near.are_small() && !far.are_small() && near.size() == 6 && far.size() == 6);
+        CHECK(near.coordinates() == (std::array{x, y}) && far.coordinates() == (std::array{far_x, far_y}));
+        const auto [x0, x1] = std::minmax_element(far_x.begin(), far_x.end());
+        const auto [y0, y1] = std::minmax_element(far_y.begin(), far_y.end());
+        CHECK(far.box() == (std::array{*x0, *y0, *x1, *y1}));
+        CHECK(near.box() == (std::array{Int(*x0 - by_x), Int(*y0 - by_y), Int(*x1 - by_x), Int(*y1 - by_y)}));
+        CHECK(far.chosen({4, 1}).X(0) == far_x[4] && near.chosen({4, 1}).Y(1) == y[1]);
+        for (Index p = 0; p < 6; ++p)
+            for (Index q = 0; q < 6; ++q) {
+                CHECK(near.compare(p, q) == far.compare(p, q) && near.is_upper(p, q) == far.is_upper(p, q));
+                CHECK(near.turn(p, q, 4, 5) == far.turn(p, q, 4, 5) && near.along(p, q, 4, 5) == far.along(p, q, 4, 5));
+                CHECK(near.compare_lengths(p, q, 4, 5) == far.compare_lengths(p, q, 4, 5));
+            }
+    }
+}
+
 int main() {
+    signs_are_those_of_points_far_away();
     numbers_are_what_they_are_written_as();
     rings_are_cleaned_and_turned_around();
     faults_are_named();

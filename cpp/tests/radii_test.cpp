@@ -274,7 +274,7 @@ static void far_cores_are_measured_from_near() {
 static void points_and_segments_are_cores() {
     const auto point = thin({{number("1/2"), number("1/3")}});
     const auto segment = thin({{number("0"), number("0")}, {number("3"), number("4")}});
-    CHECK(point->is_thin() && point->denominator == 6 && point->vertices.X[0] == 3 && point->is_convex() && !unit_box()->is_thin());
+    CHECK(point->is_thin() && point->denominator == 6 && point->vertices.X(0) == 3 && point->is_convex() && !unit_box()->is_thin());
     CHECK((point->pieces() == Pieces{{0}} && segment->pieces() == Pieces{{0, 1}}));
     const auto f = features({point, segment}, {segment, point, point, point}, number("1/5"),
                             {number("1/4"), number("1/4"), number("1/4"), number("1/3")});

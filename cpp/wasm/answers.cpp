@@ -33,7 +33,7 @@ std::string exact(const RationalPose& q) {
 std::vector<Rational> ring(const Polygon& polygon, std::size_t r) {
     std::vector<Rational> points;
     for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k)
-        points.push_back({reduced(polygon.vertices.X[k], polygon.denominator), reduced(polygon.vertices.Y[k], polygon.denominator)});
+        points.push_back({reduced(polygon.vertices.X(k), polygon.denominator), reduced(polygon.vertices.Y(k), polygon.denominator)});
     return points;
 }
 

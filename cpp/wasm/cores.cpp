@@ -21,7 +21,7 @@ constexpr int finest_fillets = 8, finest_widening = 6;  // the same where some a
 using Ring = std::vector<GivenCurve>;
 
 RatioPoint vertex(const Polygon& polygon, Index k) {
-    return {reduced(polygon.vertices.X[k], polygon.denominator), reduced(polygon.vertices.Y[k], polygon.denominator)};
+    return {reduced(polygon.vertices.X(k), polygon.denominator), reduced(polygon.vertices.Y(k), polygon.denominator)};
 }
 
 std::optional<Ratio> radius_of(const GivenCurve& arc) {

@@ -38,7 +38,7 @@ double length_of(const World& world, const GivenVehicle& vehicle) {
     double u0 = HUGE_VAL, u1 = -HUGE_VAL, v0 = HUGE_VAL, v1 = -HUGE_VAL;
     for (const auto& part : world.shapes.robot)
         for (Index k = 0; k < part->vertices.size(); ++k) {
-            const double x = nearest(part->vertices.X[k], part->denominator), y = nearest(part->vertices.Y[k], part->denominator);
+            const double x = nearest(part->vertices.X(k), part->denominator), y = nearest(part->vertices.Y(k), part->denominator);
             const double u = c * x + s * y, v = c * y - s * x;
             u0 = std::min(u0, u), u1 = std::max(u1, u), v0 = std::min(v0, v), v1 = std::max(v1, v);
         }

@@ -27,7 +27,7 @@ std::vector<std::vector<GivenCurve>> lines_of(const Polygon& polygon) {
     for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
         auto& ring = rings.emplace_back();
         const auto point = [&](Index k) {
-            return RatioPoint{reduced(polygon.vertices.X[k], polygon.denominator), reduced(polygon.vertices.Y[k], polygon.denominator)};
+            return RatioPoint{reduced(polygon.vertices.X(k), polygon.denominator), reduced(polygon.vertices.Y(k), polygon.denominator)};
         };
         for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k)
             ring.push_back({point(k), point(k + 1 < polygon.offsets[r + 1] ? k + 1 : polygon.offsets[r])});
@@ -215,7 +215,7 @@ std::vector<std::shared_ptr<const Polygon>> polygons_near(const GivenShape& shap
     for (const auto& piece : shape.polygon->pieces()) {
         RatioRing corners;
         for (const Index k : piece)
-            corners.push_back({reduced(shape.polygon->vertices.X[k], shape.polygon->denominator), reduced(shape.polygon->vertices.Y[k], shape.polygon->denominator)});
+            corners.push_back({reduced(shape.polygon->vertices.X(k), shape.polygon->denominator), reduced(shape.polygon->vertices.Y(k), shape.polygon->denominator)});
         sums.push_back(std::make_shared<const Polygon>(std::vector<RatioRing>{convex_sum(corners, *disc)}));
     }
     return sums;
@@ -225,8 +225,8 @@ double square_root(double x) { return std::sqrt(std::max(0.0, x)); }
 
 // The outline of a grown polygon, vertex by vertex; false where an edge is too short between two corners that are not convex.
 bool add_grown(const Polygon& polygon, double r, Outlines& into) {
-    const auto x = [&](Index k) { return nearest(polygon.vertices.X[k], polygon.denominator); };
-    const auto y = [&](Index k) { return nearest(polygon.vertices.Y[k], polygon.denominator); };
+    const auto x = [&](Index k) { return nearest(polygon.vertices.X(k), polygon.denominator); };
+    const auto y = [&](Index k) { return nearest(polygon.vertices.Y(k), polygon.denominator); };
     for (std::size_t ring = 0; ring + 1 < polygon.offsets.size(); ++ring) {
         const Index first = polygon.offsets[ring], count = polygon.offsets[ring + 1] - first;
         std::vector<double> left(static_cast<std::size_t>(count));  // of each edge, after both corners

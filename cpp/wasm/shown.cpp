@@ -24,7 +24,7 @@ void show_polygons(const std::string& prefix, const std::vector<std::shared_ptr<
     for (const auto& of : polygons) {
         const Index base = ring.back();
         for (Index k = 0; k < of->vertices.size(); ++k)
-            for (const Int* c : {&of->vertices.X[k], &of->vertices.Y[k]}) xy.push_back(nearest(*c, of->denominator));
+            for (const Int& c : {of->vertices.X(k), of->vertices.Y(k)}) xy.push_back(nearest(c, of->denominator));
         for (std::size_t r = 1; r < of->offsets.size(); ++r) ring.push_back(base + of->offsets[r]);
         polygon.push_back(static_cast<Index>(ring.size()) - 1);
     }

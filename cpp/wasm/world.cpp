@@ -14,7 +14,7 @@ namespace {
 double reach_of(const Polygon& core, const Rounding& rounding) {
     double most = 0;
     for (Index k = 0; k < core.vertices.size(); ++k)
-        most = std::max(most, norm(nearest(core.vertices.X[k], core.denominator), nearest(core.vertices.Y[k], core.denominator)));
+        most = std::max(most, norm(nearest(core.vertices.X(k), core.denominator), nearest(core.vertices.Y(k), core.denominator)));
     const auto about = [](const RatioPoint& p) { return Vec<double>{nearest(p.x.n, p.x.d), nearest(p.y.n, p.y.d)}; };
     for (const Arc& arc : rounding.arcs) {
         const Vec<double> from = about(arc.from), to = about(arc.to), centre = about(arc.centre);

@@ -110,7 +110,7 @@ class Check {
 public:
     Check(const Polygon& polygon, Index ring_number, const ClosedCurve& curve) {
         for (Index k = polygon.offsets[ring_number]; k < polygon.offsets[ring_number + 1]; ++k) {
-            ring.push_back({polygon.vertices.X[k], polygon.vertices.Y[k], polygon.denominator});
+            ring.push_back({polygon.vertices.X(k), polygon.vertices.Y(k), polygon.denominator});
             about.push_back(rounded(ring.back()));
         }
         for (const CurvePiece& given : curve) pieces.push_back(prepared(given));

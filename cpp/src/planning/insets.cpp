@@ -15,13 +15,12 @@ constexpr int coarsest = 20, enough = 160;  // insets are 2^-20 of the robot's s
 
 int size_of(const SceneShapes& shapes) {
     double size = 0;
-    for (const auto axis : {&Points::X, &Points::Y}) {
+    for (const std::size_t axis : {0, 1}) {
         double low = HUGE_VAL, high = -HUGE_VAL;
-        for (const auto& part : shapes.robot)
-            for (const Int& c : part->vertices.*axis) {
-                const double at = nearest(c, part->denominator);
-                low = std::min(low, at), high = std::max(high, at);
-            }
+        for (const auto& part : shapes.robot) {
+            const auto box = part->vertices.box();
+            low = std::min(low, nearest(box[axis], part->denominator)), high = std::max(high, nearest(box[axis + 2], part->denominator));
+        }
         size = std::max(size, high - low);
     }
     int exponent = 0;

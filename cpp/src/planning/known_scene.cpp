@@ -90,7 +90,7 @@ bool KnownScene::is_within_limits(const RationalPose& pose) const {
     const Int unit = at.W * R.w;
     for (const auto& part : shapes().robot) {
         const Int factor = scene().scale / part->denominator;
-        const Int u = part->vertices.X[0] * factor, v = part->vertices.Y[0] * factor;
+        const Int u = part->vertices.X(0) * factor, v = part->vertices.Y(0) * factor;
         const Int x = at.X * R.w + (R.c * u - R.s * v) * at.W, y = at.Y * R.w + (R.s * u + R.c * v) * at.W;
         if (x <= x0 * unit || x >= x1 * unit || y <= y0 * unit || y >= y1 * unit) return false;
     }
@@ -137,7 +137,7 @@ const Area& KnownScene::box() const {
     Area& all = *around_all;
     const auto add = [&](const Polygon& polygon) {
         for (Index k = 0; k < polygon.vertices.size(); ++k) {
-            const double x = nearest(polygon.vertices.X[k], polygon.denominator), y = nearest(polygon.vertices.Y[k], polygon.denominator);
+            const double x = nearest(polygon.vertices.X(k), polygon.denominator), y = nearest(polygon.vertices.Y(k), polygon.denominator);
             all.x0 = std::min(all.x0, x), all.y0 = std::min(all.y0, y), all.x1 = std::max(all.x1, x), all.y1 = std::max(all.y1, y);
         }
     };

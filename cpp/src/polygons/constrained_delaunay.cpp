@@ -122,12 +122,11 @@ private:
 class Circles {
 public:
     explicit Circles(const Points& v) : points(v) {
-        const auto [least_x, most_x] = std::minmax_element(v.X.begin(), v.X.end());
-        const auto [least_y, most_y] = std::minmax_element(v.Y.begin(), v.Y.end());
-        width = *most_x - *least_x, height = *most_y - *least_y;
+        const auto [least_x, least_y, most_x, most_y] = v.box();
+        width = most_x - least_x, height = most_y - least_y;
         are_tiny = v.are_small() && width < (1 << 20) && height < (1 << 20);
         for (Index k = 0; k < v.size(); ++k)
-            place.push_back({nearest(Int(v.X[k] - *least_x), width), nearest(Int(v.Y[k] - *least_y), height)});
+            place.push_back({nearest(Int(v.X(k) - least_x), width), nearest(Int(v.Y(k) - least_y), height)});
     }
 
     // 1 if d is inside the circle through a, b and c, which are counter-clockwise, 0 if it is on it.
@@ -152,7 +151,7 @@ public:
         }
         std::array<Vec<Int>, 3> exact;
         for (std::size_t k = 0; k < 3; ++k)
-            exact[k] = {points.X[corners[k]] - points.X[d], points.Y[corners[k]] - points.Y[d]};
+            exact[k] = {points.X(corners[k]) - points.X(d), points.Y(corners[k]) - points.Y(d)};
         return determinant(exact, [&](const Vec<Int>& u) {
                    const Int x = u.x * height, y = u.y * width;
                    return Int(x * x + y * y);

@@ -31,7 +31,7 @@ Ratio snapped(const Ratio& x, const Ratio& grid) {
 
 Vec<double> unit(const Polygon& polygon, Index from, Index to) {
     const auto& v = polygon.vertices;
-    const double x = nearest(v.X[to] - v.X[from], polygon.denominator), y = nearest(v.Y[to] - v.Y[from], polygon.denominator);
+    const double x = nearest(v.X(to) - v.X(from), polygon.denominator), y = nearest(v.Y(to) - v.Y(from), polygon.denominator);
     const double length = norm(x, y);
     return {x / length, y / length};
 }
@@ -48,12 +48,12 @@ std::vector<RatioRing> mitred(const Polygon& polygon, const Ratio& by) {
             const Vec<double> in = unit(polygon, at(k - 1), at(k)), out = unit(polygon, at(k), at(k + 1));
             const double share = std::max(1 + ((-in.y) * (-out.y) + in.x * out.x), least_share);
             const double dx = ((-in.y) + (-out.y)) / share, dy = (in.x + out.x) / share;
-            ring.push_back({reduced(v.X[at(k)], polygon.denominator) + by * ratio_of(dx),
-                            reduced(v.Y[at(k)], polygon.denominator) + by * ratio_of(dy)});
+            ring.push_back({reduced(v.X(at(k)), polygon.denominator) + by * ratio_of(dx),
+                            reduced(v.Y(at(k)), polygon.denominator) + by * ratio_of(dy)});
         }
         for (Index k = 0; k < n; ++k) {
             const RatioPoint &p = ring[static_cast<std::size_t>(k)], &q = ring[static_cast<std::size_t>((k + 1) % n)];
-            const Ratio u{v.X[at(k + 1)] - v.X[at(k)], 1}, w{v.Y[at(k + 1)] - v.Y[at(k)], 1};
+            const Ratio u{v.X(at(k + 1)) - v.X(at(k)), 1}, w{v.Y(at(k + 1)) - v.Y(at(k)), 1};
             if (((q.x - p.x) * u + (q.y - p.y) * w).n.sign() <= 0) return {};
         }
     }

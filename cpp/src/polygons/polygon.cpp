@@ -76,7 +76,7 @@ std::string shown(const Ratio& x, const Ratio& y) {
 
 // Text of a common point of the edges pq and rs.
 std::string common_point(const Points& v, Index p, Index q, Index r, Index s, Meeting met, const Int& denominator) {
-    const auto at = [&](Index k) { return shown(reduced(v.X[k], denominator), reduced(v.Y[k], denominator)); };
+    const auto at = [&](Index k) { return shown(reduced(v.X(k), denominator), reduced(v.Y(k), denominator)); };
     if (met == Meeting::touch || met == Meeting::overlap) {
         const bool meet_at_end = met == Meeting::touch;
         for (const Index k : {p, q})
@@ -86,9 +86,9 @@ std::string common_point(const Points& v, Index p, Index q, Index r, Index s, Me
             return at(v.before(a, b) ? b : a);
         }
     }
-    const Vec<Int> u{v.X[q] - v.X[p], v.Y[q] - v.Y[p]}, w{v.X[s] - v.X[r], v.Y[s] - v.Y[r]};
-    const Int n = cross(Vec<Int>{v.X[r] - v.X[p], v.Y[r] - v.Y[p]}, w), d = cross(u, w), unit = d * denominator;
-    return shown(reduced(v.X[p] * d + n * u.x, unit), reduced(v.Y[p] * d + n * u.y, unit));
+    const Vec<Int> u{v.X(q) - v.X(p), v.Y(q) - v.Y(p)}, w{v.X(s) - v.X(r), v.Y(s) - v.Y(r)};
+    const Int n = cross(Vec<Int>{v.X(r) - v.X(p), v.Y(r) - v.Y(p)}, w), d = cross(u, w), unit = d * denominator;
+    return shown(reduced(v.X(p) * d + n * u.x, unit), reduced(v.Y(p) * d + n * u.y, unit));
 }
 
 }  // namespace
@@ -186,7 +186,7 @@ void Polygon::check(std::vector<Points>&& rings, bool is_least) {
         vertices = std::move(rings[0]);
     } else {
         for (std::size_t r = 0; r < count; ++r)
-            for (const Index k : kept[r].source) x.push_back(rings[r].X[k]), y.push_back(rings[r].Y[k]);
+            for (const Index k : kept[r].source) x.push_back(rings[r].X(k)), y.push_back(rings[r].Y(k));
         vertices = Points(std::move(x), std::move(y));
     }
     is_convex_ring = count == 1 && is_convex_chain(vertices);
@@ -230,11 +230,12 @@ void Polygon::check(std::vector<Points>&& rings, bool is_least) {
     if (turned) vertices = vertices.chosen(order);
     // removed points may leave a common factor
     Int common = is_least && removed.empty() ? Int(1) : denominator;
-    for (Index k = 0; k < vertices.size() && common != 1; ++k) common = gcd(gcd(common, vertices.X[k]), vertices.Y[k]);
+    for (Index k = 0; k < vertices.size() && common != 1; ++k) common = gcd(gcd(common, vertices.X(k)), vertices.Y(k));
     if (common != 1) {
-        for (auto* axis : {&vertices.X, &vertices.Y})
-            for (Int& c : *axis) c /= common;
-        vertices = Points(std::move(vertices.X), std::move(vertices.Y));
+        auto whole = vertices.coordinates();
+        for (auto& axis : whole)
+            for (Int& c : axis) c /= common;
+        vertices = Points(std::move(whole[0]), std::move(whole[1]));
         denominator /= common;
     }
     convex.assign(static_cast<std::size_t>(vertices.size()), 1);
@@ -257,7 +258,7 @@ bool is_inside(const Polygon& inner, const Polygon& outer) {
         const Int factor = scale / polygon->denominator;
         const Index first = offsets.back();
         for (Index k = 0; k < polygon->vertices.size(); ++k)
-            x.push_back(polygon->vertices.X[k] * factor), y.push_back(polygon->vertices.Y[k] * factor);
+            x.push_back(polygon->vertices.X(k) * factor), y.push_back(polygon->vertices.Y(k) * factor);
         for (std::size_t r = 1; r < polygon->offsets.size(); ++r)
             offsets.push_back(first + polygon->offsets[r]), counterclockwise.push_back(r == 1);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 namespace cfree {
 
@@ -36,7 +37,7 @@ std::string grouped(unsigned n) {
 }
 
 struct Extreme {
-    std::string kind;
+    std::string_view kind;
     Index index;
     Int value, denominator;  // the coordinate of largest size, times the denominator
     bool is_radius = false;
@@ -62,40 +63,37 @@ std::optional<RangeFault> radius_fault(const SceneShapes& shapes) {
     return shapes.workspace ? fault("workspace", -1, *shapes.workspace, {}) : std::nullopt;
 }
 
-std::vector<Extreme> extremes(const SceneShapes& shapes) {
-    std::vector<Extreme> result;
+// Use one after the other, until `use` returns false.
+template <class Use>
+void for_each_extreme(const SceneShapes& shapes, Use use) {
     const auto add = [&](const char* kind, Index index, const Polygon& polygon) {
-        const Int* widest = &polygon.vertices.X[0];
+        Int widest = polygon.vertices.X(0);
         for (Index k = 0; k < polygon.vertices.size(); ++k)
-            for (const Int* c : {&polygon.vertices.X[k], &polygon.vertices.Y[k]})
-                if (abs(*c) > abs(*widest)) widest = c;
-        result.push_back({kind, index, *widest, polygon.denominator});
+            for (const Int& c : {polygon.vertices.X(k), polygon.vertices.Y(k)})
+                if (abs(c) > abs(widest)) widest = c;
+        return use(Extreme{kind, index, std::move(widest), polygon.denominator});
     };
     const auto add_radii = [&](const char* kind, std::size_t index, const std::vector<Rounding>& all) {
-        if (all.empty()) return;
-        const auto add_radius = [&](const Ratio& radius) {
-            if (!radius.n.is_zero()) result.push_back({kind, static_cast<Index>(index), radius.n, radius.d, true});
-        };
-        add_radius(all[index].radius);
+        if (all.empty()) return true;
+        const auto at = static_cast<Index>(index);
+        const auto add_radius = [&](const Ratio& radius) { return radius.n.is_zero() || use(Extreme{kind, at, radius.n, radius.d, true}); };
+        if (!add_radius(all[index].radius)) return false;
         for (const Arc& arc : all[index].arcs) {
-            add_radius(arc.radius);
-            for (const Ratio* c : {&arc.centre.x, &arc.centre.y}) result.push_back({kind, static_cast<Index>(index), c->n, c->d});
+            if (!add_radius(arc.radius)) return false;
+            for (const Ratio* c : {&arc.centre.x, &arc.centre.y})
+                if (!use(Extreme{kind, at, c->n, c->d})) return false;
         }
+        return true;
     };
-    for (std::size_t k = 0; k < shapes.robot.size(); ++k) {
-        add_radii("robot", k, shapes.robot_rounding);
-        add("robot", static_cast<Index>(k), *shapes.robot[k]);
-    }
-    for (std::size_t k = 0; k < shapes.obstacles.size(); ++k) {
-        add_radii("obstacles", k, shapes.obstacle_rounding);
-        add("obstacles", static_cast<Index>(k), *shapes.obstacles[k]);
-    }
-    if (shapes.workspace) add("workspace", -1, *shapes.workspace);
+    for (const auto& [kind, polygons, roundings] : {std::tuple{"robot", &shapes.robot, &shapes.robot_rounding},
+                                                    {"obstacles", &shapes.obstacles, &shapes.obstacle_rounding}})
+        for (std::size_t k = 0; k < polygons->size(); ++k)
+            if (!add_radii(kind, k, *roundings) || !add(kind, static_cast<Index>(k), *(*polygons)[k])) return;
+    if (shapes.workspace && !add("workspace", -1, *shapes.workspace)) return;
     for (std::size_t k = 0; shapes.bounds && k < 4; ++k) {
         const Ratio& bound = (*shapes.bounds)[k];
-        result.push_back({"bounds", static_cast<Index>(k), bound.n, bound.d});
+        if (!use(Extreme{"bounds", static_cast<Index>(k), bound.n, bound.d})) return;
     }
-    return result;
 }
 
 }  // namespace
@@ -104,24 +102,27 @@ std::optional<RangeFault> range_fault(const SceneShapes& shapes) {
     static const Int largest = boost::multiprecision::pow(Int(10), 150);
     if (auto wrong = radius_fault(shapes)) return wrong;
     Int widest = 0, widest_denominator = 1, scale = 1;
-    const Extreme* finest = nullptr;
-    const auto found = extremes(shapes);
-    for (const Extreme& next : found) {
+    std::optional<Extreme> finest;
+    std::optional<RangeFault> too_far;
+    for_each_extreme(shapes, [&](const Extreme& next) {
         const Int size = abs(next.value);
-        if (size > largest * next.denominator)
-            return RangeFault{next.kind, next.index, (next.is_radius ? "the radius " : "the coordinate ") +
-                                                         shown(floor_divide(next.value, next.denominator)) +
-                                                         " is larger than 1e150; scale the scene"};
+        if (size > largest * next.denominator) {
+            too_far = RangeFault{std::string(next.kind), next.index, (next.is_radius ? "the radius " : "the coordinate ") +
+                                                                         shown(floor_divide(next.value, next.denominator)) +
+                                                                         " is larger than 1e150; scale the scene"};
+            return false;
+        }
         if (size * widest_denominator > widest * next.denominator) widest = size, widest_denominator = next.denominator;
         if (!finest || next.denominator > finest->denominator ||
             (next.denominator == finest->denominator && std::pair(next.kind, next.index) > std::pair(finest->kind, finest->index)))
-            finest = &next;
+            finest = next;
         if (scale % next.denominator != 0) scale = lcm(scale, next.denominator);
-        if (bits(scale) > most_bits) break;
-    }
+        return bits(scale) <= most_bits;
+    });
+    if (too_far) return too_far;
     const unsigned needed = std::max(bits(widest * scale / widest_denominator), bits(scale));
     if (needed <= most_bits) return {};
-    return RangeFault{finest->kind, finest->index,
+    return RangeFault{std::string(finest->kind), finest->index,
                       (finest->is_radius ? "with the denominator " + shown(finest->denominator) + " of its radius, "
                                          : "with its denominator " + shown(finest->denominator) + " ") +
                           "the scene's coordinates, over one common denominator, are integers of " + grouped(needed) +

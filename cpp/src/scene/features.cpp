@@ -74,7 +74,7 @@ struct Builder {
     std::vector<char> convex, emit;
     // Only of polygons with arcs: other vertices and their radii; edges of rings by the vertices where they start, and of pieces by
     // the places of these; vertices that are arcs.
-    Points others;
+    std::vector<Vec<Int>> others;
     std::vector<Index> other_radius;
     std::map<Index, ArcEdge> ring_edges;
     std::map<std::size_t, ArcEdge> piece_edges;
@@ -91,7 +91,7 @@ struct Builder {
 
     void reserve(const std::vector<std::shared_ptr<const Polygon>>& polygons) {
         std::size_t total = 0;
-        for (const auto& polygon : polygons) total += polygon->vertices.X.size();
+        for (const auto& polygon : polygons) total += static_cast<std::size_t>(polygon->vertices.size());
         x.reserve(total), y.reserve(total);
     }
 
@@ -141,9 +141,9 @@ struct Builder {
         return count() - 1;
     }
     Index add_other(const Vec<Int>& p, Index radius_class, Index owner) {
-        others.X.push_back(p.x), others.Y.push_back(p.y);
+        others.push_back(p);
         other_radius.push_back(radius_class), owners.polygon_of_end.push_back(owner);
-        return -static_cast<Index>(others.X.size());
+        return -static_cast<Index>(others.size());
     }
 
     template <class Owner>
@@ -154,7 +154,7 @@ struct Builder {
         for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
             const Index start = count();
             for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k)
-                add_vertex(polygon.vertices.X[k] * factor, polygon.vertices.Y[k] * factor, polygon.convex[k], emit_outer || r > 0, owner,
+                add_vertex(polygon.vertices.X(k) * factor, polygon.vertices.Y(k) * factor, polygon.convex[k], emit_outer || r > 0, owner,
                            owner_of(r, k));
             close_ring(start);
         }
@@ -178,7 +178,7 @@ struct Builder {
     void add_bound_ring(const Points& ring, bool is_convex) {
         const Index start = count();
         for (Index k = 0; k < ring.size(); ++k) {
-            x.push_back(ring.X[k]), y.push_back(ring.Y[k]);
+            x.push_back(ring.X(k)), y.push_back(ring.Y(k));
             convex.push_back(is_convex), emit.push_back(1), layer.push_back(reference_layer);
             owners.polygon.push_back(bounds_owner), owners.vertex.push_back(k);
         }
@@ -191,8 +191,8 @@ void Builder::number_others() {
     const auto numbered = [base = count()](Index& v) {
         if (v < 0) v = base - 1 - v;
     };
-    for (Index k = 0; k < static_cast<Index>(others.X.size()); ++k) {
-        x.push_back(others.X[k]), y.push_back(others.Y[k]);
+    for (Index k = 0; k < static_cast<Index>(others.size()); ++k) {
+        x.push_back(others[k].x), y.push_back(others[k].y);
         vertex_radius.push_back(other_radius[k]);
     }
     for (Index& v : piece_vertex) numbered(v);
@@ -214,7 +214,7 @@ void Builder::add_with_arcs(const Polygon& polygon, const Rounding& rounding, In
     const Int factor = scale / polygon.denominator, grown = scaled(rounding.radius, scale);
     const Index at_corner = class_of(grown), count_of_points = polygon.vertices.size();
     std::vector<Vec<Int>> points;
-    for (Index k = 0; k < count_of_points; ++k) points.push_back({polygon.vertices.X[k] * factor, polygon.vertices.Y[k] * factor});
+    for (Index k = 0; k < count_of_points; ++k) points.push_back({polygon.vertices.X(k) * factor, polygon.vertices.Y(k) * factor});
     const auto place = [&](const RatioPoint& p) { return Vec<Int>{scaled(p.x, scale), scaled(p.y, scale)}; };
     const auto key = [](const Vec<Int>& p, const Vec<Int>& q) { return std::array{p.x, p.y, q.x, q.y}; };
     std::map<std::array<Int, 4>, const Arc*> arc_of;
@@ -393,10 +393,10 @@ std::vector<std::pair<Int, Int>> add_radii(Shape& s, Builder& from, const Points
     for (Index e = 0; e < static_cast<Index>(s.v.size()); ++e) {
         const Index v = s.v[e], w = s.w[e];
         if (points.same(v, w)) continue;
-        const Vec<Int> E{points.X[w] - points.X[v], points.Y[w] - points.Y[v]};
+        const Vec<Int> E{points.X(w) - points.X(v), points.Y(w) - points.Y(v)};
         const Int divisor = gcd(abs(E.x), abs(E.y)), &radius = s.radius_of(v).exact;
         const Vec<Int> D{E.x / divisor, E.y / divisor};
-        const Int square = dot(D, D), root = root_below(square), offset = cross(Vec<Int>{points.X[v], points.Y[v]}, D);
+        const Int square = dot(D, D), root = root_below(square), offset = cross(Vec<Int>{points.X(v), points.Y(v)}, D);
         const bool is_rational = root * root == square;
         s.lengths[e] = is_rational ? Length{divisor * root, 1, {}} : Length{divisor, square, {}};
         keys[e] = is_rational ? std::pair{Int(offset + radius * root), Int(0)} : std::pair{offset, radius};
@@ -483,8 +483,8 @@ Shape finished(Builder&& from, int shift, bool is_round) {
     std::vector<Int> along_x, along_y;
     along_x.reserve(s.v.size() + 1), along_y.reserve(s.v.size() + 1);
     for (Index e = 0; e < static_cast<Index>(s.v.size()); ++e) {
-        along_x.push_back(points.X[high(e)] - points.X[low(e)]);
-        along_y.push_back(points.Y[high(e)] - points.Y[low(e)]);
+        along_x.push_back(points.X(high(e)) - points.X(low(e)));
+        along_y.push_back(points.Y(high(e)) - points.Y(low(e)));
     }
     along_x.push_back(0), along_y.push_back(0);
     const Points vectors(std::move(along_x), std::move(along_y));
@@ -513,7 +513,8 @@ Shape finished(Builder&& from, int shift, bool is_round) {
     s.previous = std::move(from.previous), s.layer = std::move(from.layer);
     s.convex = std::move(from.convex), s.emit = std::move(from.emit);
     s.piece = std::move(from.piece), s.piece_vertex = std::move(from.piece_vertex), s.piece_layer = std::move(from.piece_layer);
-    s.set_coordinates(std::move(points.X), std::move(points.Y), shift, from.scale);
+    auto [exact_x, exact_y] = points.coordinates();
+    s.set_coordinates(std::move(exact_x), std::move(exact_y), shift, from.scale);
     return s;
 }
 
@@ -522,7 +523,7 @@ void add_workspace(const Polygon& workspace, const Box& size, Builder& obstacles
     const Int factor = obstacles.scale / workspace.denominator;
     std::vector<Int> x, y;
     for (Index k = 0; k < workspace.vertices.size(); ++k)
-        x.push_back(workspace.vertices.X[k] * factor), y.push_back(workspace.vertices.Y[k] * factor);
+        x.push_back(workspace.vertices.X(k) * factor), y.push_back(workspace.vertices.Y(k) * factor);
     const Points corners(x, y);
     Box around = box_of(x, y);
     if (others) around.add(others->x0, others->y0), around.add(others->x1, others->y1);
@@ -554,7 +555,7 @@ void add_bounds(Builder& robot, Builder& obstacles, const std::vector<Int>& inne
                                rectangle(outer.x0, outer.y0, outer.x1, y0), rectangle(outer.x0, y1, outer.x1, outer.y1)}) {
         for (Index k = 0; k < 4; ++k) {
             obstacles.piece_vertex.push_back(obstacles.count());
-            obstacles.x.push_back(side.X[k]), obstacles.y.push_back(side.Y[k]);
+            obstacles.x.push_back(side.X(k)), obstacles.y.push_back(side.Y(k));
         }
         obstacles.close_piece(reference_layer);
     }
@@ -660,7 +661,7 @@ void WholeScene::add(const Polygon& polygon, const Rounding& rounding) {
     }
     const Int factor = scale / polygon.denominator, reach = scaled(reach_beyond_corners(rounding), scale);
     for (Index k = 0; k < polygon.offsets[1]; ++k) {
-        const Int x = polygon.vertices.X[k] * factor, y = polygon.vertices.Y[k] * factor;
+        const Int x = polygon.vertices.X(k) * factor, y = polygon.vertices.Y(k) * factor;
         if (!box) box = {x - reach, y - reach, x + reach, y + reach};
         auto& [x0, y0, x1, y1] = *box;
         x0 = std::min(x0, Int(x - reach)), y0 = std::min(y0, Int(y - reach));

@@ -11,8 +11,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from cfree.formats.drawings.geojson_features import AtOnce, ReadFeature
 from cfree.formats.drawings.source import Progress, Reading, Source, shapes_of
-from cfree.formats.scenes.scene_values import Fault, scene_from_plain, shape_at_once
+from cfree.formats.scenes.scene_values import Fault, scene_from_plain
 from cfree.formats.shapes import Shapes
 from cfree.formats.text.archive import is_archive
 from cfree.formats.text.findings import Findings, InvalidFileError, read_text, whole
@@ -121,18 +122,21 @@ def read_json_file(findings: Findings, reading: Reading | None = None) -> Shapes
     """Read a scene, GeoJSON, or a nesting instance from JSON."""
     source = Source(findings.file, reading=reading)
     source.findings = findings
-    if not source.reading.repair and not findings and (scene := quick_scene(read_members(findings, shape_at_once))):
-        return scene
+    if not source.reading.repair and not findings:
+        made = AtOnce()
+        data = read_members(findings, made)
+        if scene := quick_scene(data):
+            return scene
+        is_geojson = isinstance(data, ReadFeature) or (isinstance(data, Mapping) and "type" in data)
+        if is_geojson and made.keeps_properties and not (isinstance(data, Mapping) and "answer" in data):
+            return _read_geojson(source, data)
+        del data
     data = read_literals(findings)
     if isinstance(data, Mapping) and "answer" in data and "robot" not in data:
         fault = "an answer of cfree plan, no scene; give the scene that it is for"
         raise InvalidFileError(findings.file, [whole(fault)])
     if isinstance(data, Mapping) and "type" in data:
-        from cfree.formats.drawings.geojson import geojson_shapes
-
-        settings: dict[str, Any] = {}
-        shapes = geojson_shapes(findings, with_numbers(data), settings, source)
-        return shapes_of(source, "GeoJSON", shapes, settings, 'give its feature the property "role": "robot"')
+        return _read_geojson(source, data)
     if isinstance(data, Mapping) and data.keys() & {"items", "Items"}:
         from cfree.formats.drawings.nesting import read_nesting
 
@@ -147,3 +151,12 @@ def read_json_file(findings: Findings, reading: Reading | None = None) -> Shapes
 
     scene = scene_from_models(findings, mended_scene(source, dict(data)))
     return with_reading(scene, together(scene.reading, tuple(source.notes)))
+
+
+def _read_geojson(source: Source, data: object) -> Shapes:
+    """Read the shapes of decoded GeoJSON."""
+    from cfree.formats.drawings.geojson import geojson_shapes
+
+    settings: dict[str, Any] = {}
+    shapes = geojson_shapes(source.findings, with_numbers(data), settings, source)
+    return shapes_of(source, "GeoJSON", shapes, settings, 'give its feature the property "role": "robot"')

@@ -5,14 +5,12 @@ Only paths: a proof among some obstacles would name them by other numbers, and t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import chain
 from weakref import WeakKeyDictionary
 
 import numpy as np
-import shapely
 
 from cfree.errors import IncompleteError
 from cfree.exact.pose import Pose
@@ -20,6 +18,7 @@ from cfree.paths.numbering import has_slides, renumbered
 from cfree.paths.path import Path
 from cfree.planning.among import MARGIN, check_length, plan_around, proof_at_ends
 from cfree.planning.atlas import LazyAtlas
+from cfree.planning.box_tree import BoxTree
 from cfree.planning.options import Options
 from cfree.planning.pose_planner import PosePlanner
 from cfree.planning.rooms import Box, Floats, Ints, divided
@@ -43,13 +42,12 @@ class SceneGround:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.radius = robot_radius(scene) * WIDE
-        boxes = np.array([polygon._handle.box for polygon in scene.obstacles], np.float64).reshape(-1, 4)
-        self._tree = shapely.STRtree(shapely.box(*boxes.T))
+        self._tree = BoxTree((polygon._handle.box for polygon in scene.obstacles), len(scene.obstacles))
 
     @cached_property
     def atlas(self) -> LazyAtlas:
         """Rooms, and portals made on the way."""
-        walls = chain(self.scene.obstacles, [] if self.scene.workspace is None else [self.scene.workspace])
+        walls = [*self.scene.obstacles, *([] if self.scene.workspace is None else [self.scene.workspace])]
         return LazyAtlas(self, divided(edges_of(walls), self.radius, self.scene.bounds))
 
     def near(self, box: Box) -> Ints:
@@ -59,8 +57,7 @@ class SceneGround:
     def around(self, boxes: Floats, reach: float) -> Ints:
         """Obstacles whose boxes are within a distance of boxes along both axes, in order; rounding adds some."""
         rim = reach + 16 * float(np.spacing(np.abs(boxes).max(initial=0.0)))
-        grown = boxes + np.array([-rim, -rim, rim, rim])
-        return np.unique(self._tree.query(shapely.box(*grown.T))[1]).astype(np.int64)
+        return self._tree.meeting(boxes + np.array([-rim, -rim, rim, rim]))
 
     def part(self, numbers: Ints, bounds: Box | None) -> Scene:
         """Scene with some of the obstacles, whose names are those of the whole."""
@@ -126,7 +123,7 @@ def path_around(ground: SceneGround, start: Pose, goal: Pose, options: Options) 
     return replace(renumbered(answer, sorted(known.numbers)), scene=ground.scene)
 
 
-def edges_of(polygons: Iterable[Polygon]) -> Floats:
+def edges_of(polygons: Sequence[Polygon]) -> Floats:
     """Boxes around all edges, (n, 4), rounded.
 
     Examples
@@ -134,11 +131,13 @@ def edges_of(polygons: Iterable[Polygon]) -> Floats:
     >>> edges_of([Polygon([(0, 0), (2, 0), (1, 3)])]).tolist()
     [[0.0, 0.0, 2.0, 0.0], [1.0, 0.0, 2.0, 3.0], [0.0, 0.0, 1.0, 3.0]]
     """
-    boxes = [np.zeros((0, 4))]
+    boxes, end = np.empty((sum(map(len, polygons)), 4)), 0
     for polygon in polygons:
         a = polygon._handle.vertices  # not kept in memory
         after = np.arange(1, len(a) + 1)
-        offsets = np.array(polygon.ring_offsets)
+        offsets = np.array(polygon._handle.ring_offsets)
         after[offsets[1:] - 1] = offsets[:-1]
-        boxes.append(np.concatenate([np.minimum(a, a[after]), np.maximum(a, a[after])], axis=1))
-    return np.concatenate(boxes)
+        begin, end = end, end + len(a)
+        np.minimum(a, a[after], out=boxes[begin:end, :2])
+        np.maximum(a, a[after], out=boxes[begin:end, 2:])
+    return boxes

@@ -11,7 +11,6 @@ import math
 import os
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
@@ -369,6 +368,8 @@ def in_threads(tasks: Sequence[Callable[[Options], Result]], options: Options) -
         if own.stop.is_set():
             raise KeyboardInterrupt
         return task(own)
+
+    from concurrent.futures import ThreadPoolExecutor, wait
 
     with ThreadPoolExecutor(min(len(tasks), os.cpu_count() or 1)) as pool:
         futures = [pool.submit(ran, task) for task in tasks]

@@ -68,6 +68,7 @@ class Polygon(Shown):
     cfree.errors.InvalidPolygonError: outer ring: edges 0 and 2 cross at (6/5, 6/5); split it into simple ...
     """
 
+    __slots__ = ("__dict__", "__weakref__", "_handle")  # `__dict__` is made with the first computed value
     _handle: _core.Polygon
 
     def __init__(self, outer: Points, holes: Sequence[Points] = ()) -> None:

@@ -159,19 +159,18 @@ class Scene(Shown, Keeping):
         aims = to_goals(list(goals) if goal is None else goal) if goal is not None or len(goals) else ()
         aim = aims if isinstance(aims, Pose) else aims[0] if len(aims) == 1 else None
         aim = aim if isinstance(aim, Pose) else None
+        shapes, given = list[AnyShape](), list[str | None]()
         with collection_paused():
             plain = _core.Polygon.of_each(items)  # lists of points, all at once
-            shapes = [
-                (name, polygon)
-                for k, (item, name, core) in enumerate(zip(items, names, plain, strict=True))
-                for polygon in (
-                    [polygon_of(core)] if core else _shapes(item, f"obstacle {k}" + (f" ({name})" if name else ""))
-                )
-            ]
+            for k, (item, its_name, core) in enumerate(zip(items, names, plain, strict=True)):
+                place = f"obstacle {k}" + (f" ({its_name})" if its_name else "")
+                parts = [polygon_of(core)] if core else _shapes(item, place)
+                shapes += parts
+                given += [its_name] * len(parts)
         values = {
             "robot": tuple(robot_parts),
-            "obstacles": tuple(polygon for _, polygon in shapes),
-            "obstacle_names": tuple(name or default_name(k) for k, (name, _) in enumerate(shapes)),
+            "obstacles": tuple(shapes),
+            "obstacle_names": tuple(its_name or default_name(k) for k, its_name in enumerate(given)),
             "bounds": None if bounds is None else _rectangle(bounds),
             "workspace": None if workspace is None else _one(workspace),
             "start": None if start is None else to_pose(start, "start"),
@@ -186,7 +185,7 @@ class Scene(Shown, Keeping):
             "version": version,
             "reading": in_order(reading),
         }
-        shown = (*robot_parts, *(shape for _, shape in shapes), values["workspace"])
+        shown = (*robot_parts, *shapes, values["workspace"])
         values["curved"] = any(isinstance(shape, Curved) for shape in shown)
         for key, value in values.items():
             object.__setattr__(self, key, value)

@@ -143,11 +143,12 @@ def answer(
         wrong = mismatches(part, its, outward=isinstance(outcome, Path))
         findings += [Finding(ROUND, where, text) for where, text in wrong]
     is_round = its.curved or (isinstance(outcome, Path) and outcome.clearance and not outcome.disc)
-    world = ArcWorld(its) if is_round else World(its)
-    if isinstance(world, World):
-        findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
-    findings += end_findings(outcome, world)
-    findings += _needless(outcome, world)
+    with collection_paused():
+        world = ArcWorld(its) if is_round else World(its)
+        if isinstance(world, World):
+            findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
+        findings += end_findings(outcome, world)
+        findings += _needless(outcome, world)
     if isinstance(outcome, Path):
         larger: dict[str, World | ArcWorld | None] = {}
         if read and read.decimals == "free":

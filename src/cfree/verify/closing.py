@@ -59,15 +59,17 @@ def _unnamed(columns: Columns) -> list[tuple[int, bool, bool, bool]]:
         (one, other) if meet else (0, 0) if other else (one, 0)
         for one, other, meet in zip(angles.first.tolist(), angles.second.tolist(), angles.meet.tolist(), strict=True)
     ]
-    for is_stop, ends in ((False, columns.start.tolist()), (True, columns.stop.tolist())):
-        for k in pieces:
-            pair, number = pairs[ends[k]], numbers[ends[k]]
-            for is_upper in (False, True):
-                code = codes[is_upper][k]
-                line = chart[k], names.curve(contact[k], code), number
+    ends = columns.start.tolist(), columns.stop.tolist()
+    for k in pieces:
+        its, both = contact[k], [(is_stop, ends[is_stop][k]) for is_stop in (False, True)]
+        for is_upper in (False, True):
+            code = codes[is_upper][k]
+            curve = chart[k], names.curve(its, code)
+            for is_stop, end in both:
+                number = numbers[end]
+                line, place = (curve, number), (names.place(its, code, *pairs[end]), number)
                 if left.pop(line, None) is None:
                     left[line] = k, is_stop, is_upper, True
-                place = names.place(contact[k], code, *pair), number
                 if left.pop(place, None) is None:
                     left[place] = k, is_stop, is_upper, False
     return list(left.values())
@@ -121,6 +123,9 @@ class Names:
         self.crossing = lru_cache(maxsize=None)(self._crossing)
         self.curve = lru_cache(maxsize=None)(self._curve)
         self.place = lru_cache(maxsize=None)(self._place)
+        self.line = lru_cache(maxsize=None)(self._line)
+        self._edge = lru_cache(maxsize=None)(self._edge_of)
+        self._around = lru_cache(maxsize=None)(self._edges_around)
         edges: list[set[Edge]] = [set(), set()]
         for kind, *both in map(name_of, columns.names):
             for which, k in enumerate(both):
@@ -132,10 +137,10 @@ class Names:
     def _number(self, which: int, point: Vector) -> int:
         return self._numbers[which].setdefault(point, len(self._numbers[which]))
 
-    def _edge(self, which: int, k: int) -> Edge:
+    def _edge_of(self, which: int, k: int) -> Edge:
         return self.world.edge(self._shapes[which], k)
 
-    def _around(self, which: int, k: int) -> list[Edge]:
+    def _edges_around(self, which: int, k: int) -> list[Edge]:
         """Edges that begin or end at a vertex of the robot, or of the obstacles."""
         shape = self._shapes[which]
         if not self.world.is_own(shape, k):
@@ -166,18 +171,20 @@ class Names:
         one, other = self.points(contact), self.points(code)
         return self._name(other if is_helix(code) else common(one, other) or frozenset((one, other)))
 
-    def line(self, contact: int, angle: int) -> Points:
+    def _line(self, contact: int, angle: int) -> Points:
         """Name of a contact's line at an angle, which is named by one pair, or by none."""
-        if not is_helix(angle):
+        if angle >> 61 == PARALLEL:
             return self.crossing(contact, angle)
+        if not is_helix(angle):
+            return self.points(contact)
         a, b = self.points(contact)  # the vertices of the pair are on it, too
         c, d = self.points(angle)
         return (a, b | d) if c <= a else (a | c, b) if d <= b else (a, b)
 
     def _crossing(self, code: int, angle: int) -> Points:
-        """Name of the line of a surface at an angle: with edges that are parallel to it there."""
-        points, (kind, *ends), (of, *edges) = self.points(code), name_of(code), name_of(angle)
-        if of != PARALLEL or kind not in (VERTEX_EDGE, EDGE_VERTEX):
+        """Name of the line of a surface at an angle of parallel edges: with those that are parallel to it there."""
+        points, (kind, *ends), (_, *edges) = self.points(code), name_of(code), name_of(angle)
+        if kind not in (VERTEX_EDGE, EDGE_VERTEX):
             return points
         still, free = (1, 0) if kind == VERTEX_EDGE else (0, 1)  # the shape of its edge, and that of its vertex
         if not parallel(self._edge(still, ends[still]), self._edge(still, edges[still])):
@@ -190,14 +197,15 @@ class Names:
         """Name of a line at an angle and the place of a curve on it, if no curve named here has a pole."""
         if second:  # both of these are there
             code, first = min(first, second) if code in (first, second) else code, 0
-        line, other = self.line(contact, first), self.crossing(code, first)
-        if is_helix(first) and common(self.points(first), self.points(code)):
+        line = self.line(contact, first)
+        other = self.crossing(code, first) if first >> 61 == PARALLEL else self.points(code)
+        if is_helix(first) and common(self.points(first), other):
             return self._name((line, self.points(first)))
         return self._name((line, common(line, other) or other))
 
 
 def is_helix(code: int) -> bool:
-    return name_of(code)[0] == HELIX
+    return code >> 61 == HELIX
 
 
 def line_of(edge: Edge) -> Any:

@@ -130,16 +130,28 @@ class Columns:
         """
         chart, angles = self.table.chart[some], self.angles
         (n, d), (m, e) = (self.curves(self._rows[column][some], chart) for column in ("lower", "upper"))
-        sign, other = self._signs(d, some), self._signs(e, some)
+        sign, other = self._signs_of_all([d, e], some)
         self.named[some] = sign * other != 0
         in_order = angles.above[self.start[some]] < angles.below[self.stop[some]]
         result = self.named[some] & self._resolved[some] & in_order
-        for poly, its in ((n, sign), (e - m, other)):
-            result &= (self._signs(poly, some, inside=True) * its > 0) | ~poly.any(axis=1)
-        result &= self._signs(times(m, d) - times(n, e), some, inside=True) * sign * other > 0
-        for limit in self._limits:
-            result &= self._signs(polynomials(limit[some], chart), some, inside=True) < 0
+        limits = [polynomials(limit[some], chart) for limit in self._limits]
+        room = e - m
+        inside = [n, room, times(m, d) - times(n, e), *limits]
+        low, high, order, *of_limits = self._signs_of_all(inside, some, inside=True)
+        for poly, its, expected in ((n, low, sign), (room, high, other)):
+            result &= (its * expected > 0) | ~poly.any(axis=1)
+        result &= order * sign * other > 0
+        for its in of_limits:
+            result &= its < 0
         self.proved[some] = result
+
+    def _signs_of_all(self, polys: Sequence[Rows], pieces: Ints, *, inside: bool = False) -> list[Ints]:
+        """Return `_signs` of several polynomials of each piece, found at once."""
+        rows = np.zeros((len(polys), len(pieces), DEGREE + 1), object)
+        for row, poly in zip(rows, polys, strict=True):
+            row[:, : poly.shape[1]] = poly
+        signs = self._signs(rows.reshape(-1, DEGREE + 1), np.tile(pieces, len(polys)), inside=inside)
+        return list(signs.reshape(len(polys), -1))
 
     def _signs(self, poly: Rows, pieces: Ints, *, inside: bool = False) -> Ints:
         """Signs from start to stop, or strictly between them; 0 if it is not certain that there is one.
@@ -151,7 +163,8 @@ class Columns:
         """
         angles, start, stop = self.angles, self.start[pieces], self.stop[pieces]
         span = Span(angles.lo[start], angles.hi[stop])
-        signs: Ints = span.signs(poly)
+        taylor = span.taylor(poly)
+        signs: Ints = span.signs_of(taylor)
         wide = np.flatnonzero((signs == 0) & (span.hi - span.lo > WIDE))
         if len(wide):
             of_parts = np.array([part.signs(poly[wide]) for part in span.some(wide).parts()])
@@ -161,7 +174,7 @@ class Columns:
             return signs
         poly, span, start, stop = poly[some], span.some(some), start[some], stop[some]
         first, last = signs_at(poly, angles.below[start]), signs_at(poly, angles.above[stop])
-        slope, bend = span.signs(poly, 1), span.signs(poly, 2)
+        slope, bend = (span.signs_of([term[some] for term in taylor], order) for order in (1, 2))
         if inside:
             rows = primitive(poly)
             first[angles.is_root(rows, start)] = last[angles.is_root(rows, stop)] = 0
@@ -282,19 +295,23 @@ class Span:
         return [Span(lo, hi) for lo, hi in pairwise(ends)]
 
     def signs(self, poly: Rows, order: int = 0) -> Ints:
-        """Signs of a derivative on the whole closed interval; 0 if it is not certain that there is one.
+        """Signs of a derivative on the whole closed interval; 0 if it is not certain that there is one."""
+        return self.signs_of(self.taylor(poly), order)
+
+    def signs_of(self, taylor: Sequence[Floats], order: int = 0) -> Ints:
+        """Return `signs`, of Taylor polynomials.
 
         Notes
         -----
         Its value in the middle is greater than all else of its Taylor polynomial there at the ends.
         """
-        terms = [comb(k, order) * c for k, c in enumerate(self._taylor(poly)) if k >= order]
-        rest = np.zeros(len(poly))
+        terms = [comb(k, order) * c for k, c in enumerate(taylor) if k >= order]
+        rest = np.zeros(len(self.lo))
         for term in reversed(terms[1:]):
             rest = (rest + abs(term)) * self._radius
         return np.where(abs(terms[0]) > rest + ERROR, np.sign(terms[0]), 0).astype(np.int64)
 
-    def _taylor(self, poly: Rows) -> list[Floats]:
+    def taylor(self, poly: Rows) -> list[Floats]:
         """Coefficients at the middle."""
         try:
             rounded = poly.astype(float)

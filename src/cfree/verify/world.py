@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -341,6 +341,7 @@ def corner_of(shape: Any, k: int) -> Corner:
     return previous, shape.vertices[k], shape.vertices[int(shape.w[k])]
 
 
+@lru_cache(maxsize=1 << 16)
 def name_of(code: int) -> Name:
     kind, i, j = unpacked(code)
     return kind, i, j

@@ -1,15 +1,23 @@
-"""GeoJSON: lines with a width and points with a radius are walls; what forbids nothing is said."""
+"""GeoJSON: lines with a width and points with a radius are walls; what forbids nothing is said.
+
+Polygons read while the file is decoded are those of its numbers, with the same faults.
+"""
 
 import json
+import random
+import tracemalloc
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from cfree.errors import FormatError
-from cfree.formats.drawings.source import Reading
-from cfree.formats.readers import read_file
+from cfree.formats.drawings.source import Reading, Source
+from cfree.formats.readers import _read_geojson, read_file, read_json_file
 from cfree.formats.shapes import Shapes
+from cfree.formats.text.findings import Findings
+from cfree.formats.text.json_text import read_literals
 
 SQUARE = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]]}
 
@@ -130,3 +138,81 @@ def test_the_error_of_a_disc_with_the_most_sides_is_said(tmp_path: Path) -> None
     (note,) = [note for note in shapes.reading if note.kind == "near"]
     farthest = max((float(x) ** 2 + float(y) ** 2) ** 0.5 for x, y in shapes.shapes[0].polygon.exact_vertices)
     assert note.size is not None and 1e-6 < farthest - 9 <= note.size * 1.0001
+
+
+RING: Any = [[0, 0, 7], ["4", 0], [4.5, 4e0], [0, "9/2"], [0, 0]]
+HOLED = [RING, [[1, 1], [2, 1], [1, 2]]]
+CAR = feature(shape("Polygon", [[[0, 0], [1, 0], [0, 1]]]), role="robot", check={"a": [1, 0.5]}, start=[9, 9, 0])
+RICH: Any = {
+    "type": "FeatureCollection",
+    "features": [
+        CAR,
+        feature(shape("Polygon", HOLED), name="house"),
+        {**feature(shape("MultiPolygon", [HOLED, [[[9, 0], [9.25, 0], [9, "1/3"]]]])), "id": 3, "bbox": [0, 0, 9, 9]},
+        feature(shape("Polygon", [RING]), role="ignore", name="tree"),
+        feature({"type": "GeometryCollection", "geometries": [SQUARE, shape("LineString", [[0, 0], [1, 1]])]}, width=1),
+        {"type": "FeatureCollection", "features": [feature(SQUARE, role="workspace")]},
+        SQUARE,
+    ],
+}
+ODD: tuple[Any, ...] = (
+    None, True, -1.5, 1e400, "", "1/0", [], {}, [0, 0], [[]], [0, 0, "x"], {"outer": RING}, [[0, 0], [2, 2], [2, 0]],
+    {"outer": [[0, 0], [1, 0], [0, 1]]}, {"outer": [[0, 0], [1, 0], [0, 1]], "name": None}, SQUARE, CAR, feature(CAR),
+    "Feature", "Polygon", "MultiPolygon", "robot", feature(SQUARE, role="robot", check={"a": CAR}), {"answer": 1},
+)  # fmt: skip
+
+
+def told(read: Any) -> Any:
+    """What a reader gives, as it can be compared: shapes, settings and notes, or the faults with their places."""
+    try:
+        shapes = read()
+    except FormatError as error:
+        return str(error)
+    return shapes.shapes, repr(shapes.settings), shapes.reading, [shape.polygon.removed for shape in shapes.shapes]
+
+
+def both_agree(data: Any) -> bool:
+    """True if GeoJSON has shapes; those read while it is decoded are those of its numbers."""
+    text = json.dumps(data)
+    findings, source = Findings("a.geojson", text), Source("a.geojson")
+    source.findings = findings
+    in_full = told(lambda: _read_geojson(source, read_literals(findings)))
+    assert told(lambda: read_json_file(Findings("a.geojson", text))) == in_full, text
+    return not isinstance(in_full, str)
+
+
+@pytest.mark.parametrize("data", [RICH, CAR, feature(SQUARE), feature(SQUARE, role="robot", check={"a": CAR})])
+def test_features_are_read_while_they_are_decoded(data: Any) -> None:
+    assert both_agree(data)
+
+
+@pytest.mark.slow
+def test_whatever_is_changed_features_are_read_as_by_their_numbers() -> None:
+    rng, kept = random.Random(5), 0
+    for _ in range(500):
+        data = deepcopy(RICH)
+        part: Any = data
+        while isinstance(part, (dict, list)) and part:
+            around, step = part, rng.choice([*part] if isinstance(part, dict) else range(len(part)))
+            part = part[step]
+            if rng.random() < 0.2:
+                break
+        if rng.random() < 0.2:
+            del around[step]
+        else:
+            around[step] = rng.choice(ODD)
+        if isinstance(data, dict) and "type" in data and "answer" not in data:
+            kept += both_agree(data)
+    assert 40 < kept < 450
+
+
+def test_numbers_of_features_are_not_kept_while_others_are_read() -> None:
+    rings = [[[9 * k + 0.1, 0.2], [9 * k + 1.3, 0.4], [9 * k + 0.5, 1.6], [9 * k + 0.7, 0.8]] for k in range(500)]
+    text = json.dumps({"type": "FeatureCollection", "features": [feature(shape("Polygon", [ring])) for ring in rings]})
+    read_json_file(Findings("a.geojson", text))
+    tracemalloc.start()
+    shapes = read_json_file(Findings("a.geojson", text))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert isinstance(shapes, Shapes) and len(shapes.shapes) == 500
+    assert peak < 2000 * 200  # with all numbers 1,000 a vertex

@@ -1,8 +1,10 @@
 // Points with exact integer coordinates, and the signs that check and cut polygons.
 //
-// Coordinates of at most 62 bits, which nearly all are, are compared in machine integers; longer ones in doubles with a
-// proven bound first, then exactly.
+// Coordinates of at most 62 bits, which nearly all are, are kept and compared in machine integers: a tenth of the memory of
+// those of any size. Longer ones are compared in doubles with a proven bound first, then exactly.
 #pragma once
+#include <array>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -17,11 +19,13 @@ struct BrokenInvariant : std::logic_error {
 
 class Points {
 public:
-    std::vector<Int> X, Y;
-
     Points() = default;
     Points(std::vector<Int> exact_x, std::vector<Int> exact_y);
-    Index size() const { return static_cast<Index>(X.size()); }
+    Index size() const { return static_cast<Index>(large ? large->X.size() : small.size()); }
+    Int X(Index k) const { return large ? large->X[k] : Int(small[k].x); }
+    Int Y(Index k) const { return large ? large->Y[k] : Int(small[k].y); }
+    std::array<std::vector<Int>, 2> coordinates() const;  // all along x, all along y
+    std::array<Int, 4> box() const;  // least x, least y, greatest x, greatest y; of points that there are
     Points chosen(const std::vector<Index>& which) const;
 
     int compare(Index p, Index q) const;  // order by x, then by y: -1, 0 or 1
@@ -34,13 +38,17 @@ public:
     bool is_upper(Index p, Index q) const;                // true if the angle of q - p is in [0, pi)
     int compare_lengths(Index p, Index q, Index r, Index s) const;  // pq against rs: -1, 0 or 1
 
-    bool are_small() const { return !x.empty() || X.empty(); }
-    std::int64_t small_x(Index k) const { return x[k]; }
-    std::int64_t small_y(Index k) const { return y[k]; }
+    bool are_small() const { return !large; }
+    std::int64_t small_x(Index k) const { return small[k].x; }
+    std::int64_t small_y(Index k) const { return small[k].y; }
 
 private:
-    std::vector<std::int64_t> x, y;     // if all have at most 62 bits
-    std::vector<double> about_x, about_y;  // else: times a power of two, rounded
+    struct Large {
+        std::vector<Int> X, Y;
+        std::vector<double> about_x, about_y;  // times a power of two, rounded
+    };
+    std::vector<Vec<std::int64_t>> small;  // if all have at most 62 bits
+    std::shared_ptr<const Large> large;    // else
     Vec<Approx> about(Index from, Index to) const;
     template <bool is_dot>
     int sign(Index p, Index q, Index r, Index s) const;

@@ -7,6 +7,7 @@ A feature's property ``role`` gives its role, ``name`` names an obstacle; the ro
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -18,6 +19,7 @@ from cfree.curves.drawn import Line, points_along
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
 from cfree.formats.drawings.content import Curve
+from cfree.formats.drawings.geojson_features import ReadFeature
 from cfree.formats.drawings.mending import mended, repairable
 from cfree.formats.drawings.source import CURVE_SHARE, Source
 from cfree.formats.drawings.strokes import LEAST_SHARE, disc, length_of, usual_width, wall
@@ -64,35 +66,45 @@ def geojson_shapes(
     findings : Findings
         For faults.
     data : object
-        JSON with exact numbers.
+        JSON with exact numbers; features may be read already.
     settings : dict, optional
         For the robot's properties.
     source : Source, optional
         For notes, and with options of reading; without it, lines and points are faults.
     """
     shapes: list[Shape] = []
-    waiting: list[tuple[Any, Path, _Feature]] = [(data, (), _Feature())]
+    waiting: list[Iterator[_Part]] = [iter([(data, (), _Feature())])]  # the innermost collection last
     while waiting:
-        value, path, feature = waiting.pop()
-        kind = str(value.get("type")) if isinstance(value, dict) else ""
+        if (part := next(waiting[-1], None)) is None:
+            waiting.pop()
+            continue
+        value, path, feature = part
+        is_read = isinstance(value, ReadFeature)
+        kind = "Feature" if is_read else str(value.get("type")) if isinstance(value, dict) else ""
         if source is not None:
             source.spend()
         if kind == "Feature":
-            feature = _feature(findings, value.get("properties"), (*path, "properties"), source)
+            properties = value.properties if is_read else value.get("properties")
+            feature = _feature(findings, properties, (*path, "properties"), source)
             if feature.role == IGNORE:
                 continue
             if feature.role == "robot" and settings is not None:
                 settings |= read_settings(findings, feature.properties, feature.path)
+            if is_read:
+                if source is not None:
+                    source.spend()  # the geometry
+                shapes += [Shape(feature.role, feature.name, polygon) for polygon in value.polygons]
+                continue
             place = (*path, "geometry") if "geometry" in value else path
             if value.get("geometry", 0) is None and source is not None:
                 source.note("info", "feature without a geometry", where=feature.name or "")
             else:
-                waiting.append((value.get("geometry"), place, feature))
+                waiting.append(iter([(value.get("geometry"), place, feature)]))
         elif kind in _CHILDREN:
             key = _CHILDREN[kind]
             children = value.get(key)
             if isinstance(children, list):
-                waiting += [(child, (*path, key, k), feature) for k, child in enumerate(children)][::-1]
+                waiting.append(_parts(children, (*path, key), feature))
             else:
                 findings.under(path, f'a {kind} needs a list "{key}"')
         elif kind in ("Polygon", "MultiPolygon"):
@@ -117,6 +129,16 @@ def geojson_shapes(
         else:
             findings.under(path, "expected a GeoJSON feature or geometry with polygons, got {got}")
     return shapes
+
+
+_Part = tuple[Any, Path, _Feature]
+"""A value, its place, and the feature around it."""
+
+
+def _parts(children: list[Any], path: Path, feature: _Feature) -> Iterator[_Part]:
+    """Yield the parts of a collection."""
+    for k, child in enumerate(children):
+        yield child, (*path, k), feature
 
 
 def _feature(findings: Findings, properties: object, path: Path, source: Source | None) -> _Feature:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from math import isfinite
+from types import NoneType
 from typing import Any
 
 import cfree._core as _core
@@ -205,7 +206,7 @@ def is_encodable(text: str) -> bool:
 def plain(value: Any, depth: int = MAX_NESTING) -> Any:
     """Return free-form JSON with floats, if it is shallow and encodable, so that it can be saved again."""
     value = number_of(value) if isinstance(value, Literal) else value
-    if isinstance(value, Shape):
+    if not isinstance(value, (dict, list, str, int, float, Decimal, NoneType)):
         raise Fault("a polygon, where its numbers are to be kept")
     if depth == 0:
         raise Fault(f"nested more than {MAX_NESTING} deep; flatten it")
@@ -226,18 +227,19 @@ def plain(value: Any, depth: int = MAX_NESTING) -> Any:
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
-    """A polygon that was read from an object, and its name, if the object has this key."""
+class Named:
+    """A polygon that was read from an object with a name, which may be null."""
 
     polygon: Polygon
-    is_named: bool
     name: str | None
 
 
-def shape_at_once(members: dict[str, Any]) -> Shape | dict[str, Any]:
+def shape_at_once(members: dict[str, Any]) -> Polygon | Named | dict[str, Any]:
     """Return the polygon of a decoded JSON object, so that its numbers need not be kept; other objects as they are."""
     polygon = plain_polygon(members, OBSTACLE) if "outer" in members else None
-    return members if polygon is None else Shape(polygon, "name" in members, members.get("name"))
+    if polygon is None:
+        return members
+    return Named(polygon, members["name"]) if "name" in members else polygon
 
 
 def scene_from_plain(data: object) -> Scene | None:
@@ -245,7 +247,7 @@ def scene_from_plain(data: object) -> Scene | None:
     if not isinstance(data, dict) or not data.keys() <= READERS.keys() | _SHAPES:
         return None
     robot, obstacles, workspace = data.get("robot"), data.get("obstacles", []), data.get("workspace")
-    robot = [robot] if isinstance(robot, (dict, Shape)) or is_ring(robot) else robot
+    robot = [robot] if isinstance(robot, (dict, Polygon, Named)) or is_ring(robot) else robot
     obstacles = [obstacles] if is_ring(obstacles) else obstacles
     if not isinstance(robot, list) or not isinstance(obstacles, list):
         return None
@@ -255,7 +257,7 @@ def scene_from_plain(data: object) -> Scene | None:
         return None
     if data.get("goal") is not None and data.get("goals"):
         return None
-    names = [o.name if isinstance(o, Shape) else o.get("name") if isinstance(o, dict) else None for o in obstacles]
+    names = [o.name if isinstance(o, Named) else o.get("name") if isinstance(o, dict) else None for o in obstacles]
     try:
         others = {key: read(data[key]) for key, read in READERS.items() if key in data}
         return Scene(parts, bodies, obstacle_names=names, workspace=room, **others)
@@ -278,8 +280,10 @@ def is_ring(value: Any) -> bool:
 
 def plain_polygon(data: Any, keys: Set[str]) -> Polygon | None:
     """Return the polygon of a decoded JSON value, which the core reads, if it has no fault."""
-    if isinstance(data, Shape):
-        return None if data.is_named and "name" not in keys else data.polygon
+    if isinstance(data, Polygon):
+        return data
+    if isinstance(data, Named):
+        return data.polygon if "name" in keys else None
     data = {"outer": data} if is_ring(data) else data
     if not isinstance(data, dict) or not data.keys() <= keys:
         return None
