@@ -2,10 +2,10 @@
 #include "forbidden/shadows.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "cfree/support/bit_cast.hpp"
 #include "cfree/support/elementary.hpp"
 
 namespace cfree {
@@ -41,7 +41,7 @@ Vec<double> place_of(const Shape& s, Index vertex) { return {s.x[vertex], s.y[ve
 
 Vec<double> edge_of(const Shape& s, Index edge) { return place_of(s, s.w[edge]) - place_of(s, s.v[edge]); }
 
-std::uint64_t sign_bit(double x) { return std::bit_cast<std::uint64_t>(x) >> 63; }
+std::uint64_t sign_bit(double x) { return bit_cast<std::uint64_t>(x) >> 63; }
 
 double larger(const Vec<double>& d) { return std::max(std::abs(d.x), std::abs(d.y)); }
 
