@@ -1,7 +1,9 @@
 """Scenes as texts: read, refused, and in the formats of other programs."""
 
 import os
+import random
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -27,6 +29,17 @@ lakes: MULTIPOLYGON (((5 5, 9 5, 5 9, 5 5), (6 6, 6 7, 7 6)), ((1 5,2 5,1 6)))
 workspace: Polygon((-9 -9, 20 -9, 20 20, -9 20))
 POLYGON ((11 5, 12 5, 1.1e1 6))
 """
+
+
+def place_in(data: Any, rng: random.Random, stop: float) -> tuple[Any, Any]:
+    """Return a list or an object somewhere in JSON, and a key of it: one goes down, and stops with a probability."""
+    part = data
+    while isinstance(part, (dict, list)) and part:
+        around, step = part, rng.choice([*part] if isinstance(part, dict) else range(len(part)))
+        part = part[step]
+        if rng.random() < stop:
+            break
+    return around, step
 
 
 def read(directory: Path, text: str | bytes, name: str = "scene.json") -> Scene:

@@ -25,7 +25,7 @@ from cfree.planning.plan import plan
 from cfree.planning.widest_way import features_of, features_of_shape
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BOUNDS
-from cfree.scene.rounded import known_cores
+from cfree.scene.rounded import rounded_shapes
 from cfree.scene.scene import AnyShape, Scene
 
 TRIES = 3  # numbers that are tried, the simplest first
@@ -77,8 +77,8 @@ def only_touches(scene: Scene, start: Pose, goal: Pose) -> bool:
 
 def _is_in_contact(scene: Scene, pose: Pose) -> bool:
     """True if the robot touches something at a free pose; False also if shapes are not rounded."""
-    cores = known_cores(scene)
-    if len(cores.robot) < len(scene.robot) or len(cores.obstacles) < len(scene.obstacles) + cores.frames:
+    cores = rounded_shapes(scene)
+    if cores is None:
         return False
     own = [_moved(f, pose) for part in cores.robot for f in features_of_shape(part, BOUNDS)]
     others = [*features_of(cores, scene.workspace)]

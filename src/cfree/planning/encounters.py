@@ -47,16 +47,9 @@ class PointOnLine:
     direction: ExactPoint
     share: Surd
 
-    def is_left_of(self, p: ExactPoint, direction: ExactPoint) -> bool:
-        """True if the point is to the left of a directed line, or on it."""
-        return not self._side(p, direction) < 0
-
     def is_right_of(self, p: ExactPoint, direction: ExactPoint) -> bool:
         """True if the point is to the right of a directed line, and not on it."""
-        return self._side(p, direction) < 0
-
-    def _side(self, p: ExactPoint, direction: ExactPoint) -> Surd:
-        return self.share * cross(direction, self.direction) + cross(direction, minus(self.base, p))
+        return self.share * cross(direction, self.direction) + cross(direction, minus(self.base, p)) < 0
 
     def __iter__(self) -> Iterator[float]:
         return (float(self.share * d + c) for c, d in zip(self.base, self.direction, strict=True))
@@ -114,7 +107,7 @@ class Feature:
     def has_point(self, x: PointOnLine) -> bool:
         """True if a point of the rim's circle is on the arc."""
         (first, last), center = self._ends
-        return x.is_left_of(center, minus(first, center)) and x.is_left_of(center, minus(center, last))
+        return not x.is_right_of(center, minus(first, center)) and not x.is_right_of(center, minus(center, last))
 
     @property
     def _ends(self) -> tuple[tuple[ExactPoint, ExactPoint], ExactPoint]:

@@ -23,7 +23,7 @@ from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.hull_triangles import meeting_of_tangents
 from cfree.scene.naming import placed
-from cfree.scene.rounded import CoreArc, Cores, Rounded, known_cores, rounded
+from cfree.scene.rounded import CoreArc, Cores, Rounded, rounded, rounded_shapes
 from cfree.scene.scene import AnyShape, Scene
 
 
@@ -127,8 +127,8 @@ def widest_way(scene: Scene, start: Pose, goal: Pose) -> WidestWay | None:
     (center,) = disc.points
     if scene.bounds and any(center):
         return None
-    cores = known_cores(scene)
-    if len(cores.obstacles) < len(scene.obstacles) + cores.frames:
+    cores = rounded_shapes(scene)
+    if cores is None:
         return None
     (p,), (q,) = start.apply_exact([center]), goal.apply_exact([center])
     ends = p, q

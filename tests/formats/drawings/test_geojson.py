@@ -18,6 +18,7 @@ from cfree.formats.readers import _read_geojson, read_file, read_json_file
 from cfree.formats.shapes import Shapes
 from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_text import read_literals
+from scene_texts import place_in
 
 SQUARE = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]]}
 
@@ -191,12 +192,7 @@ def test_whatever_is_changed_features_are_read_as_by_their_numbers() -> None:
     rng, kept = random.Random(5), 0
     for _ in range(500):
         data = deepcopy(RICH)
-        part: Any = data
-        while isinstance(part, (dict, list)) and part:
-            around, step = part, rng.choice([*part] if isinstance(part, dict) else range(len(part)))
-            part = part[step]
-            if rng.random() < 0.2:
-                break
+        around, step = place_in(data, rng, 0.2)
         if rng.random() < 0.2:
             del around[step]
         else:

@@ -18,6 +18,7 @@ from cfree.formats.text.findings import Findings
 from cfree.formats.text.json_text import read_literals, read_members, with_numbers
 from cfree.scene.scene import Scene
 from examples import POLYGONS
+from scene_texts import place_in
 
 ROOT = Path(__file__).parents[3]
 RICH = {
@@ -84,12 +85,7 @@ def test_whatever_is_changed_both_say_the_same() -> None:
     rng, kept = random.Random(3), 0
     for _ in range(600):
         data = deepcopy(RICH)
-        part: Any = data
-        while isinstance(part, (dict, list)) and part:
-            around, step = part, rng.choice([*part] if isinstance(part, dict) else range(len(part)))
-            part = part[step]
-            if rng.random() < 0.3:
-                break
+        around, step = place_in(data, rng, 0.3)
         if rng.random() < 0.2:
             del around[step]
         elif rng.random() < 0.1 and isinstance(around, dict):
