@@ -18,7 +18,8 @@ from cfree.contact import shape_features
 from cfree.curves import Arc
 from cfree.planning.smaller_shapes import smaller
 from cfree.scene.features import features_of_cores
-from cfree.scene.rounded import Cores, rounded, rounded_shapes
+from cfree.scene.grown_cores import Cores
+from cfree.scene.rounded import rounded, rounded_shapes
 
 
 def fine(shape: Any, n: int = 400) -> Any:

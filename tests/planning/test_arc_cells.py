@@ -39,7 +39,8 @@ from cfree.planning.options import Options
 from cfree.planning.rounded_cells import round_cells, separated_by_cells
 from cfree.planning.smaller_shapes import smaller
 from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import Cores, Rounded, rounded
+from cfree.scene.grown_cores import Cores, Rounded
+from cfree.scene.rounded import rounded
 from cfree.verify.round_answers import surface_of
 from cfree.verify.round_inside import is_same, room
 from cfree.verify.round_separation import round_separation_findings

@@ -17,8 +17,9 @@ from cfree.formats.conversion import as_exact
 from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BODY, SceneFeatures, ShapeFeatures, grown_features, scene_features
+from cfree.scene.grown_cores import Rounded
 from cfree.scene.naming import placed
-from cfree.scene.rounded import Rounded, rounded_shapes
+from cfree.scene.rounded import rounded_shapes
 from cfree.scene.scene import round_count, shapes_of
 
 if TYPE_CHECKING:

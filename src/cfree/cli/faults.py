@@ -17,7 +17,6 @@ import math
 import os
 import signal
 import sys
-import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, NoReturn
@@ -81,6 +80,8 @@ def one_line_faults() -> Iterator[None]:
     except Exception as error:  # exit code 1 would look like an answer
         if isinstance(error, ImportError) and "pip install 'cfree[" in str(error):
             fail(str(error), BAD_INPUT)
+        import traceback
+
         tell("".join(traceback.format_exception(error)))
         fail("this is a bug in cfree, please report it", BUG)
 

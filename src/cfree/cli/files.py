@@ -131,7 +131,6 @@ def planner_of(
     vehicle: Vehicle | Literal["any"] | None = None,
 ) -> Planner | CurvedPlanner | FolderPlanner:
     """Make a planner for the scene in a file, with its free space if the file is a boundary; or for a folder."""
-    from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner
     from cfree.scene.scene import vehicle_for
 
@@ -160,6 +159,8 @@ def planner_of(
         driver = vehicle_for(scene, vehicle)
         planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar, vehicle=driver)
     if isinstance(planner, Planner) and planner.scene.curved:
+        from cfree.planning.curved import CurvedPlanner
+
         return CurvedPlanner(planner, drawing.tolerance())
     return planner
 

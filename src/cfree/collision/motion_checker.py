@@ -16,7 +16,6 @@ from typing import Any
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.arcs import ArcScene, arcs_of
-from cfree.collision.entered import entered_contact
 from cfree.collision.motion import Motion, Rotation, Translation, joining
 from cfree.collision.slide import Slide
 from cfree.contact.arcs import ArcContact
@@ -288,6 +287,8 @@ def _first_among_arcs(scene: Scene, arcs: ArcScene, first: Pose, motion: Motion)
     if contact is None:
         return None
     low, high, part, obstacle = contact
+    from cfree.collision.entered import entered_contact
+
     is_entered = low > 0 or arcs.is_free(first)
     entered = entered_contact(scene, part, obstacle, motion.at(first, low), motion) if is_entered else None
     return FirstContact(Surd(low), part, obstacle, entered, high - low)

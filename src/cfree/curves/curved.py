@@ -11,14 +11,11 @@ from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from cfree.arguments import checked
-from cfree.curves.crossings import crossing
-from cfree.curves.healing import Change, healed_ring
 from cfree.curves.hulls import FINEST, Outline, is_short, polygon_of
 from cfree.curves.pieces import Box, Frame, box_of, drawn_of, hull_points, is_proved
-from cfree.curves.rational_radii import with_rational_radii
 from cfree.curves.rings import Circle, Ellipse, GivenRing, Piece, Point, Span, exact_ring, given_ring
 from cfree.errors import InvalidPolygonError, InvariantError, UndecidedError, UnsupportedError
 from cfree.exact.half_angle import Angle
@@ -28,6 +25,9 @@ from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
 from cfree.value import Shown
 from cfree.words import counted
+
+if TYPE_CHECKING:
+    from cfree.curves.healing import Change
 
 ROUGH = 64  # the constructor checks a shape with an error of its size / ROUGH
 LEAST_SIDES, MOST_SIDES = 8, 4096  # sides of polygons for discs
@@ -233,6 +233,8 @@ class Curved(Shown):
         if inside:
             return ()
         if isinstance(result, InvalidPolygonError) and result.edges:  # of the polygon
+            from cfree.curves.crossings import crossing
+
             place = crossing(self.curves, (self.path, *self.holes))
             result = InvalidPolygonError(f"{place}; divide the shape there, or move them apart", ring=result.ring)
         raise result.with_traceback(None)
@@ -276,6 +278,9 @@ def healed_with_changes(shape: Curved, tolerance: float) -> tuple[Curved, list[C
         raise ValueError(f"tolerance {tolerance}: give a length above 0")
     if shape.grown:
         return shape, []
+    from cfree.curves.healing import healed_ring
+    from cfree.curves.rational_radii import with_rational_radii
+
     rings, changes = [], []
     for pieces, ring in zip(shape.curves, (shape.path, *shape.holes), strict=True):
         for heal in (healed_ring, with_rational_radii):

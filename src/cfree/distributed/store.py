@@ -30,8 +30,9 @@ from cfree.scene.complement import complement_among
 from cfree.scene.core_shapes import core_shapes
 from cfree.scene.digest import SceneDigest
 from cfree.scene.features import SceneFeatures, features_of_cores
+from cfree.scene.grown_cores import Cores, Rounded
 from cfree.scene.reading import Note, together
-from cfree.scene.rounded import Cores, Rounded, rounded, why_not_rounded
+from cfree.scene.rounded import rounded, why_not_rounded
 from cfree.scene.scene import AnyShape, Scene, box_of, robot_radius, with_obstacles, with_reading
 
 Ints = NDArray[np.int64]

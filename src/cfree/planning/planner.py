@@ -17,7 +17,6 @@ from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.caller import Phase, Work
-from cfree.planning.clearance import plan_any_at_distance, plan_at_distance
 from cfree.planning.goals import AllSeparated, plan_any, refuse_far, several
 from cfree.planning.options import Options, to_distance, to_seconds
 from cfree.planning.pose_planner import PosePlanner
@@ -181,6 +180,8 @@ class Planner(Value):
 def answer_for_one(planner: PosePlanner, start: Pose, goal: Pose, options: Options) -> Path | Proof:
     """Answer a query for one pose."""
     if options.clearance:
+        from cfree.planning.clearance import plan_at_distance
+
         return plan_at_distance(planner.scene, start, goal, options)
     return _path_in_parts(planner, start, goal, options) or planner.path_or_proof(start, goal, options)
 
@@ -200,5 +201,7 @@ def _path_in_parts(planner: PosePlanner, start: Pose, goal: Pose, options: Optio
 def answer_for_any(planner: PosePlanner, start: Pose, goals: Sequence[Goal], options: Options) -> Path | AllSeparated:
     """Answer a query for several goals, any of which will do."""
     if options.clearance:
+        from cfree.planning.clearance import plan_any_at_distance
+
         return plan_any_at_distance(planner.scene, start, goals, options)
     return plan_any(planner, start, goals, options)

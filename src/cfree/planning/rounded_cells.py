@@ -23,7 +23,8 @@ from cfree.planning.smaller_shapes import smaller
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import SceneFeatures, features_of_cores
 from cfree.scene.frame import frame_of
-from cfree.scene.rounded import Cores, rounded_shapes
+from cfree.scene.grown_cores import Cores
+from cfree.scene.rounded import rounded_shapes
 from cfree.scene.scene import Bounds, Scene, grown_scene, robot_radius
 from cfree.value import kept
 

@@ -29,7 +29,7 @@ from cfree.scene.digest import Stamp, Whole
 from cfree.scene.features import SceneFeatures, unpacked
 from cfree.scene.frame import frame_of
 from cfree.scene.goals import Moved, text_of
-from cfree.scene.rounded import Cores
+from cfree.scene.grown_cores import Cores
 from cfree.scene.scene import Bounds, Scene
 from cfree.value import Answer, Shown, Value
 from cfree.words import counted, listed

@@ -12,7 +12,7 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.vectors import cross, dot, minus
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import CoreArc, Rounded
+from cfree.scene.grown_cores import CoreArc, Rounded
 
 PLACE_BITS = 11  # of a center of scaling, in the core's size
 FLAT = 1e-9  # share of a core's size that a kernel has at least

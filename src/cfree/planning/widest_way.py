@@ -21,9 +21,10 @@ from cfree.planning.enclosure import first_enclosure
 from cfree.planning.encounters import Feature, Rim, encounters
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BOUNDS, WORKSPACE
+from cfree.scene.grown_cores import CoreArc, Cores, Rounded
 from cfree.scene.hull_triangles import meeting_of_tangents
 from cfree.scene.naming import placed
-from cfree.scene.rounded import CoreArc, Cores, Rounded, rounded, rounded_shapes
+from cfree.scene.rounded import rounded, rounded_shapes
 from cfree.scene.scene import AnyShape, Scene
 
 

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -124,6 +123,8 @@ class SceneDigest:
     """
 
     def __init__(self, scene: Scene) -> None:
+        import hashlib
+
         self._scene, self._hash = scene, hashlib.sha256(b"cfree scene 1\n")
         for shape in scene.robot:
             self._hash.update(_text(_shape("robot", shape)))

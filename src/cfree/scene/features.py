@@ -18,11 +18,11 @@ import cfree._core as _core
 from cfree.errors import UnsupportedError
 from cfree.libraries import ArrayLike, Floats, Int32s, NDArray, np
 from cfree.scene.core_shapes import core_shapes
-from cfree.scene.rounded import Cores, rounded_shapes, why_not_rounded
 from cfree.value import kept
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
+    from cfree.scene.grown_cores import Cores
     from cfree.scene.scene import Bounds, Scene
 
 Point = tuple[int, int]
@@ -208,6 +208,8 @@ def grown_features(scene: Scene) -> SceneFeatures:
 
 
 def _grown(scene: Scene) -> SceneFeatures:
+    from cfree.scene.rounded import rounded_shapes, why_not_rounded
+
     shapes = rounded_shapes(scene)
     if shapes is None:
         raise UnsupportedError(why_not_rounded(scene))

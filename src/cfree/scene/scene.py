@@ -11,7 +11,6 @@ import reprlib
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, Literal
@@ -416,6 +415,8 @@ def obstacle_index(scene: Scene, obstacle: int | str) -> int:
         numbers = listed(list(map(str, places)), ", ")
         raise ValueError(f"obstacle: {obstacle!r} is the name of obstacles {numbers}; give an index")
     if not places:
+        from difflib import get_close_matches
+
         similar = get_close_matches(obstacle, names, 1)
         remedy = f"did you mean {similar[0]!r}?" if similar else "give an index, or a name of obstacle_names"
         raise ValueError(f"obstacle: {obstacle!r} is the name of none; {remedy}")

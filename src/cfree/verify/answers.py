@@ -23,9 +23,10 @@ from cfree.planning.stuck import Stuck
 from cfree.planning.unreachable import Unreachable
 from cfree.scene.digest import Stamp, Whole, stamp_of
 from cfree.scene.goals import Moved, text_of, text_of_move
+from cfree.scene.grown_cores import Cores
 from cfree.scene.reading import Note, together
 from cfree.scene.reading_lines import Claim
-from cfree.scene.rounded import Cores, is_disc_about_reference
+from cfree.scene.rounded import is_disc_about_reference
 from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.vehicles.vehicle import described
 from cfree.verify.arc_motions import ArcWorld

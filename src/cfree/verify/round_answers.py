@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from cfree.libraries import NDArray, np
 from cfree.planning.separation import Separated
 from cfree.scene.features import ShapeFeatures, features_of_cores
-from cfree.scene.rounded import Cores
+from cfree.scene.grown_cores import Cores
 from cfree.scene.scene import Scene, grown_scene
 from cfree.verify.arc_motions import ArcWorld
 from cfree.verify.motions import end_findings

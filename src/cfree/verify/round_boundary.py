@@ -17,7 +17,8 @@ from flint import arb
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.scene.complement import complement
-from cfree.scene.rounded import Cores, rounded_shapes
+from cfree.scene.grown_cores import Cores
+from cfree.scene.rounded import rounded_shapes
 from cfree.scene.scene import AnyShape, Scene
 from cfree.verify.degrees import DEGREE, by_degrees
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification

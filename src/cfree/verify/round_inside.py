@@ -17,7 +17,7 @@ from cfree.curves.rings import Circle
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
 from cfree.scene.complement import complement
-from cfree.scene.rounded import Rounded, is_arc
+from cfree.scene.grown_cores import Rounded, is_arc
 from cfree.scene.scene import AnyShape
 from cfree.verify.arcs import Part, Region, Spot, exact, is_near, is_nearer, is_of_arcs, rational, region_of
 from cfree.verify.curves import _Arc, _parts

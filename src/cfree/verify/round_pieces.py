@@ -13,7 +13,7 @@ from flint import arb, fmpq, fmpz
 
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import CoreArc, Rounded, is_arc
+from cfree.scene.grown_cores import CoreArc, Rounded, is_arc
 from cfree.verify.round_algebra import Moving, Surd, Trig, Turn, cross, dot
 from cfree.verify.round_angles import quadratic_roots, root_in, trimmed
 from cfree.verify.round_proof import BOUNDS, WORKSPACE, RoundSeparation

@@ -14,7 +14,7 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.forbidden.columns import Trapezoids
 from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import Rounded
+from cfree.scene.grown_cores import Rounded
 
 if TYPE_CHECKING:
     from cfree.scene.features import ShapeFeatures

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from cfree.exact.number import ExactPoint
 from cfree.exact.vectors import cross, minus
 from cfree.polygons.polygon import Polygon
-from cfree.scene.rounded import CoreArc, Cores, Rounded
+from cfree.scene.grown_cores import CoreArc, Cores, Rounded
 from cfree.scene.scene import Scene
 from cfree.verify.arcs import Part as LinePart
 from cfree.verify.arcs import Region, Spot, crossings, exact

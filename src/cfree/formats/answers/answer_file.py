@@ -160,9 +160,9 @@ def limits_of(
     ValueError
         If there are others without a speed, or one is not positive.
     """
-    from cfree.paths.timing import Limits
-
     if speed is not None:
+        from cfree.paths.timing import Limits
+
         return Limits(speed, acceleration, to_rate(steer_rate, "steer_rate"), wheelbase, stops)
     others = {"acceleration": acceleration, "steer_rate": steer_rate, "wheelbase": wheelbase}
     names = [name for name, value in others.items() if value is not None] + (["stops"] if stops != "all" else [])
@@ -200,10 +200,10 @@ def texts_of(
 
 def in_time(path: Path, file: object, limits: Limits | None, scene: Scene | None) -> Timed | None:
     """Return a path in time, to be written to a file; None without limits."""
-    from cfree.paths.timing import timed_by
-
     if limits is None:
         return None
+    from cfree.paths.timing import timed_by
+
     if scene is None and path.scene is None and path.curved is None:
         raise ValueError(f"{file}: no scene; give the one whose robot moves")
     return timed_by(path, scene, limits)

@@ -26,7 +26,7 @@ from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Auxiliary, Pieces, Separated
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES
-from cfree.scene.rounded import CoreArc, Cores, Rounded, is_arc
+from cfree.scene.grown_cores import CoreArc, Cores, Rounded, is_arc
 
 
 def _code(value: Any) -> int:

@@ -20,7 +20,7 @@ from cfree.planning.unreachable import Unreachable
 from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import Stamp
 from cfree.scene.features import branch_bits, unpacked
-from cfree.scene.rounded import CoreArc, Rounded
+from cfree.scene.grown_cores import CoreArc, Rounded
 
 KINDS = {1: "vertex-edge", 2: "edge-vertex", 3: "vertex-vertex"}
 KIND, QUADRANT = 15, 4  # bits of a contact's kind, and bits below its quadrant
