@@ -98,7 +98,7 @@ const RealRoot& CriticalAngle::exact(const Scene& scene) const {
         return *root;
     }
     Predicates predicates(scene, surface);
-    *root = predicates.root_of(event(predicates));
+    *root = predicates.root_of(event(predicates), bracket(scene));
     // axis-parallel scenes have thousands of names for one number of few digits
     const Dyadic simple = Dyadic::from(Predicates::of_few_digits_near(lo));
     if (compare(root->lo, simple) <= 0 && compare(simple, root->hi) <= 0 && sign_at(root->p, simple) == 0)

@@ -156,7 +156,7 @@ bool Trimmer::crosses_at(const Band& band, Index event) {
     const PillarEdge &l = band.state->lower, &u = band.state->upper;
     const auto certain = [&](Index s, Index v) { return Predicates::sign_on(decide.offset(s, v), e.lo, e.hi); };
     if ((certain(l.s0, l.v0) > 0 || certain(u.s1, u.v1) > 0) && (certain(l.s1, l.v1) < 0 || certain(u.s0, u.v0) < 0)) return true;
-    Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.root_of(e); }, [&] { return decide.narrowed(e); });
+    Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.narrow_root_of(e); }, [&] { return decide.narrowed(e); });
     bool left = false, right = false;
     const Shape &A = scene.robot, &O = scene.obstacles;
     for (Index x = A.piece[band.p]; x < A.piece[band.p + 1]; ++x)
@@ -171,7 +171,7 @@ bool Trimmer::crosses_at(const Band& band, Index event) {
 int Trimmer::order_at(Index event, Index p, Index q) {
     if (curves[p].code == curves[q].code) return 0;
     const Event& e = events[event];
-    Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.root_of(e); }, [&] { return decide.narrowed(e); });
+    Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.narrow_root_of(e); }, [&] { return decide.narrowed(e); });
     const Feature& on = surface.contact;
     if (e.first.kind != Kind::none) here.know(CriticalAngle(surface, e, 0).name(scene));
     return here.order(on, here.spot(on, curves[p].feature), here.spot(on, curves[q].feature));

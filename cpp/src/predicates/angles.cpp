@@ -96,9 +96,10 @@ int Predicates::order(const Event& x, const Event& y) {
     return order_of_close(x, y);
 }
 
-RealRoot Predicates::root_of(const Event& x) const {
+RealRoot Predicates::root_of(const Event& x, const std::optional<Bracket>& within) const {
     RealRoot root{polynomial(x.first, x.second), Dyadic::from(x.lo), Dyadic::from(x.hi)};
     if (x.fine >= 0) root.lo = fine[x.fine][0], root.hi = fine[x.fine][1];
+    else if (within) root.lo = Dyadic::from((*within)[0]), root.hi = Dyadic::from((*within)[1]);
     // a touch: the sign changes without the multiple factor only
     if (!root.is_dyadic() && cfree::sign_at(root.p, root.lo) == cfree::sign_at(root.p, root.hi)) root.p = squarefree(root.p);
     return root;
@@ -151,6 +152,13 @@ std::optional<bool> are_proportional(const Coefficients<T>& p, const Coefficient
             const auto sign = certain_sign(p.c[i] * q.c[j] - p.c[j] * q.c[i]);
             if (!sign || *sign != 0) return sign ? std::optional(false) : std::nullopt;
         }
+    return true;
+}
+
+bool are_proportional(const Poly& p, const Poly& q) {
+    if (p.size() != q.size()) return false;
+    for (int i = 0; i < p.size(); ++i)
+        if (p[i] * q.back() != q[i] * p.back()) return false;
     return true;
 }
 
@@ -208,9 +216,8 @@ bool Predicates::is_touch_of_quadratic(const Event& x) const {
 }
 
 // Polynomial that changes sign at the root and nowhere else in its interval; for a touch, the quadratic's derivative.
-std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
+static std::optional<Coefficients<Ball>> simple(const Event& x, const Coefficients<Ball>& p) {
     if (x.fine >= 0) return {};
-    const auto p = coefficients<Ball>(x.first, x.second);
     const auto below = cfree::sign_at(p, x.lo), above = cfree::sign_at(p, x.hi);
     if (!below || !above) return {};
     if (*below != *above) return p;
@@ -218,9 +225,9 @@ std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
     return derivative(p);
 }
 
-const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
+const Predicates::Narrowed& Predicates::narrow_place(const Event& x) {
     constexpr std::size_t least = 16, most = 4096;  // most patches have few such angles
-    const auto empty_of = [this](std::size_t size) { recent.assign(size, {{{}, {}, 2, 2}, {}}), misses = 0; };
+    const auto empty_of = [this](std::size_t size) { recent.assign(size, {{{}, {}, 2, 2}, {}, {}}), misses = 0; };
     if (recent.empty()) empty_of(least);
     const auto mixed = [](const Feature& f) {
         return 4 * (static_cast<std::size_t>(f.obstacle) * 31 + static_cast<std::size_t>(f.robot)) + static_cast<std::size_t>(f.kind);
@@ -232,16 +239,21 @@ const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
         return same(x.first, y.first) && same(x.second, y.second) && x.lo == y.lo && x.hi == y.hi && x.fine == y.fine;
     };
     const auto place = [&] { return ((mixed(x.first) + 7 * mixed(x.second)) * 0x9e3779b9u >> 16) % recent.size(); };
-    if (const Narrowed& known = recent[place()]; is_known(known.x)) return known.bracket;
+    if (const Narrowed& known = recent[place()]; is_known(known.x)) return known;
     if (++misses > recent.size() && recent.size() < most) empty_of(4 * recent.size());
     Narrowed& next = recent[place()];
-    next = {x, bracket(x)};
-    return next.bracket;
+    if (x.first.kind == Kind::none) return next = {x, bracket(x), {}};
+    const auto p = coefficients<Ball>(x.first, x.second);
+    return next = {x, bracket_of(x, p), as_few_digits(x, p)};
 }
 
 std::optional<Predicates::Bracket> Predicates::bracket(const Event& x) const {
     if (x.first.kind == Kind::none) return Bracket{Ball(x.lo), Ball(x.hi)};
-    const auto factor = simple(x);
+    return bracket_of(x, coefficients<Ball>(x.first, x.second));
+}
+
+std::optional<Predicates::Bracket> Predicates::bracket_of(const Event& x, const Coefficients<Ball>& of) {
+    const auto factor = simple(x, of);
     if (!factor) return {};
     const auto& p = *factor;
     Ball t = 0.5 * (x.lo + x.hi);
@@ -266,11 +278,15 @@ std::optional<Predicates::Bracket> Predicates::bracket(const Event& x) const {
 }
 
 bool Predicates::are_one_of_few_digits(const Event& x, const Predicates& other, const Event& y) const {
-    if (x.fine >= 0 || y.fine >= 0) return false;
     const double t = of_few_digits_near(x.lo);
-    if (t < std::max(x.lo, y.lo) || t > std::min(x.hi, y.hi)) return false;
-    return cfree::sign_at(coefficients<Ball>(x.first, x.second), t) == 0 &&
-           cfree::sign_at(other.coefficients<Ball>(y.first, y.second), t) == 0;
+    return t >= y.lo && t <= y.hi && as_few_digits(x, coefficients<Ball>(x.first, x.second)) == t &&
+           as_few_digits(y, other.coefficients<Ball>(y.first, y.second)) == t;
+}
+
+std::optional<double> Predicates::as_few_digits(const Event& x, const Coefficients<Ball>& p) {
+    const double t = of_few_digits_near(x.lo);
+    if (x.fine >= 0 || t < x.lo || t > x.hi) return {};
+    return cfree::sign_at(p, t) == 0 ? std::optional(t) : std::nullopt;
 }
 
 Predicates::Predicates(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
@@ -287,9 +303,16 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
     return order;
 }
 
-// Exact root of an angle that is alone in its interval.
+RealRoot Predicates::narrow_root_of(const Event& x) {
+    if (x.first.kind == Kind::none) return root_of(x);
+    const auto& [_, bracket, few_digits] = narrow_place(x);
+    if (!few_digits) return root_of(x, bracket);
+    return {polynomial(x.first, x.second), Dyadic::from(*few_digits), Dyadic::from(*few_digits)};
+}
+
+// The same of an angle that is alone in its interval, as narrow as any question has made it.
 RealRoot& Predicates::kept_root(const Event& x) {
-    return close->root(x, [&] { return root_of(x); });
+    return close->root(x, [&] { return narrow_root_of(x); });
 }
 
 int Predicates::decided_order(const Event& x, const Event& y) {
@@ -308,12 +331,14 @@ int Predicates::decided_order(const Event& x, const Event& y) {
     if (y.first.kind == Kind::none) return order(x, Sample{y.lo, {}});
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) {
-            if (are_one_of_few_digits(x, *this, y)) return 0;
-            const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
+            const auto [_, p, few] = narrow_place(x);
+            const auto& [__, q, few_of_y] = narrow_place(y);
+            if (few && few == few_of_y) return 0;
             if (p && q && is_below((*p)[1], (*q)[0])) return -1;
             if (p && q && is_below((*q)[1], (*p)[0])) return 1;
         }
-        if (!scene.is_round && x.is_touch == y.is_touch && alone(x) &&
+        const bool may_keep = std::is_same_v<T, Int> && close && are_narrow && !scene.is_round;
+        if (!may_keep && !scene.is_round && x.is_touch == y.is_touch && alone(x) &&
             are_proportional(coefficients<T>(x.first, x.second), coefficients<T>(y.first, y.second)).value_or(false))
             return 0;
         if (scene.is_round) {
@@ -325,13 +350,14 @@ int Predicates::decided_order(const Event& x, const Event& y) {
         if (!first || !second) return {};
         if ((*first && alone(y)) || (*second && alone(x))) return 0;
         if constexpr (std::is_same_v<T, Ball>) return {};
-        if (!close || !are_narrow) {
+        if (!may_keep) {
             RealRoot p = root_of(x), q = root_of(y);
             return cfree::compare(p, q);
         }
         close->trim();
         RealRoot &p = kept_root(x), &q = kept_root(y);
-        return &p == &q ? 0 : cfree::compare(p, q);
+        if (&p == &q || (x.is_touch == y.is_touch && are_proportional(p.p, q.p) && alone(x))) return 0;
+        return cfree::compare(p, q);
     });
 }
 
@@ -345,7 +371,7 @@ int Predicates::order(const Event& x, const Sample& at) {
         std::optional<int> here, below;
         if constexpr (std::is_same_v<T, Ball>) {
             if (at.fine && (at.tau < x.lo || at.tau >= x.hi)) return {};  // the sample is just above tau
-            const auto p = simple(x);
+            const auto p = simple(x, coefficients<Ball>(x.first, x.second));
             if (!p) return {};
             here = cfree::sign_at(*p, at.ball()), below = cfree::sign_at(*p, x.lo);
         } else if (scene.is_round) {
@@ -379,24 +405,6 @@ Sample finely(const Dyadic& lo, const Dyadic& hi, int attempt) {
 
 }  // namespace
 
-// Halve an interval as `halve` does, by a narrower one of the same root instead of the polynomial's sign.
-static void halve(RealRoot& x, RealRoot& narrow) {
-    constexpr unsigned closest = 64;  // bits beyond it: the root may be the middle
-    if (x.is_dyadic()) return;
-    const Dyadic mid = Dyadic::middle(x.lo, x.hi);
-    for (const unsigned most = x.digits() + closest;; narrow.narrow()) {
-        if (cfree::compare(narrow.hi, mid) < 0) {
-            x.hi = mid;
-            return;
-        }
-        if (cfree::compare(mid, narrow.lo) < 0) {
-            x.lo = mid;
-            return;
-        }
-        if (narrow.is_dyadic() || narrow.digits() > most) return x.halve();
-    }
-}
-
 Sample Predicates::between(const Event& x, const Event& y, int attempt) {
     if (x.hi < y.lo) return within(x.hi, y.lo, attempt);
     // intervals that overlap: narrow them until they part
@@ -408,16 +416,14 @@ Sample Predicates::between(const Event& x, const Event& y, int attempt) {
             return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
         } else {
             const auto apart = [](auto p, auto q) -> std::array<Dyadic, 2> {
-                while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+                while (cfree::compare(p.hi, q.lo) >= 0) {
+                    const bool is_p_wider = q.is_dyadic() || (!p.is_dyadic() && p.digits() < q.digits());
+                    (is_p_wider ? p : q).narrow();
+                }
                 return {p.hi, q.lo};
             };
             if (scene.is_round) return apart(long_root_of(x), long_root_of(y));
-            if (!close || x.fine >= 0 || y.fine >= 0) return apart(root_of(x), root_of(y));
-            close->trim();
-            RealRoot &narrow_x = kept_root(x), &narrow_y = kept_root(y);
-            RealRoot p = root_of(x), q = root_of(y);
-            while (cfree::compare(p.hi, q.lo) >= 0) halve(p, narrow_x), halve(q, narrow_y);
-            return {{p.hi, q.lo}};
+            return apart(narrow_root_of(x), narrow_root_of(y));
         }
     });
     const double lo = below.rounded_up(), hi = above.rounded_down();

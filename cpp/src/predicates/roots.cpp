@@ -126,6 +126,7 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
                                     const Event& to) {
     Candidates all;
     Brackets found;
+    bool is_around = true;  // all roots a little beyond the two angles are known
     const bool is_isolated = scene.is_round ? round_orders().isolate(first, second, from.lo, to.hi, found)
                                             : isolate_around(f, from.lo, to.hi, found) || double_only;
     if (is_isolated) {
@@ -134,14 +135,22 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
     } else {
         all = settled(counters, [&]<class T>() -> std::optional<Candidates> {
             if constexpr (std::is_same_v<T, Ball>) return roots_by_balls(first, second, from.lo, to.hi);
-            ++counters.exact_roots;
+            ++counters.exact_roots, is_around = false;
             return scene.is_round ? roots_exactly_round(first, second, from.lo, to.hi) : roots_exactly(first, second, from.lo, to.hi);
         });
     }
     Roots result;
     result.all_zero = all.all_zero;
-    for (const Event& x : all.at)
-        if (order(from, x) < 0 && order(x, to) < 0) result.at.push_back(x);
+    const double outside = from.lo - 0.5 * margin;
+    for (const Event& x : all.at) {
+        is_around &= x.hi < outside || outside < x.lo;
+        if (order(from, x) < 0) {
+            if (order(x, to) < 0) result.at.push_back(x);
+        } else if (x.lo > outside && !x.is_touch) {
+            ++result.passed;
+        }
+    }
+    if (is_around) result.outside = outside;
     return result;
 }
 
@@ -181,7 +190,9 @@ Predicates::Roots Predicates::crossings(const Form& f, const Feature& p, const F
         int at = result.at.size();
         while (at > 0 && order(x, result.at[at - 1]) < 0) --at;
         if (at == 0 || order(x, result.at[at - 1]) != 0) result.at.insert(at, x);
+        else result.alternates = false;
     }
+    result.outside = {};
     return result;
 }
 
@@ -199,18 +210,36 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
     if (result.strict) return ++counters.filter, constant(everywhere);
     const Roots r = crossings(f, p.feature, q.feature, from, to);
     if (r.all_zero) return constant(0);
-    const int flip = p.flipped != q.flipped ? -1 : 1;
+    const int flip = p.flipped != q.flipped ? -1 : 1, last = r.at.size();
+    const auto sign_here = [&](const Sample& at) {
+        const auto value = f.at(at.tau);
+        return flip * sign_at(flip * value.v, value.err, p.feature, q.feature, at);
+    };
+    const auto before = [&](int k) -> const Event& { return k == 0 ? from : r.at[k - 1]; };
+    const auto after = [&](int k) -> const Event& { return k == last ? to : r.at[k]; };
+    const auto sign_of = [&](int k) {
+        for (int attempt = 0; attempt < most_attempts; ++attempt)  // a sample may be where the curves touch
+            if (const int sign = sign_here(between(before(k), after(k), attempt))) return sign;
+        throw std::logic_error("two different curves are equal at every sample");
+    };
     result.at = r.at;
-    for (int k = 0; k <= r.at.size(); ++k) {
-        const Event &before = k == 0 ? from : r.at[k - 1], &after = k == r.at.size() ? to : r.at[k];
-        result.sign[k] = 0;
-        for (int attempt = 0; result.sign[k] == 0; ++attempt) {  // a sample may be where the curves touch
-            if (attempt == most_attempts) throw std::logic_error("two different curves are equal at every sample");
-            const Sample at = between(before, after, attempt);
-            const auto value = f.at(at.tau);
-            result.sign[k] = flip * sign_at(flip * value.v, value.err, p.feature, q.feature, at);
-        }
+    if (!r.alternates) {
+        for (int k = 0; k <= last; ++k) result.sign[k] = sign_of(k);
+        return result;
     }
+    // one sample, where angles are far apart
+    const auto gap = [&](int k) { return after(k).lo - before(k).hi; };
+    int known = 0;
+    for (int k = 1; k <= last; ++k)
+        if (gap(k) > gap(known)) known = k;
+    if (gap(known) < narrow && r.outside) {
+        known = 0;
+        result.sign[0] = sign_here({*r.outside, {}}) * (r.passed % 2 == 0 ? 1 : -1);
+    }
+    if (result.sign[known] == 0) result.sign[known] = sign_of(known);
+    const auto across = [&](int k) { return r.at[k].is_touch ? 1 : -1; };
+    for (int k = known; k > 0; --k) result.sign[k - 1] = across(k - 1) * result.sign[k];
+    for (int k = known; k < last; ++k) result.sign[k + 1] = across(k) * result.sign[k];
     return result;
 }
 

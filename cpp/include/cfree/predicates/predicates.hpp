@@ -139,9 +139,13 @@ public:
 
     // Roots strictly between two angles, in order, those without a change of sign among them.
     // all_zero: the polynomial vanishes identically.
+    // alternates: the sign changes at each root that is no touch, and nowhere else.
+    // outside: a place a little before the first angle; the sign changes `passed` times from there to just after that angle.
     struct Roots {
         Few<Event, 6> at;
-        bool all_zero = false;
+        bool all_zero = false, alternates = true;
+        std::optional<double> outside;
+        int passed = 0;
     };
     Roots offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to);
     Roots parallel_roots(Index g, Index f, const Event& from, const Event& to);
@@ -185,14 +189,23 @@ public:
     // True if an angle and one of another surface, each alone in its interval, are proved to be one number of few digits: in
     // axis-parallel scenes thousands are.
     bool are_one_of_few_digits(const Event& x, const Predicates& other, const Event& y) const;
+    static std::optional<double> as_few_digits(const Event& x, const Coefficients<Ball>& p);
     static double of_few_digits_near(double tau) { return std::nearbyint(16 * tau) / 16; }
-    // Angle as an exact number.
-    RealRoot root_of(const Event& x) const;
     LongRoot long_root_of(const Event& x) const;  // where shapes are grown
     // Interval of an angle shrunk to about the precision of balls, if possible: between certain, opposite signs.
     using Bracket = std::array<Ball, 2>;
     std::optional<Bracket> bracket(const Event& x) const;
-    const std::optional<Bracket>& narrowed(const Event& x);  // cached
+    static std::optional<Bracket> bracket_of(const Event& x, const Coefficients<Ball>& p);
+    struct Narrowed {
+        Event x;
+        std::optional<Bracket> bracket;
+        std::optional<double> few_digits;  // the angle, if it is a number of few digits
+    };
+    const Narrowed& narrow_place(const Event& x);  // cached
+    const std::optional<Bracket>& narrowed(const Event& x) { return narrow_place(x).bracket; }
+    // Angle as an exact number, in a bracket of it if there is one.
+    RealRoot root_of(const Event& x, const std::optional<Bracket>& within = {}) const;
+    RealRoot narrow_root_of(const Event& x);
 
     // Begin or end of a patch's range: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max, and its chart.
     struct RangeEnd {
@@ -247,7 +260,6 @@ private:
     Event restored_round(Event x, int place);
     int sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at);
     bool is_touch_of_quadratic(const Event& x) const;
-    std::optional<Coefficients<Ball>> simple(const Event& x) const;
     bool same_polynomial(const Event& x, const Event& y);
     template <class T>
     std::optional<bool> meets_parallel(const Event& parallel, const Event& x) const;
@@ -259,10 +271,6 @@ private:
     Surface surface;
     double kappa;
     std::vector<std::array<Dyadic, 2>> fine;
-    struct Narrowed {
-        Event x;
-        std::optional<Bracket> bracket;
-    };
     std::vector<Narrowed> recent;  // table by features, as one angle is compared with many; empty at first
     std::size_t misses = 0;        // misses since the last resize
     mutable std::unique_ptr<const RoundOrders> made_orders;  // none until asked for
