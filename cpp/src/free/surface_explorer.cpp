@@ -228,7 +228,7 @@ void SurfaceExplorer::State::explore(Index k) {
     };
     const double from = rows.from_lo[k], to = rows.to_hi[k];
     for (const bool upper : {false, true}) {
-        touching.on_curve(on, unpacked((upper ? rows.upper : rows.lower)[k]), 0.5 * (from + to), patches);
+        touching.on_curve(on, unpacked((upper ? rows.upper : rows.lower)[k]), from, to, patches);
         look(from, to, [&](Index other) { return may_share_curve(k, other); },
              [&](Index other) { return shares_curve(k, upper, other); });
     }

@@ -21,10 +21,51 @@ TouchingPatches::TouchingPatches(const Scene& g, const PatchTrimming& patches)
       edges(scene.robot.v.size()), places(vertices.size()), offsets(edges.size()) {
     const Shape& A = scene.robot;
     for (Index i = 0; i < A.ring_vertices; ++i) {
+        if (i % in_chunk == 0) {
+            chunks.push_back(chunk(i, std::min(i + in_chunk, A.ring_vertices)));
+            for (Layer& layer : layers) layer.begin_chunk();
+        }
         if (A.convex[i]) layers[A.layer[i]].vertices.push_back(i);
         if (A.has_extent(i)) layers[A.layer[i]].edges.push_back(i);
     }
+    for (Layer& layer : layers) layer.begin_chunk();
+    boxes.resize(chunks.size());
     size = reach_of(A);
+}
+
+TouchingPatches::Chunk TouchingPatches::chunk(Index first, Index last) const {
+    const Shape& A = scene.robot;
+    Box box;
+    for (Index i = first; i < last; ++i)
+        for (const Index end : {A.v[i], A.w[i]}) box.add(A.x[end], A.y[end]);
+    return {0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), 0.5 * norm(box.x1 - box.x0, box.y1 - box.y0)};
+}
+
+// A vertex of the robot that touches an edge of an obstacle is on its box; an edge that touches a vertex begins somewhere on the edge
+// turned back from there. Others turn about that place: between the two angles by at most their distance.
+void TouchingPatches::place_chunks(const Surface& on, double from, double to) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const auto R = rotation_by(on.chart, 0.5 * (from + to));
+    const auto turned = [&](double x, double y) { return Vec<double>{R.c * x - R.s * y, R.s * x + R.c * y}; };
+    const auto [kind, _, i, j] = on.contact;
+    const Index a = kind == Kind::vertex_edge ? i : A.v[i];
+    Box base = edge_box(O, j);
+    double length = 0;
+    if (kind == Kind::edge_vertex) {
+        const auto E = turned(A.x[A.w[i]] - A.x[a], A.y[A.w[i]] - A.y[a]);
+        base = {};
+        base.add(O.x[j], O.y[j]), base.add(O.x[j] - E.x, O.y[j] - E.y);
+        length = norm(E.x, E.y);
+    }
+    around = {};
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        const double x = chunks[c].x - A.x[a], y = chunks[c].y - A.y[a], far = norm(x, y) + chunks[c].radius + length;
+        const auto shift = turned(x, y);
+        const double rounding = 0x1p-40 * (far + std::max(std::abs(base.x0), std::abs(base.x1)) + std::max(std::abs(base.y0), std::abs(base.y1)));
+        boxes[c] = grown({base.x0 + shift.x, base.y0 + shift.y, base.x1 + shift.x, base.y1 + shift.y},
+                         chunks[c].radius + (to - from) * far + rounding);
+        around.add(boxes[c]);
+    }
 }
 
 struct TouchingPatches::Turned {
@@ -59,20 +100,20 @@ Index TouchingPatches::obstacle_vertex(const Feature& contact) const {
     return contact.kind == Kind::vertex_edge ? scene.obstacles.v[contact.obstacle] : contact.obstacle;
 }
 
-const std::vector<Index>& TouchingPatches::near(Index feature) {
+const std::vector<TouchingPatches::Edge>& TouchingPatches::near(Index feature) {
     if (feature == near_to) return recent;
     recent.clear(), near_to = feature;
     obstacle_edges.query(grown(edge_box(scene.obstacles, feature), one.reach()), [&](Index j) {
-        if (one.first_patch[j] < one.first_patch[j + 1]) recent.push_back(j);
+        if (one.first_patch[j] < one.first_patch[j + 1]) recent.push_back({edge_box(scene.obstacles, j), j});
     });
     return recent;
 }
 
 // The curve's point is p / d: the intersection of two lines, or a vertex of the robot on one of an obstacle. Relative to it
 // the robot's vertices are at places / d, and its edges pass at offsets / d.
-void TouchingPatches::on_curve(const Surface& on, const Feature& curve, double tau, std::vector<Index>& out) {
+void TouchingPatches::on_curve(const Surface& on, const Feature& curve, double from, double to, std::vector<Index>& out) {
     const Shape &A = scene.robot, &O = scene.obstacles;
-    const Turned t = turned(obstacle_vertex(on.contact), on.chart, tau);
+    const Turned t = turned(obstacle_vertex(on.contact), on.chart, 0.5 * (from + to));
     Vec<Approx> p;
     Approx d{1, 1};
     if (curve.kind == Kind::vertex_vertex) {
@@ -85,20 +126,24 @@ void TouchingPatches::on_curve(const Surface& on, const Feature& curve, double t
     }
     for (std::size_t i = 0; i < places.size(); ++i) places[i] = {p.x + d * vertices[i].x, p.y + d * vertices[i].y};
     for (Index e = 0; e < A.ring_vertices; ++e) offsets[e] = cross(edges[e], places[A.v[e]]);
-    for (const Index j : near(on.contact.obstacle)) {
+    place_chunks(on, from, to);
+    for (const auto& [box, j] : near(on.contact.obstacle)) {
+        if (!around.meets(box)) continue;
+        meeting.clear();
+        for (std::size_t c = 0; c < chunks.size(); ++c)
+            if (boxes[c].meets(box)) meeting.push_back(c);
+        if (meeting.empty()) continue;
         const Layer& robot = layers[O.layer[j]];
         const auto E = edge<Approx>(O, j), b = t.place(O.v[j]), moved = Vec<Approx>{d * b.x, d * b.y};
         const Approx offset = cross(E, moved);
-        Index id = one.first_patch[j];
-        for (const Index i : robot.vertices) {
-            if (may_vanish(cross(E, places[i]) - offset)) out.push_back(id);
-            ++id;
-        }
+        const Index first = one.first_patch[j], first_edge = first + static_cast<Index>(robot.vertices.size());
+        for (const std::size_t c : meeting)
+            for (Index k = robot.first_vertex[c]; k < robot.first_vertex[c + 1]; ++k)
+                if (may_vanish(cross(E, places[robot.vertices[k]]) - offset)) out.push_back(first + k);
         if (!O.convex[j]) continue;
-        for (const Index e : robot.edges) {
-            if (may_vanish(cross(edges[e], moved) - offsets[e])) out.push_back(id);
-            ++id;
-        }
+        for (const std::size_t c : meeting)
+            for (Index k = robot.first_edge[c]; k < robot.first_edge[c + 1]; ++k)
+                if (const Index e = robot.edges[k]; may_vanish(cross(edges[e], moved) - offsets[e])) out.push_back(first_edge + k);
     }
 }
 
@@ -107,6 +152,7 @@ void TouchingPatches::on_curve(const Surface& on, const Feature& curve, double t
 void TouchingPatches::on_line(const Surface& on, double lo, double hi, std::vector<Index>& out) {
     const Shape& O = scene.obstacles;
     const Turned t = turned(obstacle_vertex(on.contact), on.chart, 0.5 * (lo + hi));
+    place_chunks(on, lo, hi);
     const double width = 4 * (hi - lo);
     const auto P = t.start(on.contact), U = t.direction(on.contact);
     const auto is_parallel = [&](const Vec<Approx>& V) { return may_vanish(cross(U, V), width); };
@@ -115,7 +161,8 @@ void TouchingPatches::on_line(const Surface& on, double lo, double hi, std::vect
     for (const int layer : {0, 1})
         for (std::size_t k = 0; k < layers[layer].edges.size(); ++k)
             if (const Index e = layers[layer].edges[k]; is_parallel(edges[e])) parallel[layer].emplace_back(e, k);
-    for (const Index j : near(on.contact.obstacle)) {
+    for (const auto& [box, j] : near(on.contact.obstacle)) {
+        if (!around.meets(box)) continue;
         const Layer& robot = layers[O.layer[j]];
         const Index id = one.first_patch[j], count = static_cast<Index>(robot.vertices.size());
         if (is_parallel(edge<Approx>(O, j)))

@@ -16,7 +16,7 @@ namespace cfree {
 namespace {
 
 constexpr int search_guesses = 40000;  // most guesses of motions, if there are not many patches
-constexpr int patches_each = 4;        // else one guess for as many
+constexpr int patches_each = 2;        // else one guess for as many
 constexpr int all_guesses = 1 << 21;   // in any case: trees take memory
 constexpr int quick_guesses = 2000;    // guesses before any exact work
 constexpr int round_guesses = 16000;   // among round shapes
