@@ -44,6 +44,7 @@ BENCHES = (
     "fits",
     "nesting",
     "scene",
+    "page",
     "start",
 )
 

@@ -117,11 +117,12 @@ export class Workspace {
 
   get step(): number {
     // of drags, below a pixel
-    return 10 ** Math.floor(Math.log10(this.box.w / Math.max(this.svg.clientWidth, 1)));
+    return 10 ** Math.floor(Math.log10(this.pixel));
   }
   get pixel(): number {
-    return this.box.w / Math.max(this.svg.clientWidth, 1);
+    return this.box.w / this.width;
   }
+  private width = 1; // as last looked at: asking the browser lays out the page
 
   // Show a scene: anew with its poses, else with the same view.
   show_scene(scene: Columns, names: string[], poses: Seen[] | undefined): void {
@@ -212,6 +213,7 @@ export class Workspace {
   private look(): void {
     const { clientWidth: width, clientHeight: height } = this.svg;
     if (!width || !height) return;
+    this.width = width;
     const { x, y, w, h } = this.box;
     const more = Math.max(w / width, h / height);
     this.box = { x: x + (w - more * width) / 2, y: y + (h - more * height) / 2, w: more * width, h: more * height };
