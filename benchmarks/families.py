@@ -6,6 +6,7 @@ the benchmarks reports:
     convex     random convex obstacles at constant density, a kite as the robot (about 4.3 vertices each)
     stars      random star-shaped obstacles at constant density, a kite as the robot
     combs      a row of combs with ever narrower gaps, a hook as the robot
+    noisy      two equal combs in floats, one turned by half a turn: lines agree but for a rounding; size: teeth
     flats      a building of equal flats: walls with doors, furniture; all axis-parallel, a table as the robot
     warehouse  aisles of racks and round pillars, a rounded robot of 20 vertices
     grid       equal unit squares on the integer grid, some of them touching, a unit square as the robot
@@ -31,6 +32,7 @@ Seeds 2, 5 and 8 of mazes, traps, barriers and throats are shut, most by little.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -56,6 +58,7 @@ SIZES = {
     "convex": (60, 500, 5_000, 25_000),
     "stars": (50, 500, 5_000),
     "combs": (4, 16, 64),
+    "noisy": (8, 14, 20),
     "flats": (4, 36, 400),
     "warehouse": (100, 1_000, 4_000),
     "grid": (50, 500, 5_000),
@@ -116,6 +119,21 @@ def combs(count: int, seed: int = 0, teeth: int = 12) -> SceneArrays:
     base = np.stack([np.zeros(count), np.zeros(count), right, np.zeros(count)], axis=-1).reshape(count, 2, 2)
     rings = np.concatenate([base, tops], axis=1) + np.column_stack([np.zeros(count), 7.0 * rows])[:, None]
     return _stack(HOOK, rings)
+
+
+def noisy(teeth: int) -> SceneArrays:
+    """Two equal combs in floats, one turned by half a turn: lines that should be one differ in the last digits."""
+    pitch, x = 2.2, np.arange(teeth - 1, -1, -1) * 2.2
+    tooth = [np.column_stack([x + 1, np.full(teeth, 4.0)]), np.column_stack([x, np.full(teeth, 4.0)])]
+    gap = [np.column_stack([x, np.ones(teeth)]), np.column_stack([x - pitch + 1, np.ones(teeth)])]
+    tops = np.stack([*tooth, *gap], axis=1).reshape(-1, 2)[:-2]
+    comb = np.concatenate([[(0.0, 0.0), (x[0] + 1, 0.0)], tops])
+    return _stack(turned(comb, math.pi), comb[None])
+
+
+def turned(points: Floats, angle: float) -> Floats:
+    """Return points turned about the origin, rounded to doubles."""
+    return points @ np.array([(math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))])
 
 
 def flats(count: int, seed: int = 0) -> SceneArrays:
@@ -221,6 +239,7 @@ FAMILIES: dict[str, Callable[[int], SceneArrays]] = {
     "convex": convex,
     "stars": stars,
     "combs": combs,
+    "noisy": noisy,
     "flats": flats,
     "warehouse": warehouse,
     "grid": grid,

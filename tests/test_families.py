@@ -19,7 +19,7 @@ def families(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) ->
     return importlib.import_module("families")
 
 
-@pytest.mark.parametrize("name", ["convex", "stars", "combs", "flats", "warehouse", "grid", "city"])
+@pytest.mark.parametrize("name", ["convex", "stars", "combs", "noisy", "flats", "warehouse", "grid", "city"])
 def test_a_family_is_valid_and_the_same_each_time(families: ModuleType, name: str) -> None:
     size = families.SIZES[name][0]
     scene, again = families.FAMILIES[name](size), families.FAMILIES[name](size)

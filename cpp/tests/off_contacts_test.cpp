@@ -21,6 +21,16 @@ int main() {
     const auto found = off_contacts({start, at(Ratio{0}, low), at(in, low), at(in, Ratio{4}), goal}, motions);
     CHECK(found && motions.join(*found) && found->front() == start && found->back() == goal);
 
-    CHECK(!off_contacts({at(Ratio{0}, Ratio{0}), at(Ratio{3}, Ratio{0}), at(Ratio{7}, Ratio{4})}, motions));  // through the step
+    const RationalPose before = at(Ratio{0}, Ratio{0}), beyond = at(Ratio{7}, Ratio{4}), last = at(Ratio{8}, Ratio{4});
+    CHECK(!off_contacts({before, at(Ratio{3}, Ratio{0}), beyond}, motions));  // through the step
+    // a search leads around it, to the pose after it or to a later one
+    const Poses around{before, at(Ratio{0}, Ratio{4}), beyond};
+    const auto to_the_next = [&](const RationalPose&, const RationalPose& to) { return to == beyond ? std::optional(around) : std::nullopt; };
+    CHECK(off_contacts({before, at(Ratio{3}, Ratio{0}), beyond, last}, motions, to_the_next) == std::optional(Poses{before, around[1], beyond, last}));
+    const auto to_the_last = [&](const RationalPose& from, const RationalPose& to) {
+        return to == last ? std::optional(Poses{from, around[1], last}) : std::nullopt;
+    };
+    CHECK(off_contacts({before, at(Ratio{3}, Ratio{0}), beyond, last}, motions, to_the_last) == std::optional(Poses{before, around[1], last}));
+    CHECK(!off_contacts({before, at(Ratio{3}, Ratio{0}), beyond}, motions, to_the_last));  // no search leads to the end
     return failures != 0;
 }

@@ -10,6 +10,7 @@ namespace cfree {
 namespace {
 
 constexpr unsigned most_halvings = 10;
+constexpr int most_passed = 16;  // free poses in a row to which no search leads
 
 bool is_free(const RationalPose& pose, const FreeMotions& motions) { return motions.join({pose, pose}); }
 
@@ -57,13 +58,17 @@ std::optional<Poses> bridge(const RationalPose& from, const Poses& contacts, con
 
 }  // namespace
 
-std::optional<Poses> off_contacts(const Poses& way, const FreeMotions& motions) {
+std::optional<Poses> off_contacts(const Poses& way, const FreeMotions& motions, const LocalSearch& search) {
     Poses found{way.front()};
+    int passed = 0;
     for (std::size_t k = 1; k < way.size(); ++k) {
         Poses contacts;
         for (; k + 1 < way.size() && !is_free(way[k], motions); ++k) contacts.push_back(way[k]);
-        const auto part = bridge(found.back(), contacts, way[k], motions);
-        if (!part) return {};
+        auto part = bridge(found.back(), contacts, way[k], motions);
+        if (!part && search) part = search(found.back(), way[k]);
+        if (!part && (!search || k + 1 == way.size() || ++passed > most_passed)) return {};
+        if (!part) continue;
+        passed = 0;
         found.insert(found.end(), part->begin() + 1, part->end());
     }
     return found;

@@ -32,6 +32,7 @@ constexpr int mending_guesses = 1000;  // guesses to lead such a path around wha
 constexpr double mending_room = 3;     // beside it, in radii of the robot
 constexpr double most_longer = 1.25;   // times the cost of such a path, around what is in its way, without another search
 constexpr int most_mended = 8;         // times for one query
+constexpr int most_off_contacts = 64;  // the same where a path along contacts of a smaller robot is in the way
 constexpr std::size_t checks_each = 4, most_checks = 600;  // motions checked to straighten such a path, for each of its own
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
@@ -161,15 +162,19 @@ std::optional<Poses> Planner::mended(const Poses& way, int& left) const {
         // on to the next free motion
         while (k + 1 < way.size() && !motions.join({way[k], way[k + 1]})) ++k;
         if (left-- <= 0) return {};
-        const RationalPose &a = found.back(), &b = way[k];
-        const std::array ends{a.place(), b.place()};
-        const Searcher searcher(scene, ends, {angle_scale});
-        const Route around = searcher.search_near({a, ends[0]}, {b, ends[1]}, mending_room * angle_scale).run(mending_guesses);
-        if (around.empty()) return {};
-        const Poses poses = searcher.poses(around);
-        found.insert(found.end(), poses.begin() + 1, poses.end());
+        const auto around = searched_near(found.back(), way[k]);
+        if (!around) return {};
+        found.insert(found.end(), around->begin() + 1, around->end());
     }
     return found;
+}
+
+std::optional<Poses> Planner::searched_near(const RationalPose& from, const RationalPose& to) const {
+    const std::array ends{from.place(), to.place()};
+    const Searcher searcher(scene, ends, {angle_scale});
+    const Route around = searcher.search_near({from, ends[0]}, {to, ends[1]}, mending_room * angle_scale).run(mending_guesses);
+    if (around.empty()) return {};
+    return searcher.poses(around);
 }
 
 // The same path with fewer motions: one along contacts has hundreds, and any change is in the way of some.
@@ -308,7 +313,12 @@ std::optional<Planner::Found> Planner::by_smaller_robot(const std::shared_ptr<Kn
     if (verdict != Connection::Verdict::joined) return {};
     const auto hugging = way_along(joined, std::make_shared<FoundSlides>());
     if (!hugging) return {};
-    auto way = off_contacts(*hugging, FreeMotions(scene->scene(), *scene->checker, *slides));
+    int left = most_off_contacts;
+    auto way = off_contacts(*hugging, FreeMotions(scene->scene(), *scene->checker, *slides),
+                            [&](const RationalPose& from, const RationalPose& to) -> std::optional<Poses> {
+                                if (left-- <= 0) return {};
+                                return searched_near(from, to);
+                            });
     if (!way) return {};
     return std::move(*way);
 }

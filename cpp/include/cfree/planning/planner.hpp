@@ -54,6 +54,7 @@ private:
     std::optional<Poses> simple_way(const RationalPose& start, const RationalPose& goal) const;
     std::optional<Poses> former_way(const End& start, const End& goal);
     std::optional<Poses> mended(const Poses& way, int& left) const;
+    std::optional<Poses> searched_near(const RationalPose& from, const RationalPose& to) const;
     void remember(const Poses& way);
     Poses straightened(const Poses& way) const;
     std::optional<Poses> searched(const End& start, const End& goal, int most, const Growth& growth = {}) const;
