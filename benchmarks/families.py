@@ -90,8 +90,8 @@ def convex(count: int, seed: int = 0, cell: float = 9.0) -> SceneArrays:
     axes = rng.uniform(0.4, 1.0, (count, 2))
     owner = np.repeat(np.arange(count), sizes)
     flat = axes[owner] * np.column_stack([np.cos(angles), np.sin(angles)])
-    turned = _turn(flat, rng.uniform(0, 2 * np.pi, count)[owner])
-    return SceneArrays(KITE, turned + _centres(rng, count, cell)[owner], _offsets(sizes))
+    corners = turned(flat, rng.uniform(0, 2 * np.pi, count)[owner])
+    return SceneArrays(KITE, corners + _centres(rng, count, cell)[owner], _offsets(sizes))
 
 
 def stars(count: int, seed: int = 0, cell: float = 16.0) -> SceneArrays:
@@ -129,11 +129,6 @@ def noisy(teeth: int) -> SceneArrays:
     tops = np.stack([*tooth, *gap], axis=1).reshape(-1, 2)[:-2]
     comb = np.concatenate([[(0.0, 0.0), (x[0] + 1, 0.0)], tops])
     return _stack(turned(comb, math.pi), comb[None])
-
-
-def turned(points: Floats, angle: float) -> Floats:
-    """Return points turned about the origin, rounded to doubles."""
-    return points @ np.array([(math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))])
 
 
 def flats(count: int, seed: int = 0) -> SceneArrays:
@@ -465,7 +460,8 @@ def _centres(rng: np.random.Generator, count: int, cell: float) -> Floats:
     return rng.uniform(0, (count * cell) ** 0.5, (count, 2))
 
 
-def _turn(points: Floats, angles: Floats) -> Floats:
+def turned(points: Floats, angles: Floats | float) -> Floats:
+    """Return points turned about the origin: all by one angle, or each by its own."""
     c, s = np.cos(angles), np.sin(angles)
     x, y = points.T
     return np.column_stack([c * x - s * y, s * x + c * y])
