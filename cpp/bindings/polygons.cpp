@@ -234,16 +234,17 @@ void bind_polygons(nb::module_& m) {
     column(owners, "polygon_of_end", &cfree::Owners::polygon_of_end);
     nb::class_<cfree::WholeScene>(m, "WholeScene")
         .def("__init__", [](cfree::WholeScene* w, const nb::int_& scale, const std::optional<std::array<nb::int_, 4>>& box,
-                            const nb::int_& short_part, const std::optional<std::vector<GivenRounding>>& robot,
+                            const std::optional<nb::int_>& short_part, const std::optional<std::vector<GivenRounding>>& robot,
                             const std::optional<std::vector<GivenRounding>>& facing) {
-            new (w) cfree::WholeScene{integer(scale), {}, integer(short_part)};
+            new (w) cfree::WholeScene{integer(scale)};
+            if (short_part) w->short_part = integer(*short_part);
             if (box) w->box = std::array{integer((*box)[0]), integer((*box)[1]), integer((*box)[2]), integer((*box)[3])};
             w->is_round = robot.has_value();
             if (robot) w->robot = roundings_of(*robot);
             if (facing) w->facing = roundings_of(*facing);
-        }, "scale"_a, "box"_a.none(), "short_part"_a, "robot"_a.none() = nb::none(), "facing"_a.none() = nb::none(),
-             "Without roundings of the robot, none of the shapes is rounded.",
-             nb::sig("def __init__(self, scale: int, box: Sequence[int] | None, short_part: int, "
+        }, "scale"_a, "box"_a.none(), "short_part"_a.none(), "robot"_a.none() = nb::none(), "facing"_a.none() = nb::none(),
+             "Without roundings of the robot, none of the shapes is rounded. Without a short part, it is that of the obstacles added.",
+             nb::sig("def __init__(self, scale: int, box: Sequence[int] | None, short_part: int | None, "
                      "robot: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None, "
                      "facing: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None) -> None"))
         .def("add", [](cfree::WholeScene& w, const Polygon& polygon, const std::optional<GivenRounding>& rounding) {
@@ -269,7 +270,7 @@ void bind_polygons(nb::module_& m) {
             return all;
         }, "Roundings by numerators and denominators.")
         .def_prop_ro("scale", [](const cfree::WholeScene& w) { return integer(w.scale); })
-        .def_prop_ro("short_part", [](const cfree::WholeScene& w) { return integer(w.short_part); })
+        .def_prop_ro("short_part", [](const cfree::WholeScene& w) { return integer(w.short_part.value_or(w.shared.short_part())); })
         .def_prop_ro("box", [](const cfree::WholeScene& w) {
             using Box = std::optional<std::tuple<nb::int_, nb::int_, nb::int_, nb::int_>>;
             return w.box ? std::apply([](const auto&... c) { return Box({integer(c)...}); }, *w.box) : Box();

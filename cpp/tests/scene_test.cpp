@@ -55,6 +55,29 @@ static void far_shapes_are_measured_from_near() {
     CHECK(floor_divide(-7, 2) == -4 && floor_divide(7, 2) == 3 && floor_divide(-8, 2) == -4);
 }
 
+static void denominators_of_a_quarter_of_the_vertices_are_those_of_doubles_also_in_parts() {
+    const auto decimals = polygon({{"1/10", "0"}, {"1", "0"}, {"0", "1"}}), third = polygon({{"1/3", "0"}, {"1", "0"}, {"0", "1"}});
+    const auto square = box("0", "0", "1", "1");
+    WholeScene whole;
+    std::vector<std::shared_ptr<const Polygon>> all;
+    const auto add = [&](const auto& shape) { all.push_back(shape), whole.add(*shape); };
+    const auto short_part = [&](const auto& robot) {
+        const auto scene = scene_features({{robot}, all, {}, {}}).scene;
+        WholeScene given;
+        given.short_part = whole.shared.short_part();
+        CHECK(scene_features({{robot}, {all.front()}, {}, {}}, given).scene->short_part == scene->short_part);
+        return scene->short_part;
+    };
+    for (int k = 0; k < 9; ++k) add(square);
+    for (int k = 0; k < 4; ++k) {
+        CHECK(short_part(square) == 1 && short_part(third) == 3);
+        add(decimals);
+    }
+    CHECK(short_part(square) == 15625 && short_part(third) == 3 * 15625);
+    for (int k = 0; k < 20; ++k) add(third);
+    CHECK(short_part(square) == 3);
+}
+
 static void doubles_of_a_short_denominator_are_those_without_the_turned_shape() {
     const auto plain = box("0.1", "0", "2", "3"), turned = polygon({{"0", "0"}, {"1/1000003", "5"}, {"-7", "1/9999991"}});
     const auto both = scene_features({{box("0", "0", "1", "1")}, {plain, turned}, {}, {}}).scene;
@@ -90,6 +113,7 @@ int main() {
     coordinates_have_one_denominator();
     bounds_and_workspace_have_a_rim();
     far_shapes_are_measured_from_near();
+    denominators_of_a_quarter_of_the_vertices_are_those_of_doubles_also_in_parts();
     doubles_of_a_short_denominator_are_those_without_the_turned_shape();
     what_is_out_of_range_is_named();
     return failures > 0;

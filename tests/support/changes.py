@@ -45,11 +45,10 @@ def changed(generator: random.Random, scene: Scene, size: int, digits: int) -> S
     """Return a scene with an obstacle more, less or moved, or with its obstacles in another order."""
 
     def length() -> Fraction:
-        return (
-            Fraction(round(generator.uniform(-3, 3) * digits), digits)
-            if generator.random() < 0.5
-            else Fraction(generator.randint(-2, 2))
-        )
+        if generator.random() < 0.5:
+            return Fraction(generator.randint(-2, 2))
+        parts = digits if generator.random() < 0.5 else generator.choice([3, 8, 10, 1000, 10**9, 10**6 + 3, 2**40])
+        return Fraction(round(generator.uniform(-3, 3) * parts), parts)
 
     count, kind = len(scene.obstacles), generator.random()
     if kind < 0.2 or not count:
@@ -60,7 +59,7 @@ def changed(generator: random.Random, scene: Scene, size: int, digits: int) -> S
     if kind < 0.5:
         obstacles = generator.sample(scene.obstacles, count)
         return Scene(scene.robot, obstacles, bounds=scene.bounds, workspace=scene.workspace)
-    turn = generator.choice([0, 0, 0, "90deg", "180deg"])
+    turn = generator.choice([0, 0, 0, "90deg", "180deg", "17deg"])
     return scene.moved(generator.randrange(count), (length(), length(), turn))
 
 

@@ -16,11 +16,7 @@ void keep_small(Poly& p) {
     const auto bits = [](const Int& c) { return c.is_zero() ? 0u : static_cast<unsigned>(msb(abs(c))); };
     unsigned most = 0;
     for (const Int& c : p) most = std::max(most, bits(c));
-    if (most < 200) return;
-    Int g = 0;
-    for (const Int& c : p) g = gcd(g, c);
-    if (g > 1)
-        for (Int& c : p) c /= g;
+    if (most >= 200) p = primitive(std::move(p));
 }
 
 // True if two polynomials have no common root modulo a prime, and so none at all: the leading coefficient of a common divisor
@@ -238,6 +234,15 @@ Poly greatest_common_divisor(Poly p, Poly q) {
         p = q;
         q = r;
     }
+    return p;
+}
+
+Poly primitive(Poly p) {
+    Int content = 0;
+    for (const Int& c : p)
+        if (content = gcd(content, c); content == 1) return p;
+    if (content > 1)
+        for (Int& c : p) c /= content;
     return p;
 }
 

@@ -172,8 +172,6 @@ bool are_same_robots(const Two& both) {
     return true;
 }
 
-Int odd_part(const Int& n) { return n >> lsb(n); }
-
 // True if the doubles of one scene, in which it is trimmed, are those of the other times a power of two, which leaves signs,
 // errors and mantissas as they are unless something underflows.
 bool have_same_doubles(const Scene& s, const Scene& t) {
@@ -230,16 +228,10 @@ std::optional<KeptPatches> kept_patches(const Boundary& other, const Scene& scen
     if (!other.thin) return {};
     auto features = kept_features(before, scene);
     if (!features) return {};
-    const bool has_same_integers = before.scale == scene.scale, has_same_odd = odd_part(before.scale) == odd_part(scene.scale);
-    // True if integers have decided something whose last digits depend on them: roots, and if factors but 2 have changed, anything.
-    const auto depends_on_integers = [&](const Counters& decisions) {
-        return !has_same_integers && (has_same_odd ? decisions.exact_roots : decisions.exact) > 0;
-    };
     KeptPatches kept{std::move(*features), {}, {}, {}, {}};
     kept.first_patch = first_patches(before, other.patches);
     for (Index j = 0; j < static_cast<Index>(kept.from.size()); ++j) {
         Index& from = kept.from[j];
-        if (from >= 0 && depends_on_integers(other.counted[from].decisions)) from = -1;
         for (Index p = from < 0 ? 0 : kept.first_patch[from]; from >= 0 && p < kept.first_patch[from + 1]; ++p)
             if (!other.trimmed[p]) from = -1;
         if (from < 0) kept.retrimmed.push_back(j);

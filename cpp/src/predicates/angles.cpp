@@ -52,7 +52,8 @@ ParallelAngle angle_of(double x, double y, int side, double error) {
 }
 
 Vec<Ball> as_balls(const Vec<Ball>& d) { return d; }
-Vec<Ball> as_balls(const Vec<Int>& d) {  // up to a factor
+Vec<Ball> as_balls(Vec<Int> d) {  // up to a factor, so that digits do not depend on the common denominator
+    if (const Int divisor = gcd(d.x, d.y); divisor > 1) d.x /= divisor, d.y /= divisor;
     const auto bits = [](const Int& z) { return z.is_zero() ? 0 : static_cast<int>(msb(abs(z))); };
     const int excess = std::max(bits(d.x), bits(d.y)) - 500;
     return {ball(d.x, std::max(excess, 0)), ball(d.y, std::max(excess, 0))};

@@ -86,7 +86,7 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
     const Poly p = polynomial(first, second);
     result.all_zero = p.empty();
     if (p.empty() || (p.size() == 3 && p[1] * p[1] < 4 * p[0] * p[2])) return result;
-    const Poly simple = squarefree(p);
+    const Poly simple = primitive(squarefree(p));  // so that digits do not depend on the common denominator
     const auto is_touch = [&](const Dyadic& below, const Dyadic& above) {
         if (simple.size() == p.size()) return false;
         RealRoot root{simple, below, above};
@@ -135,7 +135,7 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
     } else {
         all = settled(counters, [&]<class T>() -> std::optional<Candidates> {
             if constexpr (std::is_same_v<T, Ball>) return roots_by_balls(first, second, from.lo, to.hi);
-            ++counters.exact_roots, is_around = false;
+            is_around = false;
             return scene.is_round ? roots_exactly_round(first, second, from.lo, to.hi) : roots_exactly(first, second, from.lo, to.hi);
         });
     }

@@ -573,20 +573,27 @@ int shift_of(const Int& widest) {
     return widest.is_zero() ? 0 : std::max(0, static_cast<int>(msb(widest)) + 1 - largest_bits);
 }
 
-// Include the odd part of a denominator in the short part of a common one: decimals by six digits at a time, so that longer ones
-// rarely change it. Not if it is long: prime factors beyond 5 make more than a few bits, or doubles would have few left.
-void include_short(Int& short_part, const Int& denominator) {
-    constexpr int most_bits_beyond_5 = 16, most_bits_in_all = 46;
-    const Int odd = denominator >> lsb(denominator);
-    if (short_part % odd == 0) return;
-    Int beyond_5 = odd, decimals = 1;
-    for (int digit = 0; beyond_5 % 5 == 0; ++digit) {
-        if (digit % 6 == 0) decimals *= 15625;
-        beyond_5 /= 5;
-    }
-    if (msb(beyond_5) >= most_bits_beyond_5) return;
-    const Int both = lcm(short_part, Int(beyond_5 * decimals));
-    if (msb(both) < most_bits_in_all) short_part = both;
+constexpr std::size_t digits_at_a_time = 6, most_groups = 3;  // of decimals
+
+struct OddPart {
+    std::size_t groups = 0;  // of decimals
+    Int beyond_5 = 1;
+    bool is_long() const { return groups > most_groups || msb(beyond_5) >= 16; }  // or doubles would have few bits left
+};
+
+OddPart odd_part(const Int& denominator) {
+    OddPart result;
+    result.beyond_5 = denominator >> lsb(denominator);
+    std::size_t digits = 0;
+    for (; result.beyond_5 % 5 == 0; ++digits) result.beyond_5 /= 5;
+    result.groups = (digits + digits_at_a_time - 1) / digits_at_a_time;
+    return result;
+}
+
+void include_short(Int& short_part, const OddPart& odd) {
+    if (odd.is_long()) return;
+    const Int both = lcm(short_part, Int(odd.beyond_5 * pow(Int(5), static_cast<unsigned>(digits_at_a_time * odd.groups))));
+    if (msb(both) < 46) short_part = both;
 }
 
 // Middle of vertices that are far away, on a coarse grid; else 0.
@@ -641,9 +648,27 @@ Int floor_divide(const Int& n, const Int& d) {
     return rest.sign() < 0 ? Int(q - 1) : q;
 }
 
+void SharedDenominators::add(const Polygon& polygon) {
+    const OddPart odd = odd_part(polygon.denominator);
+    vertices += polygon.offsets.back();
+    if (odd.is_long()) return;
+    for (std::size_t group = 1; group <= odd.groups; ++group) with_groups[group - 1] += polygon.offsets.back();
+    with_factor[static_cast<unsigned>(odd.beyond_5)] += polygon.offsets.back();
+}
+
+Int SharedDenominators::short_part() const {
+    const auto is_shared = [&](Index count) { return count > 0 && 4 * count >= vertices; };
+    Int result = 1;
+    include_short(result, {static_cast<std::size_t>(std::ranges::count_if(with_groups, is_shared))});
+    for (const auto& [factor, count] : with_factor)
+        if (is_shared(count)) include_short(result, {0, factor});
+    return result;
+}
+
 void WholeScene::add(const Polygon& polygon, const Rounding& rounding) {
     std::vector<Int> denominators{polygon.denominator};
     const auto use = [&](const Ratio& x) { denominators.push_back(x.d); };
+    shared.add(polygon);
     if (is_rounded(rounding)) {
         if (!of_obstacles) of_robot = std::make_shared<FacingArcs>(robot), of_obstacles = std::make_shared<FacingArcs>(facing);
         if (of_obstacles->add(rounding)) facing.push_back(rounding);
@@ -652,7 +677,6 @@ void WholeScene::add(const Polygon& polygon, const Rounding& rounding) {
         is_round = true;
     }
     for (const Int& denominator : denominators) {
-        include_short(short_part, denominator);
         if (scale % denominator == 0) continue;
         const Int more = lcm(scale, denominator) / scale;
         scale *= more;
@@ -669,17 +693,33 @@ void WholeScene::add(const Polygon& polygon, const Rounding& rounding) {
     }
 }
 
+namespace {
+
+// Of the obstacles what many of them share, of all else everything: an obstacle that is moved changes it rarely.
+Int short_part_of(const SceneShapes& shapes, const WholeScene& whole) {
+    SharedDenominators shared;
+    for (const auto& polygon : shapes.obstacles) shared.add(*polygon);
+    Int result = whole.short_part ? *whole.short_part : shared.short_part();
+    for (const auto& polygon : shapes.robot) include_short(result, odd_part(polygon->denominator));
+    if (shapes.workspace) include_short(result, odd_part(shapes.workspace->denominator));
+    if (shapes.bounds)
+        for (const Ratio& bound : *shapes.bounds) include_short(result, odd_part(bound.d));
+    return result;
+}
+
+}  // namespace
+
 SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole) {
     SceneFeatures result;
     result.shapes = shapes;
-    Int scale = whole.scale, short_part = whole.short_part;  // the common denominator, and its odd part but for long ones
+    Int scale = whole.scale;  // the common denominator
     const auto include = [&](const Int& denominator) {
         if (scale % denominator != 0) scale = lcm(scale, denominator);
-        include_short(short_part, denominator);
     };
     for (const auto* polygons : {&shapes.obstacles, &shapes.robot})
         for (const auto& polygon : *polygons) include(polygon->denominator);
     if (shapes.workspace) include(shapes.workspace->denominator);
+    const Int short_part = short_part_of(shapes, whole);
     for (const auto* all : {&shapes.robot_rounding, &shapes.obstacle_rounding})
         for (const Rounding& rounding : *all) for_each_number(rounding, [&](const Ratio& x) { include(x.d); });
     std::vector<Rounding> facing = shapes.obstacle_rounding;

@@ -242,7 +242,7 @@ class _Columns:
     """Columns of obstacles that are polygons, and facts about all of them."""
 
     def __init__(self) -> None:
-        self.whole = _core.WholeScene(1, None, 1)
+        self.whole = _core.WholeScene(1, None, None)
         self.obstacles = self.vertices = 0
 
     def add(self, block: Sequence[AnyShape]) -> dict[str, NDArray[Any]]:
@@ -284,7 +284,7 @@ class _RoundColumns(_Columns):
         if len(known.robot) < len(robot) or None in map(rounded, _complement_of(empty, [])):
             raise UnsupportedError(why_not_rounded(empty))
         self.robot = known
-        self.whole = _core.WholeScene(1, None, 1, [shape.rounding for shape in known.robot])
+        self.whole = _core.WholeScene(1, None, None, [shape.rounding for shape in known.robot])
 
     def add(self, block: Sequence[AnyShape]) -> dict[str, NDArray[Any]]:
         cores = [rounded(shape) for shape in block]

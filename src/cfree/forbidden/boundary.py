@@ -87,9 +87,9 @@ def boundary(
     Time is about linear in the number of pairs of a patch and a pillar near it; memory about 90 bytes a trapezoid.
 
     Nothing is taken from the boundary given as `reuse` among round shapes, or if it was read from a file or unpickled;
-    if there are the first decimals, or the first with more than six digits, or new simple fractions such as thirds; or
-    if the origin of a scene far from 0 has moved. Doubles, and shapes turned by any angle, change nothing elsewhere,
-    but where exact integers decided something. `Boundary.kept_patches` counts the patches that were taken.
+    if a quarter of the obstacles' vertices has become decimals, or decimals of more than six digits, or simple fractions
+    such as thirds; or if the origin of a scene far from 0 has moved. Doubles, and shapes turned by any angle, change
+    nothing elsewhere. `Boundary.kept_patches` counts the patches that were taken.
 
     Rounded shapes are exact, not replaced by polygons, and so are exact fits among them (`Boundary.isolated`): discs in
     round holes and pegs in round slots included.

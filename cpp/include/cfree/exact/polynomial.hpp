@@ -73,6 +73,7 @@ int sign_at(const Poly& p, const Dyadic& tau);
 int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi);  // sign on the whole closed interval, 0 if not certain
 Poly greatest_common_divisor(Poly p, Poly q);
 Poly squarefree(const Poly& p);
+Poly primitive(Poly p);  // without a common factor of its coefficients
 // Divide polynomials, not all zero, by their common factors, numbers included.
 void cancel(std::span<Poly> parts);
 

@@ -100,10 +100,9 @@ struct Sample {
 // Numbers of decisions by rung, and the time of the slowest.
 struct Counters {
     std::int64_t identity = 0, filter = 0, interval = 0, exact = 0;
-    std::int64_t exact_roots = 0;  // of these, those that isolated roots: their places depend on the integers
     double exact_seconds = 0;
     void operator+=(const Counters& o) {
-        identity += o.identity, filter += o.filter, interval += o.interval, exact += o.exact, exact_roots += o.exact_roots;
+        identity += o.identity, filter += o.filter, interval += o.interval, exact += o.exact;
         exact_seconds += o.exact_seconds;
     }
 };

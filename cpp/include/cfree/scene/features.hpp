@@ -11,6 +11,7 @@
 // against the workspace, and not against the bounds, which its reference point keeps.
 #pragma once
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -52,17 +53,31 @@ struct SceneShapes {
 
 struct FacingArcs;
 
+// Odd parts of the denominators of obstacles.
+class SharedDenominators {
+public:
+    void add(const Polygon& polygon);
+    // The common one of those that are not long and that a quarter of the vertices have.
+    Int short_part() const;
+
+private:
+    Index vertices = 0;
+    std::array<Index, 3> with_groups{};     // how many have decimals of more than 0, 6, and 12 digits
+    std::map<unsigned, Index> with_factor;  // how many have which factor beyond those of decimals
+};
+
 // Data of the whole scene that the features of its parts need, so that all parts have the numbers of the whole.
 struct WholeScene {
     Int scale = 1;                          // the common denominator
     std::optional<std::array<Int, 4>> box;  // box of its obstacles, grown, times the denominator: xmin, ymin, xmax, ymax
-    Int short_part = 1;                     // see Scene; of its obstacles
+    std::optional<Int> short_part = {};     // see Scene; of its obstacles
     bool is_round = false;                  // true if a radius is above 0
     std::vector<Rounding> robot = {};       // of the robot's polygons: obstacles with arcs have points for them
     // Of some obstacles: the robot's arcs have all the points for these that they have for all.
     std::vector<Rounding> facing = {};
     // Add an obstacle.
     void add(const Polygon& polygon, const Rounding& rounding = {});
+    SharedDenominators shared = {};  // of the obstacles that were added
     std::shared_ptr<FacingArcs> of_robot = {}, of_obstacles = {};  // made by the first obstacle that is rounded
 };
 
