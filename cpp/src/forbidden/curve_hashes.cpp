@@ -10,6 +10,8 @@ namespace cfree {
 
 namespace {
 
+constexpr std::size_t at_once = 64;  // curves that share an inverse
+
 // True if two lines are parallel at every orientation: there is no curve then.
 bool are_parallel(const Scene& scene, const Feature& x, const Feature& y) {
     const auto direction = [&](const Feature& f) {
@@ -28,13 +30,8 @@ CurveHashes::CurveHashes(const Scene& sc, std::size_t count, const std::function
     for (unsigned attempt = 0; unlucky; ++attempt) {
         choose(attempt);
         unlucky = false;
-        for_each_block_in_parallel(threads, count, [&](std::size_t k) {
-            if (unlucky) return;
-            const NamedCurve next = curve(k);
-            const auto hash = of(next);
-            if (!hash && are_parallel(scene, next.on, next.other)) throw std::logic_error("a curve of two parallel surfaces");
-            if (hash) hashes[k] = *hash;
-            else unlucky = true;
+        for_each_block_in_parallel(threads, (count + at_once - 1) / at_once, [&](std::size_t k) {
+            if (!unlucky && !hash(k * at_once, std::min(count, (k + 1) * at_once), curve)) unlucky = true;
         });
     }
 }
@@ -66,18 +63,40 @@ CurveHashes::Line CurveHashes::line(const Feature& f) const {
     return {l.start(turn), l.direction(turn)};
 }
 
-// Hash of a curve; nothing if the two lines are parallel modulo the prime.
-std::optional<CurveHash> CurveHashes::of(const NamedCurve& curve) const {
-    if (curve.other.kind == Kind::vertex_vertex) {
-        const auto p = reduced.obstacles[curve.other.obstacle] - turn(reduced.robot[curve.other.robot]);
-        return CurveHash{p.x.x, p.y.x};
+// Hash some curves, with one inverse for all; false if two lines are parallel modulo the prime.
+bool CurveHashes::hash(std::size_t begin, std::size_t end, const std::function<NamedCurve(std::size_t)>& curve) {
+    struct Meeting {  // of P + t U and Q + s V, t = along / across
+        std::size_t curve;
+        Line line;
+        Residue along, across, before;  // product of all `across` before
+    };
+    std::vector<Meeting> meetings;
+    Residue product = turn.w;
+    for (std::size_t k = begin; k < end; ++k) {
+        const auto [on, other] = curve(k);
+        if (other.kind == Kind::vertex_vertex) {
+            const auto p = reduced.obstacles[other.obstacle] - turn(reduced.robot[other.robot]);
+            hashes[k] = {p.x.x, p.y.x};
+            continue;
+        }
+        const auto [P, U] = line(on);
+        const auto [Q, V] = line(other);
+        const Residue across = cross(U, V);
+        if (across.x == 0) {
+            if (are_parallel(scene, on, other)) throw std::logic_error("a curve of two parallel surfaces");
+            return false;
+        }
+        meetings.push_back({k, {P, U}, cross(Q - P, V), across, product});
+        product = product * across;
     }
-    const auto [P, U] = line(curve.on);
-    const auto [Q, V] = line(curve.other);
-    const Residue inverse{in.inverse(cross(U, V).x), &in};
-    if (inverse.x == 0) return {};
-    const Residue t = cross(Q - P, V) * inverse;
-    return CurveHash{(P.x + t * U.x).x, (P.y + t * U.y).x};
+    Residue inverse{in.inverse(product.x), &in};
+    for (auto m = meetings.rbegin(); m != meetings.rend(); ++m) {
+        const auto& [P, U] = m->line;
+        const Residue t = m->along * (inverse * m->before);
+        hashes[m->curve] = {(P.x + t * U.x).x, (P.y + t * U.y).x};
+        inverse = inverse * m->across;
+    }
+    return true;
 }
 
 bool CurveHashes::may_lie_on(const Feature& surface, const CurveHash& curve) const {

@@ -186,6 +186,7 @@ std::array<Code, 3> Junction::parallels(Index g, Index f) const { return {0, 0, 
 
 // Surfaces of the ends of two parallel edges have one line, and all helices of these ends are on it.
 void Junction::know_parallel(Index g, Index f) {
+    if (known.contains(parallels(g, f))) return;
     know(parallels(g, f));
     const Shape &A = scene.robot, &O = scene.obstacles;
     const auto [a, b] = std::array{A.v[g], A.w[g]};
@@ -354,7 +355,23 @@ int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
     return sign_at(difference(offset, along_it), here()) * sign_at(d, here());
 }
 
+// A double on the line of a surface between two places, if doubles distinguish them.
+std::optional<double> Junction::between(const Feature& line, const Spot& p, const Spot& q) const {
+    const Interval first = range(line, p), last = range(line, q);
+    const double low = std::min(first.hi, last.hi), high = std::max(first.lo, last.lo), middle = 0.5 * (low + high);
+    return low < middle && middle < high ? std::optional(middle) : std::nullopt;
+}
+
 int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after) {
+    const Feature start = end_helix(scene, x, 0);
+    const Index a = start.robot, b = start.obstacle;
+    if (const auto t = between(x, p, q)) {  // the side of y on which that place of x is, from its slope: here it is zero
+        const auto turned = times(Approx{*t, std::abs(*t)}, directions_cross<Approx>(y, x));
+        const Filtered g = filtered(sum(on(y).offset_trig<Approx>(a, b), turned));
+        const double from = (g.a - g.b) * lo + g.c, to = (g.a - g.b) * hi + g.c;  // half of it, by tau
+        if (std::min(from, to) > g.err) return after ? 1 : -1;
+        if (std::max(from, to) < -g.err) return after ? -1 : 1;
+    }
     // a rational place on x between the two
     const bool upwards = order(x, p, q) < 0;
     const Spot &first = upwards ? p : q, &last = upwards ? q : p;
@@ -366,8 +383,6 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
         if (above && below) break;
         (above ? high : low) = n;
     }
-    const Feature start = end_helix(scene, x, 0);
-    const Index a = start.robot, b = start.obstacle;
     const Trig<Int> g = sum(times(d, on(y).offset_trig<Int>(a, b)), times(n, directions_cross<Int>(y, x)));
     const Poly offset = polynomial(g);
     if (offset.empty()) return 0;

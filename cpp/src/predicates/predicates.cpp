@@ -93,8 +93,17 @@ Coefficients<T> Predicates::coefficients(const Trig<T>& f) const {
 
 template <class T>
 Coefficients<T> Predicates::coefficients(const Feature& first, const Feature& second) const {
-    if constexpr (std::is_same_v<T, Ball>)
-        if (scene.is_round) return round_orders().in_balls(first, second);
+    if constexpr (!std::is_same_v<T, Ball>) return computed<T>(first, second);
+    else {
+        if (!last || last->first != first || last->second != second)
+            last = std::make_unique<const Known>(
+                Known{first, second, scene.is_round ? round_orders().in_balls(first, second) : computed<Ball>(first, second)});
+        return last->p;
+    }
+}
+
+template <class T>
+Coefficients<T> Predicates::computed(const Feature& first, const Feature& second) const {
     if (second.kind == Kind::none) {
         if (first.kind == Kind::edge_edge) return coefficients(parallel_trig<T>(first.robot, first.obstacle));
         return coefficients(offset_trig<T>(first.robot, first.obstacle));

@@ -44,6 +44,7 @@ inline Ball operator-(const Ball& x) { return {-x.hi, -x.lo, x.radius}; }
 
 inline Ball operator+(const Ball& x, const Ball& y) {
     const auto [s, e] = two_sum(x.hi, y.hi);
+    if (x.lo == 0 && y.lo == 0) return {s, e, (x.radius + y.radius) * radius_growth};
     const auto [t, f] = two_sum(x.lo, y.lo);
     const auto [c, g] = two_sum(e, t);
     const auto [h, l] = two_sum(s, c);  // h + l + f + g
@@ -55,9 +56,19 @@ inline Ball operator+(const Ball& x, const Ball& y) {
 inline Ball operator-(const Ball& x, const Ball& y) { return x + -y; }
 
 inline Ball operator*(const Ball& x, const Ball& y) {
+    if (x.lo == 0 && y.lo != 0) return y * x;
     double lost = 0;
     auto [hi, lo] = two_product(x.hi, y.hi, lost);
-    if (x.lo != 0 || y.lo != 0) {
+    if (x.lo != 0 && y.lo == 0) {
+        const auto [r, g] = two_product(x.lo, y.hi, lost);
+        const auto [b, d] = two_sum(lo, r);
+        const auto [n, k1] = two_sum(g, d);
+        const auto [p, l] = two_sum(hi, b);
+        const auto [m, k2] = two_sum(l, n);
+        lost += std::abs(k1) + std::abs(k2);
+        const auto [s, e] = two_sum(p, m);
+        hi = s, lo = e;
+    } else if (x.lo != 0) {
         const auto [q, f] = two_product(x.hi, y.lo, lost);
         const auto [r, g] = two_product(x.lo, y.hi, lost);
         const auto [z, h] = two_product(x.lo, y.lo, lost);

@@ -42,7 +42,7 @@ private:
         Vec<Residue> P, U;
     };
     void choose(unsigned attempt);
-    std::optional<CurveHash> of(const NamedCurve& curve) const;
+    bool hash(std::size_t begin, std::size_t end, const std::function<NamedCurve(std::size_t)>& curve);
     Line line(const Feature& surface) const;
 
     const Scene& scene;

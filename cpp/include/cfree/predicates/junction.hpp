@@ -72,6 +72,7 @@ private:
     template <class T>
     std::array<Trig<T>, 2> position(const Feature& line, const Spot& p) const;
     Interval range(const Filtered& f) const;
+    std::optional<double> between(const Feature& line, const Spot& p, const Spot& q) const;
     RealRoot& here() const;
     const Ball* dyadic() const;
     const Ball* narrow() const;

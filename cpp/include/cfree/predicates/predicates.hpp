@@ -238,6 +238,8 @@ private:
     Coefficients<T> coefficients(const Trig<T>& f) const;
     template <class T>
     Coefficients<T> coefficients(const Feature& first, const Feature& second) const;
+    template <class T>
+    Coefficients<T> computed(const Feature& first, const Feature& second) const;
     Poly polynomial(const Trig<Int>& f) const { return Poly(coefficients(f)); }
     Poly polynomial(const Feature& first, const Feature& second) const;
     struct Form;
@@ -270,6 +272,11 @@ private:
     Surface surface;
     double kappa;
     std::vector<std::array<Dyadic, 2>> fine;
+    struct Known {
+        Feature first, second;
+        Coefficients<Ball> p;
+    };
+    mutable std::unique_ptr<const Known> last;  // the polynomial asked for last: its roots are compared next
     std::vector<Narrowed> recent;  // table by features, as one angle is compared with many; empty at first
     std::size_t misses = 0;        // misses since the last resize
     mutable std::unique_ptr<const RoundOrders> made_orders;  // none until asked for
