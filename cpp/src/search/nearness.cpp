@@ -117,6 +117,13 @@ bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, W
     if (0 <= t && t <= ex * ex + ey * ey) return true;  // a vertex ahead of an edge
     double best = within * within;
     bool near = false;
+    // A vertex is at least as far from the other piece as from the edge's line, and by the gap farther if it is on the edge's side.
+    const Vec<double> n = found.normal;
+    const double line = n.x * xs[edge] + n.y * ys[edge];
+    const auto may_be_nearest = [&](double x, double y, bool robots) {
+        const double ahead = n.x * x + n.y * y - line, least = (robots ? ahead : -ahead) + (robots == of_robot ? parted : 0);
+        return least <= 0 || least * least < best;
+    };
     const auto closest = [&](double x, double y, double px, double py, double qx, double qy, bool robots) {
         const double ux = qx - px, uy = qy - py, vx = x - px, vy = y - py;
         const double share = std::clamp((vx * ux + vy * uy) / std::max(ux * ux + uy * uy, 1e-300), 0.0, 1.0);
@@ -127,16 +134,20 @@ bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, W
         found.normal = robots ? Vec<double>{cx, cy} : Vec<double>{-cx, -cy};
         found.arm = {x - placed.px, y - placed.py};
     };
-    for (Index v = a0; v < a1; ++v)
+    for (Index v = a0; v < a1; ++v) {
+        if (!may_be_nearest(placed.x[v], placed.y[v], true)) continue;
         for (Index k = b0; k < b1; ++k) {
             const Index next = k + 1 < b1 ? k + 1 : b0;
             closest(placed.x[v], placed.y[v], obstacles.x[k], obstacles.y[k], obstacles.x[next], obstacles.y[next], true);
         }
-    for (Index v = b0; v < b1; ++v)
+    }
+    for (Index v = b0; v < b1; ++v) {
+        if (!may_be_nearest(obstacles.x[v], obstacles.y[v], false)) continue;
         for (Index k = a0; k < a1; ++k) {
             const Index next = k + 1 < a1 ? k + 1 : a0;
             closest(obstacles.x[v], obstacles.y[v], placed.x[k], placed.y[k], placed.x[next], placed.y[next], false);
         }
+    }
     if (!near) return false;
     found.distance = std::sqrt(best);
     const double scale = 1 / std::max(found.distance, 1e-300);
