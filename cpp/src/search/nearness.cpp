@@ -35,9 +35,11 @@ Nearness::Pieces Nearness::pieces_of(const Shape& s) {
         const auto begin_at = static_cast<std::size_t>(p.first.back());
         Box box;
         for (std::size_t m = begin_at; m < p.x.size(); ++m) box.add(p.x[m], p.y[m]);
-        p.disc.push_back({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), 0});
+        p.disc.push_back({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), 0, {}});
         for (std::size_t m = begin_at; m < p.x.size(); ++m)
             p.disc.back().radius = std::max(p.disc.back().radius, norm(p.x[m] - p.disc.back().x, p.y[m] - p.disc.back().y));
+        const double share = 1 / static_cast<double>(p.x.size() - begin_at);
+        for (std::size_t m = begin_at; m < p.x.size(); ++m) p.disc.back().inner.x += share * p.x[m], p.disc.back().inner.y += share * p.y[m];
         p.first.push_back(static_cast<Index>(p.x.size()));
     }
     return p;
@@ -92,15 +94,27 @@ bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, W
         if (side > parted) parted = side, x0 = x, y0 = y, edge = k, of_robot = robots, found = {side, {nx, ny}, {x - placed.px, y - placed.py}};
         return side >= within;
     };
-    for (Index k = b0; k < b1; ++k) {
+    // No line parts pieces farther than it is from a point inside the other one: most lines need no more than that.
+    const auto height = [](const Pieces& s, Index k, const Vec<double>& p) { return s.nx[k] * p.x + s.ny[k] * p.y - s.h[k]; };
+    const Vec<double> in_robot{placed.px + (placed.c * a.inner.x - placed.s * a.inner.y), placed.py + (placed.s * a.inner.x + placed.c * a.inner.y)};
+    const auto is_parted_by = [&](Index k) {
         const double nx = obstacles.nx[k], ny = obstacles.ny[k];
         double side = HUGE_VAL;
         Index nearest = a0;
         for (Index v = a0; v < a1; ++v)
             if (const double d = nx * placed.x[v] + ny * placed.y[v]; d < side) side = d, nearest = v;
-        if (parts(side - obstacles.h[k], nx, ny, placed.x[nearest], placed.y[nearest], k, false)) return false;
-    }
+        return parts(side - obstacles.h[k], nx, ny, placed.x[nearest], placed.y[nearest], k, false);
+    };
+    Index farthest = b0;
+    double most = -HUGE_VAL;
+    for (Index k = b0; k < b1; ++k)
+        if (const double x = height(obstacles, k, in_robot); x > most) most = x, farthest = k;
+    if (is_parted_by(farthest)) return false;
+    for (Index k = b0; k < b1; ++k)
+        if (k != farthest && height(obstacles, k, in_robot) > parted && is_parted_by(k)) return false;
+    const Vec<double> in_obstacle = placed.seen_from(b.inner.x - placed.px, b.inner.y - placed.py);
     for (Index k = a0; k < a1; ++k) {
+        if (height(robot, k, in_obstacle) <= parted) continue;
         const double nx = placed.c * robot.nx[k] - placed.s * robot.ny[k], ny = placed.s * robot.nx[k] + placed.c * robot.ny[k];
         const double h = nx * placed.x[k] + ny * placed.y[k];
         double side = HUGE_VAL;
@@ -124,6 +138,7 @@ bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, W
         const double ahead = n.x * x + n.y * y - line, least = (robots ? ahead : -ahead) + (robots == of_robot ? parted : 0);
         return least <= 0 || least * least < best;
     };
+    const auto may_be_near = [&](double ahead) { return ahead > -least_distance && (ahead <= 0 || ahead * ahead < best); };  // of an edge
     const auto closest = [&](double x, double y, double px, double py, double qx, double qy, bool robots) {
         const double ux = qx - px, uy = qy - py, vx = x - px, vy = y - py;
         const double share = std::clamp((vx * ux + vy * uy) / std::max(ux * ux + uy * uy, 1e-300), 0.0, 1.0);
@@ -137,13 +152,16 @@ bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, W
     for (Index v = a0; v < a1; ++v) {
         if (!may_be_nearest(placed.x[v], placed.y[v], true)) continue;
         for (Index k = b0; k < b1; ++k) {
+            if (!may_be_near(height(obstacles, k, {placed.x[v], placed.y[v]}))) continue;
             const Index next = k + 1 < b1 ? k + 1 : b0;
             closest(placed.x[v], placed.y[v], obstacles.x[k], obstacles.y[k], obstacles.x[next], obstacles.y[next], true);
         }
     }
     for (Index v = b0; v < b1; ++v) {
         if (!may_be_nearest(obstacles.x[v], obstacles.y[v], false)) continue;
+        const Vec<double> p = placed.seen_from(obstacles.x[v] - placed.px, obstacles.y[v] - placed.py);
         for (Index k = a0; k < a1; ++k) {
+            if (!may_be_near(height(robot, k, p))) continue;
             const Index next = k + 1 < a1 ? k + 1 : a0;
             closest(obstacles.x[v], obstacles.y[v], placed.x[k], placed.y[k], placed.x[next], placed.y[next], false);
         }

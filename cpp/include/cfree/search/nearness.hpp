@@ -42,8 +42,9 @@ private:
     struct Pieces {  // edge k from vertex k, with its outward unit normal n and n . vertex
         std::vector<Index> first;
         std::vector<double> x, y, nx, ny, h;
-        struct Disc {  // disc around a piece
+        struct Disc {  // disc around a piece, and a point in it
             double x, y, radius;
+            Vec<double> inner;
         };
         std::vector<Disc> disc;
         Index count() const { return static_cast<Index>(first.size()) - 1; }
