@@ -70,7 +70,10 @@ struct Nearness::Placed {
             y[k] = py + (s * p.x[k] + c * p.y[k]);
         }
     }
-    Vec<double> seen_from(double vx, double vy) const { return {c * vx + s * vy, c * vy - s * vx}; }
+    Vec<double> turned(const Vec<double>& v) const { return {c * v.x - s * v.y, s * v.x + c * v.y}; }
+    Vec<double> turned_back(const Vec<double>& v) const { return {c * v.x + s * v.y, c * v.y - s * v.x}; }
+    Vec<double> at(const Vec<double>& p) const { return {px + (c * p.x - s * p.y), py + (s * p.x + c * p.y)}; }
+    Vec<double> seen(const Vec<double>& p) const { return turned_back({p.x - px, p.y - py}); }  // from the robot
 };
 
 template <class F>
@@ -80,90 +83,107 @@ void Nearness::query(const Placed& placed, Index i, double within, F&& report) c
     tree->query({box.x0 - within, box.y0 - within, box.x1 + within, box.y1 + within}, report);
 }
 
-bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, Witness& found) const {
-    const Index a0 = robot.first[i], a1 = robot.first[i + 1], b0 = obstacles.first[j], b1 = obstacles.first[j + 1];
-    const auto &a = robot.disc[i], &b = obstacles.disc[j];
-    const double ax = placed.px + (placed.c * a.x - placed.s * a.y), ay = placed.py + (placed.s * a.x + placed.c * a.y);
-    const double dx = ax - b.x, dy = ay - b.y, between = within + a.radius + b.radius;
-    if (dx * dx + dy * dy >= between * between) return false;
-    // greatest separation by the line of an edge
-    double parted = -HUGE_VAL, x0 = 0, y0 = 0;
+// Distance of a point in the piece's own frame ahead of an edge's line.
+double Nearness::Pieces::ahead(Index edge, const Vec<double>& p) const { return nx[edge] * p.x + ny[edge] * p.y - h[edge]; }
+
+// The widest gap that the line of an edge parts two pieces by, and the vertex ahead of it.
+struct Nearness::Gap {
+    double width = -HUGE_VAL;
+    Vec<double> normal{}, vertex{};  // normal: from the obstacle to the robot
     Index edge = 0;
     bool of_robot = false;
-    const auto parts = [&](double side, double nx, double ny, double x, double y, Index k, bool robots) {
-        if (side > parted) parted = side, x0 = x, y0 = y, edge = k, of_robot = robots, found = {side, {nx, ny}, {x - placed.px, y - placed.py}};
-        return side >= within;
-    };
-    // No line parts pieces farther than it is from a point inside the other one: most lines need no more than that.
-    const auto height = [](const Pieces& s, Index k, const Vec<double>& p) { return s.nx[k] * p.x + s.ny[k] * p.y - s.h[k]; };
-    const Vec<double> in_robot{placed.px + (placed.c * a.inner.x - placed.s * a.inner.y), placed.py + (placed.s * a.inner.x + placed.c * a.inner.y)};
-    const auto is_parted_by = [&](Index k) {
-        const double nx = obstacles.nx[k], ny = obstacles.ny[k];
+};
+
+// False if it is at least `within`. No line parts pieces farther than it is from a point inside the other one: most lines need
+// no more than that.
+bool Nearness::is_gap_narrower(const Placed& placed, Index i, Index j, double within, Gap& gap) const {
+    const Index a0 = robot.first[i], a1 = robot.first[i + 1], b0 = obstacles.first[j], b1 = obstacles.first[j + 1];
+    const Vec<double> in_robot = placed.at(robot.disc[i].inner), in_obstacle = placed.seen(obstacles.disc[j].inner);
+    const auto is_wide = [&](Index k, const Vec<double>& n, double h, bool of_robot) {
+        const auto &x = of_robot ? obstacles.x : placed.x, &y = of_robot ? obstacles.y : placed.y;
+        const Index begin = of_robot ? b0 : a0, end = of_robot ? b1 : a1;
         double side = HUGE_VAL;
-        Index nearest = a0;
-        for (Index v = a0; v < a1; ++v)
-            if (const double d = nx * placed.x[v] + ny * placed.y[v]; d < side) side = d, nearest = v;
-        return parts(side - obstacles.h[k], nx, ny, placed.x[nearest], placed.y[nearest], k, false);
+        Index nearest = begin;
+        for (Index v = begin; v < end; ++v)
+            if (const double d = n.x * x[v] + n.y * y[v]; d < side) side = d, nearest = v;
+        const double width = side - h;
+        if (width > gap.width) gap = {width, of_robot ? Vec<double>{-n.x, -n.y} : n, {x[nearest], y[nearest]}, k, of_robot};
+        return width >= within;
     };
+    const auto is_wide_at_obstacle = [&](Index k) { return is_wide(k, {obstacles.nx[k], obstacles.ny[k]}, obstacles.h[k], false); };
     Index farthest = b0;
     double most = -HUGE_VAL;
     for (Index k = b0; k < b1; ++k)
-        if (const double x = height(obstacles, k, in_robot); x > most) most = x, farthest = k;
-    if (is_parted_by(farthest)) return false;
+        if (const double ahead = obstacles.ahead(k, in_robot); ahead > most) most = ahead, farthest = k;
+    if (is_wide_at_obstacle(farthest)) return false;
     for (Index k = b0; k < b1; ++k)
-        if (k != farthest && height(obstacles, k, in_robot) > parted && is_parted_by(k)) return false;
-    const Vec<double> in_obstacle = placed.seen_from(b.inner.x - placed.px, b.inner.y - placed.py);
+        if (k != farthest && obstacles.ahead(k, in_robot) > gap.width && is_wide_at_obstacle(k)) return false;
     for (Index k = a0; k < a1; ++k) {
-        if (height(robot, k, in_obstacle) <= parted) continue;
-        const double nx = placed.c * robot.nx[k] - placed.s * robot.ny[k], ny = placed.s * robot.nx[k] + placed.c * robot.ny[k];
-        const double h = nx * placed.x[k] + ny * placed.y[k];
-        double side = HUGE_VAL;
-        Index nearest = b0;
-        for (Index v = b0; v < b1; ++v)
-            if (const double d = nx * obstacles.x[v] + ny * obstacles.y[v]; d < side) side = d, nearest = v;
-        if (parts(side - h, -nx, -ny, obstacles.x[nearest], obstacles.y[nearest], k, true)) return false;
+        if (robot.ahead(k, in_obstacle) <= gap.width) continue;
+        const Vec<double> n = placed.turned({robot.nx[k], robot.ny[k]});
+        if (is_wide(k, n, n.x * placed.x[k] + n.y * placed.y[k], true)) return false;
     }
-    if (parted <= least_distance) return true;  // they touch or overlap
-    const Index after = edge + 1 < (of_robot ? a1 : b1) ? edge + 1 : of_robot ? a0 : b0;
-    const auto& xs = of_robot ? placed.x : obstacles.x;
-    const auto& ys = of_robot ? placed.y : obstacles.y;
-    const double ex = xs[after] - xs[edge], ey = ys[after] - ys[edge], t = (x0 - xs[edge]) * ex + (y0 - ys[edge]) * ey;
-    if (0 <= t && t <= ex * ex + ey * ey) return true;  // a vertex ahead of an edge
+    return true;
+}
+
+bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, Witness& found) const {
+    const auto &a = robot.disc[i], &b = obstacles.disc[j];
+    const Vec<double> centre = placed.at({a.x, a.y});
+    const double dx = centre.x - b.x, dy = centre.y - b.y, between = within + a.radius + b.radius;
+    if (dx * dx + dy * dy >= between * between) return false;
+    Gap gap;
+    if (!is_gap_narrower(placed, i, j, within, gap)) return false;
+    found = {gap.width, gap.normal, {gap.vertex.x - placed.px, gap.vertex.y - placed.py}};
+    if (gap.width <= least_distance) return true;  // they touch or overlap
+    const Index begin = gap.of_robot ? robot.first[i] : obstacles.first[j], end = gap.of_robot ? robot.first[i + 1] : obstacles.first[j + 1];
+    const Index after = gap.edge + 1 < end ? gap.edge + 1 : begin;
+    const auto& xs = gap.of_robot ? placed.x : obstacles.x;
+    const auto& ys = gap.of_robot ? placed.y : obstacles.y;
+    const double ex = xs[after] - xs[gap.edge], ey = ys[after] - ys[gap.edge];
+    const double t = (gap.vertex.x - xs[gap.edge]) * ex + (gap.vertex.y - ys[gap.edge]) * ey;
+    if (0 <= t && t <= ex * ex + ey * ey) return true;  // the vertex is ahead of the edge itself
+    return are_features_near(placed, i, j, within, gap, found);
+}
+
+// Closest vertex and edge of two pieces, which are apart.
+bool Nearness::are_features_near(const Placed& placed, Index i, Index j, double within, const Gap& gap, Witness& found) const {
+    const Index a0 = robot.first[i], a1 = robot.first[i + 1], b0 = obstacles.first[j], b1 = obstacles.first[j + 1];
     double best = within * within;
     bool near = false;
-    // A vertex is at least as far from the other piece as from the edge's line, and by the gap farther if it is on the edge's side.
-    const Vec<double> n = found.normal;
-    const double line = n.x * xs[edge] + n.y * ys[edge];
-    const auto may_be_nearest = [&](double x, double y, bool robots) {
-        const double ahead = n.x * x + n.y * y - line, least = (robots ? ahead : -ahead) + (robots == of_robot ? parted : 0);
+    // A vertex is at least as far from the other piece as from the line of the gap, and by the gap farther on the line's own side.
+    const double line = gap.of_robot ? gap.normal.x * placed.x[gap.edge] + gap.normal.y * placed.y[gap.edge]
+                                     : gap.normal.x * obstacles.x[gap.edge] + gap.normal.y * obstacles.y[gap.edge];
+    const auto may_be_nearest = [&](double x, double y, bool of_robot) {
+        const double beyond = gap.normal.x * x + gap.normal.y * y - line;
+        const double least = (of_robot ? beyond : -beyond) + (of_robot == gap.of_robot ? gap.width : 0);
         return least <= 0 || least * least < best;
     };
     const auto may_be_near = [&](double ahead) { return ahead > -least_distance && (ahead <= 0 || ahead * ahead < best); };  // of an edge
-    const auto closest = [&](double x, double y, double px, double py, double qx, double qy, bool robots) {
+    const auto compare = [&](double x, double y, double px, double py, double qx, double qy, bool of_robot) {
         const double ux = qx - px, uy = qy - py, vx = x - px, vy = y - py;
         const double share = std::clamp((vx * ux + vy * uy) / std::max(ux * ux + uy * uy, 1e-300), 0.0, 1.0);
         const double cx = vx - share * ux, cy = vy - share * uy, square = cx * cx + cy * cy;
         if (square >= best) return;
         best = square, near = true;
-        if (!robots) x = px + share * ux, y = py + share * uy;
-        found.normal = robots ? Vec<double>{cx, cy} : Vec<double>{-cx, -cy};
+        if (!of_robot) x = px + share * ux, y = py + share * uy;
+        found.normal = of_robot ? Vec<double>{cx, cy} : Vec<double>{-cx, -cy};
         found.arm = {x - placed.px, y - placed.py};
     };
     for (Index v = a0; v < a1; ++v) {
         if (!may_be_nearest(placed.x[v], placed.y[v], true)) continue;
         for (Index k = b0; k < b1; ++k) {
-            if (!may_be_near(height(obstacles, k, {placed.x[v], placed.y[v]}))) continue;
+            if (!may_be_near(obstacles.ahead(k, {placed.x[v], placed.y[v]}))) continue;
             const Index next = k + 1 < b1 ? k + 1 : b0;
-            closest(placed.x[v], placed.y[v], obstacles.x[k], obstacles.y[k], obstacles.x[next], obstacles.y[next], true);
+            compare(placed.x[v], placed.y[v], obstacles.x[k], obstacles.y[k], obstacles.x[next], obstacles.y[next], true);
         }
     }
     for (Index v = b0; v < b1; ++v) {
         if (!may_be_nearest(obstacles.x[v], obstacles.y[v], false)) continue;
-        const Vec<double> p = placed.seen_from(obstacles.x[v] - placed.px, obstacles.y[v] - placed.py);
+        const Vec<double> p = placed.seen({obstacles.x[v], obstacles.y[v]});
         for (Index k = a0; k < a1; ++k) {
-            if (!may_be_near(height(robot, k, p))) continue;
+            if (!may_be_near(robot.ahead(k, p))) continue;
             const Index next = k + 1 < a1 ? k + 1 : a0;
-            closest(obstacles.x[v], obstacles.y[v], placed.x[k], placed.y[k], placed.x[next], placed.y[next], false);
+            compare(obstacles.x[v], obstacles.y[v], placed.x[k], placed.y[k], placed.x[next], placed.y[next], false);
         }
     }
     if (!near) return false;
@@ -249,7 +269,7 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
                     return;
                 }
                 if (!holds) return;
-                const Vec<double> n = w.normal, r = m.seen_from(n.x, n.y);
+                const Vec<double> n = w.normal, r = m.turned_back(n);
                 double robots = HUGE_VAL, others = -HUGE_VAL, robots_own = HUGE_VAL, others_own = -HUGE_VAL;
                 for (Index v = begin; v < end; ++v) {
                     const double bulge = norm(m.x[v] - 0.5 * (p.x[v] + q.x[v]), m.y[v] - 0.5 * (p.y[v] + q.y[v]));
@@ -259,8 +279,7 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
                 for (Index v = obstacles.first[j]; v < obstacles.first[j + 1]; ++v) {
                     const double x = obstacles.x[v], y = obstacles.y[v];
                     others = std::max(others, n.x * x + n.y * y);
-                    const auto s = p.seen_from(x - p.px, y - p.py), t = q.seen_from(x - q.px, y - q.py);
-                    const auto u = m.seen_from(x - m.px, y - m.py);
+                    const auto s = p.seen({x, y}), t = q.seen({x, y}), u = m.seen({x, y});
                     const double bulge = norm(u.x - 0.5 * (s.x + t.x), u.y - 0.5 * (s.y + t.y));
                     others_own = std::max(others_own, std::max(r.x * s.x + r.y * s.y, r.x * t.x + r.y * t.y) + bulge);
                 }

@@ -47,12 +47,16 @@ private:
             Vec<double> inner;
         };
         std::vector<Disc> disc;
+        double ahead(Index edge, const Vec<double>& p) const;
         Index count() const { return static_cast<Index>(first.size()) - 1; }
     };
     static Pieces pieces_of(const Shape& shape);
     struct Placed;
+    struct Gap;
     double distance(const Placed& placed, double within) const;
     bool are_near(const Placed& placed, Index i, Index j, double within, Witness& found) const;
+    bool is_gap_narrower(const Placed& placed, Index i, Index j, double within, Gap& gap) const;
+    bool are_features_near(const Placed& placed, Index i, Index j, double within, const Gap& gap, Witness& found) const;
     template <class F>
     void query(const Placed& placed, Index i, double within, F&& report) const;
 
