@@ -149,8 +149,10 @@ class Owners:
     def polygon_of_end(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), writable=False)]: ...
 
 class WholeScene:
-    def __init__(self, scale: int, box: Sequence[int] | None, short_part: int, robot: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None, facing: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None) -> None:
-        """Without roundings of the robot, none of the shapes is rounded."""
+    def __init__(self, scale: int, box: Sequence[int] | None, short_part: int | None, robot: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None, facing: Sequence[tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]]] | None = None) -> None:
+        """
+        Without roundings of the robot, none of the shapes is rounded. Without a short part, it is that of the obstacles added.
+        """
 
     def add(self, polygon: Polygon, rounding: tuple[fractions.Fraction, Sequence[Sequence[fractions.Fraction]]] | None = None) -> None: ...
 

@@ -659,7 +659,7 @@ void SharedDenominators::add(const Polygon& polygon) {
 Int SharedDenominators::short_part() const {
     const auto is_shared = [&](Index count) { return count > 0 && 4 * count >= vertices; };
     Int result = 1;
-    include_short(result, {static_cast<std::size_t>(std::ranges::count_if(with_groups, is_shared))});
+    include_short(result, {static_cast<std::size_t>(std::count_if(with_groups.begin(), with_groups.end(), is_shared))});
     for (const auto& [factor, count] : with_factor)
         if (is_shared(count)) include_short(result, {0, factor});
     return result;
