@@ -87,7 +87,7 @@ def boundary(
     Time is about linear in the number of pairs of a patch and a pillar near it; memory about 90 bytes a trapezoid.
 
     Nothing is taken from the boundary given as `reuse` among round shapes, or if it was read from a file or unpickled;
-    if a quarter of the obstacles' vertices has become decimals, or decimals of more than six digits, or simple fractions
+    if a quarter of the obstacles' vertices has become decimals, decimals of more than six digits, or simple fractions
     such as thirds; or if the origin of a scene far from 0 has moved. Doubles, and shapes turned by any angle, change
     nothing elsewhere. `Boundary.kept_patches` counts the patches that were taken.
 
