@@ -16,36 +16,56 @@ constexpr double nearly = 0.95;
 constexpr double looks_apart = 0.125;  // distance of sampled poses, in the robot's radii
 constexpr int most_counted = 32;
 constexpr double rounding = 0x1p-40;  // per size of the scene
+constexpr Index few_parts = 3;        // of a robot: all are tested against all obstacles near by, else those near its hull
 
 }  // namespace
 
+void Nearness::Pieces::add(const std::vector<Vec<double>>& ring) {
+    Box box;
+    Disc next{};
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Vec<double> p = ring[k], e = ring[k + 1 < ring.size() ? k + 1 : 0] - p;
+        const double length = std::max(norm(e.x, e.y), 1e-300);
+        x.push_back(p.x), y.push_back(p.y);
+        nx.push_back(e.y / length), ny.push_back(-e.x / length);
+        h.push_back(nx.back() * p.x + ny.back() * p.y);
+        box.add(p.x, p.y);
+        next.inner.x += p.x / static_cast<double>(ring.size()), next.inner.y += p.y / static_cast<double>(ring.size());
+    }
+    next.x = 0.5 * (box.x0 + box.x1), next.y = 0.5 * (box.y0 + box.y1);
+    for (const auto& p : ring) next.radius = std::max(next.radius, norm(p.x - next.x, p.y - next.y));
+    disc.push_back(next);
+    first.push_back(static_cast<Index>(x.size()));
+}
+
 Nearness::Pieces Nearness::pieces_of(const Shape& s) {
     Pieces p;
-    p.first.push_back(0);
     for (Index k = 0; k < s.pieces(); ++k) {
-        const Index begin = s.piece[k], end = s.piece[k + 1];
-        if (end - begin < 3 || s.piece_layer[k] != 0) continue;
-        for (Index m = begin; m < end; ++m) {
-            const Index v = s.piece_vertex[m], w = s.piece_vertex[m + 1 < end ? m + 1 : begin];
-            const double ex = s.x[w] - s.x[v], ey = s.y[w] - s.y[v], length = std::max(norm(ex, ey), 1e-300);
-            p.x.push_back(s.x[v]), p.y.push_back(s.y[v]);
-            p.nx.push_back(ey / length), p.ny.push_back(-ex / length);
-            p.h.push_back(p.nx.back() * s.x[v] + p.ny.back() * s.y[v]);
-        }
-        const auto begin_at = static_cast<std::size_t>(p.first.back());
-        Box box;
-        for (std::size_t m = begin_at; m < p.x.size(); ++m) box.add(p.x[m], p.y[m]);
-        p.disc.push_back({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), 0, {}});
-        for (std::size_t m = begin_at; m < p.x.size(); ++m)
-            p.disc.back().radius = std::max(p.disc.back().radius, norm(p.x[m] - p.disc.back().x, p.y[m] - p.disc.back().y));
-        const double share = 1 / static_cast<double>(p.x.size() - begin_at);
-        for (std::size_t m = begin_at; m < p.x.size(); ++m) p.disc.back().inner.x += share * p.x[m], p.disc.back().inner.y += share * p.y[m];
-        p.first.push_back(static_cast<Index>(p.x.size()));
+        if (s.piece[k + 1] - s.piece[k] < 3 || s.piece_layer[k] != 0) continue;
+        std::vector<Vec<double>> ring;
+        for (Index m = s.piece[k]; m < s.piece[k + 1]; ++m) ring.push_back({s.x[s.piece_vertex[m]], s.y[s.piece_vertex[m]]});
+        p.add(ring);
     }
     return p;
 }
 
-Nearness::Nearness(const Scene& scene, double slack) : robot(pieces_of(scene.robot)), obstacles(pieces_of(scene.obstacles)) {
+// Convex hull, counter-clockwise (Andrew's monotone chains, 1979).
+static std::vector<Vec<double>> hull_of(std::vector<Vec<double>> points) {
+    std::sort(points.begin(), points.end(), [](const auto& p, const auto& q) { return p.x < q.x || (p.x == q.x && p.y < q.y); });
+    std::vector<Vec<double>> hull;
+    for (const bool is_upper : {false, true}) {
+        const std::size_t least = hull.size() + 1;
+        for (const auto& p : points) {
+            while (hull.size() > least && !(cross(hull.back() - hull[hull.size() - 2], p - hull.back()) > 0)) hull.pop_back();
+            hull.push_back(p);
+        }
+        if (!is_upper) std::reverse(points.begin(), points.end());
+        hull.pop_back();
+    }
+    return hull;
+}
+
+Nearness::Nearness(const Scene& scene, double slack) : robot(pieces_of(scene.robot)), obstacles(pieces_of(scene.obstacles)), robot_parts(robot.count()) {
     std::vector<Box> boxes(static_cast<std::size_t>(obstacles.count()));
     double size = 0;
     for (Index j = 0; j < obstacles.count(); ++j)
@@ -56,6 +76,10 @@ Nearness::Nearness(const Scene& scene, double slack) : robot(pieces_of(scene.rob
     least_distance = rounding * size + slack;
     for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, norm(robot.x[k], robot.y[k]));
     tree = std::make_unique<BoxTree>(std::move(boxes));
+    if (robot_parts <= few_parts) return;
+    std::vector<Vec<double>> points;
+    for (std::size_t k = 0; k < robot.x.size(); ++k) points.push_back({robot.x[k], robot.y[k]});
+    robot.add(hull_of(std::move(points)));
 }
 Nearness::~Nearness() = default;
 
@@ -76,13 +100,6 @@ struct Nearness::Placed {
     Vec<double> seen(const Vec<double>& p) const { return turned_back({p.x - px, p.y - py}); }  // from the robot
 };
 
-template <class F>
-void Nearness::query(const Placed& placed, Index i, double within, F&& report) const {
-    Box box;
-    for (Index k = robot.first[i]; k < robot.first[i + 1]; ++k) box.add(placed.x[k], placed.y[k]);
-    tree->query({box.x0 - within, box.y0 - within, box.x1 + within, box.y1 + within}, report);
-}
-
 // Distance of a point in the piece's own frame ahead of an edge's line.
 double Nearness::Pieces::ahead(Index edge, const Vec<double>& p) const { return nx[edge] * p.x + ny[edge] * p.y - h[edge]; }
 
@@ -94,9 +111,13 @@ struct Nearness::Gap {
     bool of_robot = false;
 };
 
-// False if it is at least `within`. No line parts pieces farther than it is from a point inside the other one: most lines need
-// no more than that.
+// False if the gap, or that of the discs around the pieces, is at least `within`. No line parts pieces farther than it is from a
+// point inside the other one: most lines need no more than that.
 bool Nearness::is_gap_narrower(const Placed& placed, Index i, Index j, double within, Gap& gap) const {
+    const auto &a = robot.disc[i], &b = obstacles.disc[j];
+    const Vec<double> between = placed.at({a.x, a.y}) - Vec<double>{b.x, b.y};
+    const double most_apart = within + a.radius + b.radius;
+    if (dot(between, between) >= most_apart * most_apart) return false;
     const Index a0 = robot.first[i], a1 = robot.first[i + 1], b0 = obstacles.first[j], b1 = obstacles.first[j + 1];
     const Vec<double> in_robot = placed.at(robot.disc[i].inner), in_obstacle = placed.seen(obstacles.disc[j].inner);
     const auto is_wide = [&](Index k, const Vec<double>& n, double h, bool of_robot) {
@@ -127,10 +148,6 @@ bool Nearness::is_gap_narrower(const Placed& placed, Index i, Index j, double wi
 }
 
 bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, Witness& found) const {
-    const auto &a = robot.disc[i], &b = obstacles.disc[j];
-    const Vec<double> centre = placed.at({a.x, a.y});
-    const double dx = centre.x - b.x, dy = centre.y - b.y, between = within + a.radius + b.radius;
-    if (dx * dx + dy * dy >= between * between) return false;
     Gap gap;
     if (!is_gap_narrower(placed, i, j, within, gap)) return false;
     found = {gap.width, gap.normal, {gap.vertex.x - placed.px, gap.vertex.y - placed.py}};
@@ -193,14 +210,26 @@ bool Nearness::are_features_near(const Placed& placed, Index i, Index j, double 
     return true;
 }
 
+// Obstacles that may be nearer than `within`.
+std::vector<Index> Nearness::candidates(const Placed& placed, double within) const {
+    Box box;
+    for (std::size_t k = 0; k < placed.x.size(); ++k) box.add(placed.x[k], placed.y[k]);
+    std::vector<Index> found;
+    tree->query({box.x0 - within, box.y0 - within, box.x1 + within, box.y1 + within}, [&](Index j) {
+        Gap gap;
+        if (robot_parts == robot.count() || is_gap_narrower(placed, robot_parts, j, within, gap)) found.push_back(j);
+    });
+    return found;
+}
+
 std::vector<Witness> Nearness::around(const Place& at, double within) const {
     const Placed placed(robot, at);
     std::vector<Witness> found;
     Witness w;
-    for (Index i = 0; i < robot.count(); ++i)
-        query(placed, i, within, [&](Index j) {
+    const auto others = candidates(placed, within);
+    for (Index i = 0; i < robot_parts; ++i)
+        for (const Index j : others)
             if (are_near(placed, i, j, within, w)) found.push_back(w);
-        });
     return found;
 }
 
@@ -209,10 +238,9 @@ double Nearness::distance(const Place& at, double within) const { return distanc
 double Nearness::distance(const Placed& placed, double within) const {
     double best = within;
     Witness w;
-    for (Index i = 0; i < robot.count(); ++i)
-        query(placed, i, best, [&](Index j) {
+    for (const Index j : candidates(placed, within))
+        for (Index i = 0; i < robot_parts; ++i)
             if (are_near(placed, i, j, best, w)) best = w.distance;
-        });
     return best;
 }
 
@@ -225,6 +253,25 @@ bool Nearness::overlaps(const Configuration& a, const Configuration& b) const {
         for (int k = by; k < 2 * count; k += 2 * by)
             if (distance(along(a, b, 0.5 * k / count), 0) < -least_distance) return true;
     return false;
+}
+
+// How far a direction at the middle pose, fixed in the world or in the robot, separates two pieces from one pose to another.
+double Nearness::separates(const Vec<double>& n, const Placed& p, const Placed& m, const Placed& q, Index i, Index j) const {
+    const Vec<double> r = m.turned_back(n);
+    double robots = HUGE_VAL, others = -HUGE_VAL, robots_own = HUGE_VAL, others_own = -HUGE_VAL;
+    for (Index v = robot.first[i]; v < robot.first[i + 1]; ++v) {
+        const double bulge = norm(m.x[v] - 0.5 * (p.x[v] + q.x[v]), m.y[v] - 0.5 * (p.y[v] + q.y[v]));
+        robots = std::min(robots, std::min(n.x * p.x[v] + n.y * p.y[v], n.x * q.x[v] + n.y * q.y[v]) - bulge);
+        robots_own = std::min(robots_own, r.x * robot.x[v] + r.y * robot.y[v]);
+    }
+    for (Index v = obstacles.first[j]; v < obstacles.first[j + 1]; ++v) {
+        const double x = obstacles.x[v], y = obstacles.y[v];
+        others = std::max(others, n.x * x + n.y * y);
+        const auto s = p.seen({x, y}), t = q.seen({x, y}), u = m.seen({x, y});
+        const double bulge = norm(u.x - 0.5 * (s.x + t.x), u.y - 0.5 * (s.y + t.y));
+        others_own = std::max(others_own, std::max(r.x * s.x + r.y * s.y, r.x * t.x + r.y * t.y) + bulge);
+    }
+    return std::max(robots - others, robots_own - others_own);
 }
 
 // Halve the motion, the middle parts first. A part keeps its distance if that of the middle covers the robot's travel from
@@ -252,41 +299,25 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
         const double asked = std::max({need(lo), in_middle, need(hi)});
         if (asked <= least_distance) continue;
         const Placed p = at(lo), q = at(hi);
-        bool fails = false, holds = true;
-        for (Index i = 0; i < robot.count() && !fails; ++i) {
-            const Index begin = robot.first[i], end = robot.first[i + 1];
-            double moves = 0;
+        const auto moves = [&](Index begin, Index end) {
+            double most_square = 0;
             for (Index v = begin; v < end; ++v) {
                 const double px = p.x[v] - m.x[v], py = p.y[v] - m.y[v], qx = q.x[v] - m.x[v], qy = q.y[v] - m.y[v];
-                moves = std::max({moves, px * px + py * py, qx * qx + qy * qy});
+                most_square = std::max({most_square, px * px + py * py, qx * qx + qy * qy});
             }
-            const double within = asked + std::sqrt(moves);
-            query(m, i, within, [&](Index j) {
+            return std::sqrt(most_square);
+        };
+        bool holds = true;
+        const auto others = candidates(m, asked + moves(0, robot.first[robot_parts]));
+        for (Index i = 0; i < (others.empty() ? 0 : robot_parts); ++i) {
+            const double within = asked + moves(robot.first[i], robot.first[i + 1]);
+            for (const Index j : others) {
                 Witness w;
-                if (fails || !are_near(m, i, j, within, w)) return;
-                if (w.distance < asked) {
-                    fails = true;
-                    return;
-                }
-                if (!holds) return;
-                const Vec<double> n = w.normal, r = m.turned_back(n);
-                double robots = HUGE_VAL, others = -HUGE_VAL, robots_own = HUGE_VAL, others_own = -HUGE_VAL;
-                for (Index v = begin; v < end; ++v) {
-                    const double bulge = norm(m.x[v] - 0.5 * (p.x[v] + q.x[v]), m.y[v] - 0.5 * (p.y[v] + q.y[v]));
-                    robots = std::min(robots, std::min(n.x * p.x[v] + n.y * p.y[v], n.x * q.x[v] + n.y * q.y[v]) - bulge);
-                    robots_own = std::min(robots_own, r.x * robot.x[v] + r.y * robot.y[v]);
-                }
-                for (Index v = obstacles.first[j]; v < obstacles.first[j + 1]; ++v) {
-                    const double x = obstacles.x[v], y = obstacles.y[v];
-                    others = std::max(others, n.x * x + n.y * y);
-                    const auto s = p.seen({x, y}), t = q.seen({x, y}), u = m.seen({x, y});
-                    const double bulge = norm(u.x - 0.5 * (s.x + t.x), u.y - 0.5 * (s.y + t.y));
-                    others_own = std::max(others_own, std::max(r.x * s.x + r.y * s.y, r.x * t.x + r.y * t.y) + bulge);
-                }
-                if (std::max(robots - others, robots_own - others_own) < nearly * asked) holds = false;
-            });
+                if (!are_near(m, i, j, within, w)) continue;
+                if (w.distance < asked) return false;
+                holds = holds && separates(w.normal, p, m, q, i, j) >= nearly * asked;
+            }
         }
-        if (fails) return false;
         if (holds) continue;
         if (depth == deepest || parts.size() > most_parts) return false;
         parts.push_back({lo, mid, depth + 1});

@@ -40,13 +40,14 @@ public:
 
 private:
     struct Pieces {  // edge k from vertex k, with its outward unit normal n and n . vertex
-        std::vector<Index> first;
-        std::vector<double> x, y, nx, ny, h;
+        std::vector<Index> first{0};
+        std::vector<double> x = {}, y = {}, nx = {}, ny = {}, h = {};
         struct Disc {  // disc around a piece, and a point in it
             double x, y, radius;
             Vec<double> inner;
         };
-        std::vector<Disc> disc;
+        std::vector<Disc> disc = {};
+        void add(const std::vector<Vec<double>>& ring);
         double ahead(Index edge, const Vec<double>& p) const;
         Index count() const { return static_cast<Index>(first.size()) - 1; }
     };
@@ -57,10 +58,11 @@ private:
     bool are_near(const Placed& placed, Index i, Index j, double within, Witness& found) const;
     bool is_gap_narrower(const Placed& placed, Index i, Index j, double within, Gap& gap) const;
     bool are_features_near(const Placed& placed, Index i, Index j, double within, const Gap& gap, Witness& found) const;
-    template <class F>
-    void query(const Placed& placed, Index i, double within, F&& report) const;
+    std::vector<Index> candidates(const Placed& placed, double within) const;
+    double separates(const Vec<double>& n, const Placed& p, const Placed& m, const Placed& q, Index i, Index j) const;
 
     Pieces robot, obstacles;
+    Index robot_parts;  // its convex hull comes after them if there are many
     std::unique_ptr<BoxTree> tree;  // tree of the obstacles' pieces
     double least_distance, reach = 0;  // the robot's radius
 };
