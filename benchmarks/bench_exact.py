@@ -8,6 +8,7 @@ general position: those are listed without a ratio, and again with every vertex 
 from __future__ import annotations
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -201,7 +202,7 @@ def serve() -> None:
     """Trim the scenes named on the standard input."""
     for line in sys.stdin:
         try:
-            stats = cfree.boundary(scene_of(line.strip()), threads=1).stats
+            stats = cfree.boundary(scene_of(line.strip()), threads=1, max_seconds=math.inf).stats
             answer = {name: getattr(stats, name) for name in stats.__dataclass_fields__}
         except cfree.CfreeError as error:
             answer = {"error": str(error)}
