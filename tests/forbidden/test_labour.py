@@ -132,6 +132,16 @@ def test_larger_scenes_and_fewer_patches_are_not_estimated(monkeypatch: pytest.M
     assert boundary(Scene(star(5), [star(5, x=12)])).complete
 
 
+def test_a_fault_of_the_estimate_is_reported_as_a_bug(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("no sample decides")
+
+    monkeypatch.setattr(labours, "FEW_PATCHES", 0)
+    monkeypatch.setattr(labours._core, "sampled_count", fail)
+    with pytest.raises(cfree.InvariantError, match="no sample decides; this is a bug"):
+        boundary(Scene(star(5), [star(5, x=12)]))
+
+
 def test_queries_that_need_a_boundary_go_on(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object) -> None:
         raise AssertionError("asked for an estimate")
