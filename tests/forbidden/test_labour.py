@@ -138,8 +138,10 @@ def test_a_fault_of_the_estimate_is_reported_as_a_bug(monkeypatch: pytest.Monkey
 
     monkeypatch.setattr(labours, "FEW_PATCHES", 0)
     monkeypatch.setattr(labours._core, "sampled_count", fail)
-    with pytest.raises(cfree.InvariantError, match="no sample decides; this is a bug"):
-        boundary(Scene(star(5), [star(5, x=12)]))
+    scene = Scene(star(5), [star(5, x=12)])
+    with pytest.raises(cfree.InvariantError, match="no sample decides; this is a bug") as error:
+        boundary(scene)
+    assert error.value.state is scene
 
 
 def test_queries_that_need_a_boundary_go_on(monkeypatch: pytest.MonkeyPatch) -> None:

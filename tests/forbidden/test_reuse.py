@@ -178,7 +178,9 @@ def test_moves_by_doubles_and_turns_by_any_angle_change_nothing_elsewhere(pose: 
         ("0.1", "-5/21", True),
     ],
 )
-def test_a_denominator_changes_all_once_a_quarter_of_the_vertices_has_it(x: str, shift: str, is_new: bool) -> None:
+def test_a_denominator_changes_all_once_a_quarter_of_the_vertices_has_it(
+    x: int | str, shift: float | str, is_new: bool
+) -> None:
     scene, kept = Scene(BAR, [box(x, k * k, 2, 3) for k in range(12)]), []
     for k in range(5):
         scene, before = scene.moved(k, (shift, 0, 0)), scene

@@ -17,7 +17,7 @@ import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.collision.pose_checker import PoseChecker
-from cfree.errors import InvariantError
+from cfree.errors import InvariantError, LaboriousSceneError
 from cfree.exact.half_angle import Angle
 from cfree.forbidden.cell_complex import CellComplex, glue
 from cfree.forbidden.columns import Trapezoids
@@ -129,9 +129,6 @@ def _computed(
     with collection_paused():
         features = grown_features(scene)
         core_scene = features.core
-    if may_refuse:
-        refuse_laborious(scene, features)
-    prepared = time.perf_counter()
 
     def go_on(share: float) -> bool:
         if progress is not None:
@@ -142,9 +139,14 @@ def _computed(
 
     curved = scene.curved or (reuse is not None and reuse.scene.curved)
     try:
+        if may_refuse:
+            refuse_laborious(scene, features)
+        prepared = time.perf_counter()
         core = _core.compute_boundary(
             core_scene, threads, regularized, go_on, reuse=None if reuse is None or curved else reuse._handle
         )
+    except LaboriousSceneError:  # a RuntimeError as well
+        raise
     except RuntimeError as error:
         raise InvariantError(str(error), state=scene) from error
     if progress is not None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import cfree._core as _core
-from cfree.errors import InvariantError, LaboriousSceneError
+from cfree.errors import LaboriousSceneError
 from cfree.scene.features import SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.words import counted
@@ -33,10 +33,7 @@ class Labour:
 
 def labour(features: SceneFeatures, samples: int) -> Labour:
     """Estimate the labour of a boundary from this many patches."""
-    try:
-        count, patches = _core.sampled_count(features.core, samples)
-    except RuntimeError as error:
-        raise InvariantError(str(error), state=features) from error
+    count, patches = _core.sampled_count(features.core, samples)
     by = patches / min(samples, patches)
     doubles, intervals, integers = count.decided_by_filter, count.decided_by_intervals, count.decided_exactly
     steps = doubles + 7 * intervals + 110 * integers + 5 * count.pairs
