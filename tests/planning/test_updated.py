@@ -87,7 +87,9 @@ def test_a_path_that_an_obstacle_blocks_is_not_taken() -> None:
     planner = Planner(SCENE)
     path = plan(planner, (2, 2, 0), (6, 2, 0))
     assert isinstance(path, cfree.Path)
-    for block in (box(0, "5.25", 5, "0.5"), box(1, 5, 3, 4), box(4, 5, 1, 4)):  # the last one shuts the way
+    middle = path.poses[len(path.poses) // 2]
+    beside = [box(middle.x - Fraction(1, 4), middle.y - Fraction(1, 4), width, Fraction(1, 2)) for width in (0.5, 2)]
+    for block in (*beside, box("5.25", -3, "0.5", 12)):  # the last one shuts the way
         moved = SCENE.with_obstacle(block)
         assert not path.is_free(cfree.MotionChecker(moved))
         answer = plan(planner.updated(moved), (2, 2, 0), (6, 2, 0))

@@ -123,7 +123,9 @@ def values(answer: dict[str, Any], name: str) -> np.ndarray[Any, Any]:
     return np.array(answer[name]["values"])
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] if name == "lens in a bracket" else []) for name in SCENES]
+)
 def test_boundary_and_cells_of_rounded_shapes_have_the_same_bytes(name: str) -> None:
     [found] = opened(SCENES[name], ["columns"])
     expected = columns_of(SCENES[name])

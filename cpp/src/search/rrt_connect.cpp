@@ -19,6 +19,10 @@ constexpr Index few = 200;             // nodes: all of them are scanned
 constexpr int squares = 24;            // along the longer side of the area
 constexpr int some = 2000;            // at least so many guesses
 constexpr std::size_t new_parts = 3;
+// In narrow places nearly all long steps fail. So a tree's steps get shorter by a guess that fails, and longer by another one:
+// about one in five succeeds.
+constexpr double shorter = 0.95, longer = 1.2;
+constexpr double least_step = 0.0125;  // as a share of the extent of the configuration space
 constexpr int parts = 8;              // parts per side of the configuration space, which record visits of trees
 
 bool are_one(const Place& a, const Place& b) { return a.x == b.x && a.y == b.y && a.theta == b.theta; }
@@ -44,7 +48,7 @@ void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
 }
 
 void RrtConnect::cut(Tree& tree, Index first) const {
-    Tree rest{tree.root, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size())};
+    Tree rest{tree.root, tree.step, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size())};
     std::vector<Index> number(tree.x.size(), -1);
     for (Index k = 0; k < tree.size(); ++k) {
         const Index from = tree.parent[k];
@@ -59,10 +63,11 @@ void RrtConnect::cut(Tree& tree, Index first) const {
 RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
                        std::uint64_t seed, const Growth& growth)
     : joins(std::move(j)), grid(g), area(a), weight(growth.turning * w),
-      range(growth.step * (norm(a.x1 - a.x0, a.y1 - a.y0) + weight * pi)), kept(growth.kept), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
+      extent(norm(a.x1 - a.x0, a.y1 - a.y0) + weight * pi), range(growth.step * extent),
+      least(std::min(least_step * extent, range)), kept(growth.kept), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
     trees[0].root = std::move(start), trees[1].root = std::move(goal);
     for (Tree& tree : trees) {
-        tree.near.resize(squares * squares);
+        tree.near.resize(squares * squares), tree.step = range;
         add(tree, tree.root.place(), -1);
     }
 }
@@ -108,8 +113,8 @@ bool RrtConnect::are_certainly_joined(bool of_goal, const Configuration& a, cons
     return of_goal ? joins.certainly(b, a) : joins.certainly(a, b);
 }
 
-Place RrtConnect::towards(const Place& a, const Place& b) const {
-    const double share = range / distance(a, b);
+Place RrtConnect::towards(const Place& a, const Place& b, double step) const {
+    const double share = step / distance(a, b);
     if (share >= 1) return b;
     Place q = along(a, b, share);
     q.theta = wrapped(q.theta);
@@ -121,8 +126,10 @@ Index RrtConnect::extend(const Place& q) {
     Tree& tree = trees[turn];
     const Index from = nearest(tree, q);
     const bool keeps = random() < kept;
-    const Place next = towards(tree.at(from), {q.x, q.y, keeps ? tree.theta[from] : q.theta});
-    if (!are_joined(turn, tree.at(from), next)) return -1;
+    const Place next = towards(tree.at(from), {q.x, q.y, keeps ? tree.theta[from] : q.theta}, tree.step);
+    const bool is_free = are_joined(turn, tree.at(from), next);
+    tree.step = std::clamp(tree.step * (is_free ? longer : shorter), least, range);
+    if (!is_free) return -1;
     add(tree, next, from);
     return tree.size() - 1;
 }
@@ -150,12 +157,45 @@ Route RrtConnect::branch(bool of_goal, Index last) {
     return route;
 }
 
-// Route over two nodes that seem to be joined.
+// Route over two nodes that seem to be joined. Exact tests take most of the time, so one with few motions comes first.
 Route RrtConnect::joined(Index of_first, Index of_second) {
+    if (Route route = with_few_motions(of_first, of_second); !route.empty()) return route;
     Route route = branch(false, of_first);
     const Route rest = branch(true, of_second);
     if (route.empty() || rest.empty() || !are_certainly_joined(false, route.back(), rest.back())) return {};
     route.insert(route.end(), rest.rbegin(), rest.rend());
+    return route;
+}
+
+// The same route without the nodes that guesses pass by; nothing if some motion is not free.
+Route RrtConnect::with_few_motions(Index of_first, Index of_second) {
+    struct Node {
+        bool of_goal;
+        Index number;
+    };
+    std::vector<Node> nodes;
+    for (Index k = of_first; k >= 0; k = trees[0].parent[k]) nodes.push_back({false, k});
+    std::reverse(nodes.begin(), nodes.end());
+    for (Index k = of_second; k >= 0; k = trees[1].parent[k]) nodes.push_back({true, k});
+    const auto place = [&](std::size_t n) { return trees[nodes[n].of_goal].at(nodes[n].number); };
+    const std::size_t last = nodes.size() - 1;
+    Route route{trees[0].root};
+    for (std::size_t from = 0; from < last;) {
+        std::size_t seen = from + 1, beyond = last + 1;  // the farthest node known to be joined, and the nearest that is not
+        for (std::size_t step = 1; seen + 1 < beyond; step *= 2) {
+            const std::size_t next = beyond <= last ? (seen + beyond) / 2 : std::min(from + 2 * step, last);
+            (are_joined(false, place(from), place(next)) ? seen : beyond) = next;
+        }
+        for (;; seen = from + (seen - from) / 2) {
+            Configuration next = exact(nodes[seen].of_goal, nodes[seen].number);
+            const bool is_free = are_certainly_joined(false, route.back(), next);
+            if (!is_free && seen == from + 1) return {};
+            if (!is_free) continue;
+            route.push_back(std::move(next));
+            break;
+        }
+        from = seen;
+    }
     return route;
 }
 
@@ -170,7 +210,7 @@ Route RrtConnect::run(int guesses) {
             const Place aim = trees[turn].at(k);
             Index from = nearest(other, aim);
             while (left > 0) {
-                const Place next = towards(other.at(from), aim);
+                const Place next = towards(other.at(from), aim, other.step);
                 if (!are_joined(!turn, other.at(from), next)) break;
                 if (are_one(next, aim)) {
                     if (Route route = turn ? joined(from, k) : joined(k, from); !route.empty()) return route;

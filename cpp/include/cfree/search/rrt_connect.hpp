@@ -39,6 +39,7 @@ public:
 private:
     struct Tree {
         Configuration root;
+        double step = 0;  // longest one that it tries next
         std::vector<double> x, y, theta;
         std::vector<Index> parent;
         std::vector<char> is_certain;  // certainty of the motion from the parent
@@ -58,16 +59,17 @@ private:
     double distance(const Place& a, const Place& b) const;
     bool are_joined(bool of_goal, const Place& a, const Place& b);
     bool are_certainly_joined(bool of_goal, const Configuration& a, const Configuration& b);
-    Place towards(const Place& a, const Place& b) const;
+    Place towards(const Place& a, const Place& b, double step) const;
     Index extend(const Place& q);
     Route branch(bool of_goal, Index k);
     Route joined(Index of_first, Index of_second);
+    Route with_few_motions(Index of_first, Index of_second);
     Configuration exact(bool of_goal, Index k) const;
 
     const Joins joins;
     const Grid grid;
     const Area area;
-    const double weight, range, kept, side;  // side: of a square
+    const double weight, extent, range, least, kept, side;  // range: the longest step; least: the shortest limit of steps; side: of a square
     Tree trees[2];
     bool turn = false;  // the tree that grows next
     Random random;
