@@ -14,7 +14,9 @@ import type { Drag, Seen, Who, Workspace } from "./workspace";
 // ms that a boundary may take before the next edit ends it: half as long again as the last one, within these
 const PATIENCE = 300;
 const MOST_PATIENCE = 1500;
-const REST = 2; // times that the right view takes: so long only the left one follows a drag
+const LAG = 250; // milliseconds for which a drag waits for the slice of the scene before
+const PAUSE = 2; // times that a way takes: so long a drag asks for no other
+const REST = 4; // times that the right view takes: so long only the left one follows a drag
 const COARSE = 9000;
 const FINE = 60_000; // triangles
 const QUICK = 300;
@@ -131,7 +133,7 @@ export class Session {
 
   // Show the state with the scene that was read. A new scene gets a new view; an edited one keeps its view.
   private shown?: number;
-  private take(read: Columns): void {
+  private take(read: Columns, is_last = true): void {
     const { now } = this;
     const is_other = now.opened !== this.shown;
     this.shown = now.opened;
@@ -172,7 +174,7 @@ export class Session {
     this.on_wishes();
     this.on_opened();
     void this.ask_robot(now.robot);
-    void this.ask_way();
+    void (is_last ? this.ask_last_way() : this.ask_ways());
   }
 
   place(who: Who, tone = ""): void {
@@ -181,17 +183,21 @@ export class Session {
     if (who === "goal") this.space?.place_end(1, this.seen.goal);
   }
 
-  // Build the boundary of the scene as it is now; of several requests the newest succeeds.
+  // Build the boundary of the scene as it is now; of several requests the newest succeeds. The promise is that of all of them.
   private wanted?: { is_fine: boolean };
+  private building?: Promise<void>;
   private building_since = 0;
   private last_took = 0;
-  async build(is_fine: boolean): Promise<void> {
+  build(is_fine: boolean): Promise<void> {
     this.wanted = { is_fine };
-    if (this.building_since) {
+    if (this.building) {
       const patience = Math.min(MOST_PATIENCE, Math.max(PATIENCE, 1.5 * this.last_took));
       if (is_fine || performance.now() - this.building_since > patience) this.builder.end();
-      return;
     }
+    return (this.building ??= this.build_all());
+  }
+
+  private async build_all(): Promise<void> {
     const slow = setTimeout(() => working(true), 250);
     for (let wish; (wish = this.wanted);) {
       this.wanted = undefined;
@@ -204,7 +210,7 @@ export class Session {
         else if (!this.wanted) $("facts").textContent = "stopped: no boundary";
       }
     }
-    this.building_since = 0;
+    this.building = undefined;
     clearTimeout(slow);
     working(this.planner.busy && this.is_waiting);
   }
@@ -342,8 +348,28 @@ export class Session {
     } finally {
       clearTimeout(slow);
       this.is_waiting = false;
-      if (!this.building_since) working(false);
+      if (!this.building) working(false);
     }
+  }
+
+  // During a drag ways are asked for one after the other; the one after it replaces them.
+  private is_asking = false;
+  private asks_again = false;
+  private ask_last_way(): Promise<void> {
+    this.asks_again = false;
+    return this.ask_way();
+  }
+  private async ask_ways(): Promise<void> {
+    this.asks_again = this.is_asking;
+    if (this.is_asking) return;
+    this.is_asking = true;
+    do {
+      this.asks_again = false;
+      const began = performance.now();
+      await this.ask_way(false);
+      await new Promise((next) => setTimeout(next, PAUSE * (performance.now() - began)));
+    } while (this.asks_again);
+    this.is_asking = false;
   }
 
   // How much smaller the robot would have to be, beside the proof that there is no motion.
@@ -516,9 +542,10 @@ export class Session {
       const read = source === this.now.source ? undefined : await this.quick.open(source);
       const { gallery: _, ...now } = this.now;
       this.keep(read ? { ...now, source } : this.now, done);
-      if (read) this.take(read);
+      if (read) this.take(read, done);
       else say("edit", { tone: "plain", text: "" });
-      if (read || done) await Promise.race([this.build(done), new Promise((next) => setTimeout(next, 30))]);
+      if (done && !read) void this.ask_last_way();
+      if (read || done) await Promise.race([this.build(done), new Promise((next) => setTimeout(next, LAG))]);
     } catch (error) {
       if (error instanceof Cancelled) return;
       fault("edit", error);
@@ -610,7 +637,7 @@ export class Session {
   stop(): void {
     this.stop_playing();
     this.end_missing();
-    if (this.building_since) this.builder.end();
+    if (this.building) this.builder.end();
     if (this.planner.busy) {
       this.planner.end();
       say("way", { tone: "plain", text: "Stopped." });
