@@ -60,7 +60,7 @@ DRAG = """async ([x, y, radius, steps, seconds]) => {
     buttons: type === "pointerup" ? 0 : 1, button: type === "pointermove" ? -1 : 0,
   }));
   const of = (element, what) => Number(element.dataset[what] ?? 0);
-  const counts = () => [of(document.body, "trimmed"), of(document.querySelector("#space"), "frames")];
+  const counts = () => [of(document.body, "sliced"), of(document.querySelector("#space"), "frames")];
   fire("pointerdown", x, y);
   const before = counts(), began = performance.now();
   let moves = 0;

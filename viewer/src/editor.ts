@@ -62,7 +62,7 @@ export class Editor {
     this.drawn = undefined;
     if (!is_on) this.chosen = undefined;
     this.workspace.svg.classList.toggle("editing", is_on);
-    for (const path of this.workspace.layers.obstacles.children) this.reachable(path);
+    this.make_reachable();
     this.look();
     this.on_mode();
   }
@@ -73,11 +73,13 @@ export class Editor {
     return this.chosen?.kind === "obstacle";
   }
 
-  private reachable(path: Element): void {
+  private make_reachable(): void {
+    [...this.workspace.layers.obstacles.children].forEach((path, k) => this.reachable(path, k));
+  }
+  private reachable(path: Element, k: number): void {
     if (!this.is_on) return ["tabindex", "role", "aria-label"].forEach((name) => path.removeAttribute(name));
     path.setAttribute("tabindex", "0");
     path.setAttribute("role", "button");
-    const k = [...this.workspace.layers.obstacles.children].indexOf(path);
     const which: Which = { kind: "obstacle", k };
     const is_round = this.shapes?.has(which) && this.shapes.is_round(which);
     const keys = is_round
@@ -90,8 +92,12 @@ export class Editor {
     this.shapes = Shapes.of(source);
     this.fault = "";
     if (this.chosen && !this.shapes.has(this.chosen)) this.chosen = undefined;
-    for (const path of this.workspace.layers.obstacles.children) this.reachable(path);
-    if (this.is_on) this.restore();
+    if (this.draft && this.chosen) {
+      this.outlined(this.chosen, this.draft); // newer than the source
+    } else {
+      this.make_reachable();
+      if (this.is_on) this.restore();
+    }
     this.look();
   }
   // Show outlines as in the text, without a draft that was refused.

@@ -256,8 +256,8 @@ export class Session {
     if (source === this.now.source && this.seen.robot) {
       this.workspace.show_slice(await builder.call("slice", this.seen.robot.theta));
       this.workspace.fade(false);
+      document.body.dataset.sliced = String(Number(document.body.dataset.sliced ?? 0) + 1);
     }
-    document.body.dataset.trimmed = String(Number(document.body.dataset.trimmed ?? 0) + 1);
     return performance.now() < this.mesh_due;
   }
 
@@ -542,10 +542,12 @@ export class Session {
       const read = source === this.now.source ? undefined : await this.quick.open(source);
       const { gallery: _, ...now } = this.now;
       this.keep(read ? { ...now, source } : this.now, done);
+      if (read) this.scene = read;
+      const built = read || done ? this.build(done) : undefined; // by a worker, while the scene is drawn
       if (read) this.take(read, done);
       else say("edit", { tone: "plain", text: "" });
       if (done && !read) void this.ask_last_way();
-      if (read || done) await Promise.race([this.build(done), new Promise((next) => setTimeout(next, LAG))]);
+      await Promise.race([built, new Promise((next) => setTimeout(next, LAG))]);
     } catch (error) {
       if (error instanceof Cancelled) return;
       fault("edit", error);

@@ -135,7 +135,8 @@ export class Workspace {
     while (kept.length + 1 > Math.max(polygon.length, 1)) kept[kept.length - 1]!.remove();
     for (let k = 0; k + 1 < polygon.length; ++k) {
       const path = kept[k] ?? made("path", this.layers.obstacles, { class: "obstacle" });
-      path.setAttribute("d", outline_of(scene, "obstacles", polygon[k], polygon[k + 1]));
+      const outline = outline_of(scene, "obstacles", polygon[k], polygon[k + 1]);
+      if (path.getAttribute("d") !== outline) path.setAttribute("d", outline); // else it would be painted again
       (path.firstChild ?? made("title", path)).textContent = names[k] ?? `obstacle ${k}`;
     }
     const bounds = doubles(scene, "bounds");
