@@ -697,9 +697,12 @@ namespace {
 
 // Of the obstacles what many of them share, of all else everything: an obstacle that is moved changes it rarely.
 Int short_part_of(const SceneShapes& shapes, const WholeScene& whole) {
-    SharedDenominators shared;
-    for (const auto& polygon : shapes.obstacles) shared.add(*polygon);
-    Int result = whole.short_part ? *whole.short_part : shared.short_part();
+    const auto of_obstacles = [&] {
+        SharedDenominators shared;
+        for (const auto& polygon : shapes.obstacles) shared.add(*polygon);
+        return shared.short_part();
+    };
+    Int result = whole.short_part ? *whole.short_part : of_obstacles();
     for (const auto& polygon : shapes.robot) include_short(result, odd_part(polygon->denominator));
     if (shapes.workspace) include_short(result, odd_part(shapes.workspace->denominator));
     if (shapes.bounds)

@@ -119,7 +119,7 @@ bool Nearness::is_gap_narrower(const Placed& placed, Index i, Index j, double wi
     const double most_apart = within + a.radius + b.radius;
     if (dot(between, between) >= most_apart * most_apart) return false;
     const Index a0 = robot.first[i], a1 = robot.first[i + 1], b0 = obstacles.first[j], b1 = obstacles.first[j + 1];
-    const Vec<double> in_robot = placed.at(robot.disc[i].inner), in_obstacle = placed.seen(obstacles.disc[j].inner);
+    const Vec<double> in_robot = placed.at(a.inner), in_obstacle = placed.seen(b.inner);
     const auto is_wide = [&](Index k, const Vec<double>& n, double h, bool of_robot) {
         const auto &x = of_robot ? obstacles.x : placed.x, &y = of_robot ? obstacles.y : placed.y;
         const Index begin = of_robot ? b0 : a0, end = of_robot ? b1 : a1;

@@ -40,6 +40,8 @@ std::array<int, 2> RrtConnect::square_of(const Place& q) const {
 void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
     const auto [column, row] = square_of(q);
     tree.near[column * squares + row].push_back({q, tree.size()});
+    tree.columns = {std::min(tree.columns[0], column), std::max(tree.columns[1], column)};
+    tree.rows = {std::min(tree.rows[0], row), std::max(tree.rows[1], row)};
     tree.x.push_back(q.x), tree.y.push_back(q.y), tree.theta.push_back(q.theta);
     tree.parent.push_back(from), tree.is_certain.push_back(false);
     constexpr int by = squares / parts;
@@ -48,7 +50,7 @@ void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
 }
 
 void RrtConnect::cut(Tree& tree, Index first) const {
-    Tree rest{tree.root, tree.step, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size())};
+    Tree rest{tree.root, tree.step, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size()), tree.columns, tree.rows};
     std::vector<Index> number(tree.x.size(), -1);
     for (Index k = 0; k < tree.size(); ++k) {
         const Index from = tree.parent[k];
@@ -76,7 +78,7 @@ double RrtConnect::distance(const Place& a, const Place& b) const {
     return norm(norm(b.x - a.x, b.y - a.y), weight * wrapped(b.theta - a.theta));
 }
 
-// Nearest node: in its square, then in rings of squares around that, as long as these may be nearer.
+// Nearest node: in rings of squares around the place's own, as far as they have nodes, as long as they may have a nearer one.
 Index RrtConnect::nearest(const Tree& tree, const Place& q) const {
     Index best = 0;
     double least = HUGE_VAL;
@@ -90,14 +92,29 @@ Index RrtConnect::nearest(const Tree& tree, const Place& q) const {
         return best;
     }
     const auto [column, row] = square_of(q);
-    const auto look_in = [&](int i, int j) {
-        if (i < 0 || j < 0 || i >= squares || j >= squares) return;
-        for (const auto& [at, k] : tree.near[i * squares + j]) look(at, k);
+    const auto &columns = tree.columns, &rows = tree.rows;
+    // from a coordinate to the squares of a number; rounded down
+    const auto gap = [&](double offset, int number) {
+        return std::max({0.0, number * side - offset, offset - (number + 1) * side}) * (1 - 0x1p-40);
     };
-    look_in(column, row);
-    for (int r = 1; r < squares && !((r - 1) * side * ((r - 1) * side) > least); ++r) {
-        for (int k = -r; k <= r; ++k) look_in(column + k, row - r), look_in(column + k, row + r);
-        for (int k = 1 - r; k < r; ++k) look_in(column - r, row + k), look_in(column + r, row + k);
+    const double x = std::clamp(q.x - area.x0, 0.0, squares * side), y = std::clamp(q.y - area.y0, 0.0, squares * side);
+    const auto look_in = [&](int first_column, int last_column, int first_row, int last_row) {
+        for (int i = std::max(first_column, columns[0]); i <= std::min(last_column, columns[1]); ++i) {
+            const double dx = gap(x, i);
+            for (int j = std::max(first_row, rows[0]); j <= std::min(last_row, rows[1]); ++j) {
+                const double dy = gap(y, j);
+                if (dx * dx + dy * dy > least) continue;
+                for (const auto& [at, k] : tree.near[i * squares + j]) look(at, k);
+            }
+        }
+    };
+    for (int r = std::max({0, columns[0] - column, column - columns[1], rows[0] - row, row - rows[1]}); r < squares; ++r) {
+        if (r > 0 && (r - 1) * side * ((r - 1) * side) > least) break;
+        look_in(column - r, column + r, row - r, row - r);
+        if (r == 0) continue;
+        look_in(column - r, column + r, row + r, row + r);
+        look_in(column - r, column - r, row - r + 1, row + r - 1);
+        look_in(column + r, column + r, row - r + 1, row + r - 1);
     }
     return best;
 }

@@ -130,7 +130,7 @@ struct Shape {
 struct Scene {
     Shape robot, obstacles;
     Int scale = 1;            // integers in a unit of the user: their common denominator
-    Int short_part = 1;       // the odd part of that, but for the long denominators of a few shapes
+    Int short_part = 1;       // the odd part of what many obstacles share, and the robot, workspace and bounds
     int shift = 0;            // doubles are integers times 2^-shift
     bool is_bounded = false;  // true if there is no free space far away
     // The same scene from an origin near each shape: far away from it doubles would have no digits left. Differences of

@@ -5,6 +5,7 @@
 // that is not free is cut off (as in Bohlin and Kavraki's lazy roadmaps, 2000). Finding nothing proves nothing.
 #pragma once
 #include <array>
+#include <climits>
 #include <functional>
 #include <set>
 #include <vector>
@@ -49,6 +50,7 @@ private:
             Index number;
         };
         std::vector<std::vector<Node>> near;  // nodes by squares of the area
+        std::array<int, 2> columns{INT_MAX, -1}, rows{INT_MAX, -1};  // the first and the last square with a node
         Index size() const { return static_cast<Index>(x.size()); }
         Place at(Index k) const { return {x[k], y[k], theta[k]}; }
     };
