@@ -100,7 +100,7 @@ def radians_of_all_kinds(count: int, seed: int) -> Iterator[float]:
         )[k % 10]
 
 
-@pytest.mark.parametrize("count", [2_000, pytest.param(100_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [2_000, pytest.param(100_000, marks=[pytest.mark.slow, pytest.mark.long])])
 def test_the_core_reads_radians_as_python_does(count: int) -> None:
     """The half-angle tangent, the angle and its error, bit for bit."""
     for theta in radians_of_all_kinds(count, seed=count):
