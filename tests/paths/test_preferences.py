@@ -39,6 +39,12 @@ def amount(path: Path, scene: Scene, kind: str) -> float:
     return sum(part.amount for part in unwanted(path, scene, EVERYTHING) if part.kind == kind)
 
 
+def planned(scene: Scene, objective: cfree.paths.path.Objective, preferences: Preferences | None = None) -> Path:
+    path = plan(scene, objective=objective, preferences=preferences)
+    assert isinstance(path, Path)
+    return path
+
+
 @pytest.fixture(scope="module")
 def hall() -> Scene:
     racks = [box(x, y, 4, 1) for x in (2, 8) for y in (2, 6, 10)]
@@ -54,12 +60,14 @@ def test_a_forklift_does_not_crab(hall: Scene, objective: cfree.paths.path.Objec
     assert amount(driven, hall, "sideways") < min(1.0, amount(plain, hall, "sideways") / 2)
 
 
-def test_ahead_where_back_is_dear_and_few_turns_on_the_spot_where_they_are(hall: Scene) -> None:
-    ahead, round_it, plain = Preferences(sideways=20, backward=20), Preferences(turning=20), plan(hall)
-    ahead_path, round_path = plan(hall, preferences=ahead), plan(hall, preferences=round_it)
-    assert isinstance(plain, Path) and isinstance(ahead_path, Path) and isinstance(round_path, Path)
-    assert ahead.cost(ahead_path, hall) < 0.9 * ahead.cost(plain, hall)
-    assert amount(round_path, hall, "turning") < 0.5 * amount(plain, hall, "turning")
+@pytest.mark.parametrize(("objective", "share"), [("balanced", 0.9), ("short", 0.5)])
+def test_ahead_where_back_is_dear_and_few_turns_on_the_spot_where_they_are(
+    hall: Scene, objective: cfree.paths.path.Objective, share: float
+) -> None:
+    ahead, round_it = Preferences(sideways=20, backward=20), Preferences(turning=20)
+    plain = planned(hall, objective)
+    assert ahead.cost(planned(hall, objective, ahead), hall) < share * ahead.cost(plain, hall)
+    assert amount(planned(hall, objective, round_it), hall, "turning") < 0.5 * amount(plain, hall, "turning")
 
 
 def test_what_is_dear_is_done_where_nothing_else_is_possible_and_the_answer_says_where() -> None:

@@ -10,6 +10,7 @@
 #include "cfree/search/rrt_connect.hpp"
 #include "cfree/support/elementary.hpp"
 #include "cfree/support/lookout.hpp"
+#include "search/farthest.hpp"
 
 namespace cfree {
 
@@ -40,17 +41,14 @@ Marked pruned(const Way& way, const Marked& path) {
     Marked found{{route.front()}, {path.mark.front()}};
     for (std::size_t i = 0; i + 1 < route.size();) {
         heed_stop();
-        std::size_t good = i + 1, bad = route.size(), step = 2;
         Marked best{{route[i], route[i + 1]}, {path.mark[i], path.mark[i + 1]}};
-        while (good + 1 < bad) {
-            const std::size_t j = bad == route.size() ? std::min(i + step, route.size() - 1) : (good + bad) / 2;
-            if (j == good) break;
-            if (Marked m = way.simplest(route[i], route[j], path.mark[i], path.mark[j], (at[j] - at[i]) * (1 + 1e-9)); !m.route.empty())
-                good = j, best = std::move(m), step *= 2;
-            else bad = j;
-        }
+        i = farthest(i, route.size() - 1, [&](std::size_t j) {
+            Marked simple = way.simplest(route[i], route[j], path.mark[i], path.mark[j], (at[j] - at[i]) * (1 + 1e-9));
+            if (simple.route.empty()) return false;
+            best = std::move(simple);
+            return true;
+        });
         found.append(best);
-        i = good;
     }
     return found;
 }

@@ -7,6 +7,7 @@
 
 #include "cfree/support/elementary.hpp"
 #include "cfree/support/lookout.hpp"
+#include "search/farthest.hpp"
 
 namespace cfree {
 
@@ -25,6 +26,7 @@ constexpr double shorter = 0.95, longer = 1.2;
 constexpr double least_step = 0.0125;  // as a share of the extent of the configuration space
 constexpr int parts = 8;              // parts per side of the configuration space, which record visits of trees
 
+double space_extent(const Area& a, double weight) { return norm(a.x1 - a.x0, a.y1 - a.y0) + weight * pi; }
 bool are_one(const Place& a, const Place& b) { return a.x == b.x && a.y == b.y && a.theta == b.theta; }
 
 }  // namespace
@@ -50,7 +52,7 @@ void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
 }
 
 void RrtConnect::cut(Tree& tree, Index first) const {
-    Tree rest{tree.root, tree.step, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size()), tree.columns, tree.rows};
+    Tree rest{tree.root, tree.step, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size())};
     std::vector<Index> number(tree.x.size(), -1);
     for (Index k = 0; k < tree.size(); ++k) {
         const Index from = tree.parent[k];
@@ -65,8 +67,7 @@ void RrtConnect::cut(Tree& tree, Index first) const {
 RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
                        std::uint64_t seed, const Growth& growth)
     : joins(std::move(j)), grid(g), area(a), weight(growth.turning * w),
-      extent(norm(a.x1 - a.x0, a.y1 - a.y0) + weight * pi), range(growth.step * extent),
-      least(std::min(least_step * extent, range)), kept(growth.kept), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
+      range(growth.step * space_extent(a, weight)), least(std::min(least_step * space_extent(a, weight), range)), kept(growth.kept), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
     trees[0].root = std::move(start), trees[1].root = std::move(goal);
     for (Tree& tree : trees) {
         tree.near.resize(squares * squares), tree.step = range;
@@ -195,23 +196,19 @@ Route RrtConnect::with_few_motions(Index of_first, Index of_second) {
     std::reverse(nodes.begin(), nodes.end());
     for (Index k = of_second; k >= 0; k = trees[1].parent[k]) nodes.push_back({true, k});
     const auto place = [&](std::size_t n) { return trees[nodes[n].of_goal].at(nodes[n].number); };
+    const auto configuration = [&](std::size_t n) { return exact(nodes[n].of_goal, nodes[n].number); };
     const std::size_t last = nodes.size() - 1;
     Route route{trees[0].root};
     for (std::size_t from = 0; from < last;) {
-        std::size_t seen = from + 1, beyond = last + 1;  // the farthest node known to be joined, and the nearest that is not
-        for (std::size_t step = 1; seen + 1 < beyond; step *= 2) {
-            const std::size_t next = beyond <= last ? (seen + beyond) / 2 : std::min(from + 2 * step, last);
-            (are_joined(false, place(from), place(next)) ? seen : beyond) = next;
+        std::size_t to = farthest(from, last, [&](std::size_t n) { return are_joined(false, place(from), place(n)); });
+        Configuration next = configuration(to);
+        while (!are_certainly_joined(false, route.back(), next)) {
+            if (to == from + 1) return {};
+            to = from + (to - from) / 2;
+            next = configuration(to);
         }
-        for (;; seen = from + (seen - from) / 2) {
-            Configuration next = exact(nodes[seen].of_goal, nodes[seen].number);
-            const bool is_free = are_certainly_joined(false, route.back(), next);
-            if (!is_free && seen == from + 1) return {};
-            if (!is_free) continue;
-            route.push_back(std::move(next));
-            break;
-        }
-        from = seen;
+        route.push_back(std::move(next));
+        from = to;
     }
     return route;
 }

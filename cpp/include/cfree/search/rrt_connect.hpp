@@ -71,7 +71,7 @@ private:
     const Joins joins;
     const Grid grid;
     const Area area;
-    const double weight, extent, range, least, kept, side;  // range: the longest step; least: the shortest limit of steps; side: of a square
+    const double weight, range, least, kept, side;  // steps are at most `range`, and their limit is at least `least`; side: of a square
     Tree trees[2];
     bool turn = false;  // the tree that grows next
     Random random;
