@@ -51,7 +51,7 @@ struct Growth {
     Index target = -1;
     Vec<double> goal{};
     Index explored = 0, surely = 0;  // numbers explored, and of these confirmed by gluing
-    static constexpr Index least_trust = 512;
+    static constexpr Index least_trust = 128;
     Index trust = least_trust;  // number of further ones before the next gluing
     bool has(Index k) const {
         const auto visit = visits.find(k);

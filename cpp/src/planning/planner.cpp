@@ -239,6 +239,7 @@ public:
     // Go on until the surfaces decide, or the search finds a way.
     Connection::Verdict decide(Connecting& joined) {
         std::size_t trimmed = joined.around->trimmed_patches(), met = joined.around->met_patches();
+        joined.compare_cells(search.reached());
         return joined.decide([&](Index) {
             const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
             const std::size_t met_before = std::exchange(met, joined.around->met_patches());
@@ -246,6 +247,7 @@ public:
             left -= guesses, made += guesses;
             way = in_turn(guesses);
             if (way) return false;
+            joined.compare_cells(search.reached());
             deadline.heed();
             if (listener.spend) listener.spend(static_cast<std::int64_t>(trimmed - before));
             return true;

@@ -14,6 +14,7 @@ namespace cfree {
 namespace {
 
 constexpr Index first_step = 64, last_step = 1 << 29;  // trapezoids around each of the two poses
+constexpr double most_slower = 4;  // the pose that reaches more may be in the smaller cell all the same
 constexpr int most_attempts = 48;  // places near a pose, closer and closer, from which rays are tried
 
 Int largest(const std::vector<Int>& X, const std::vector<Int>& Y) {
@@ -180,9 +181,16 @@ Connecting::Connecting(std::shared_ptr<Surroundings> of, const RationalPose& sta
     result.start = start, result.goal = goal;
 }
 
+void Connecting::compare_cells(const std::array<std::size_t, 2>& reached) {
+    for (const int k : {0, 1}) {
+        const double ratio = static_cast<double>(reached[k]) / static_cast<double>(reached[1 - k]);
+        slower[k] = std::clamp(ratio * ratio, 1.0, most_slower);
+    }
+}
+
 void Connecting::run(Index most) {
     for (const int k : {0, 1})
-        if (result.verdict == Connection::Verdict::open) look(k, most);
+        if (result.verdict == Connection::Verdict::open) look(k, static_cast<Index>(most / slower[k]));
     const bool is_over = ends[0].failed || ends[1].failed || (ends[0].ended && ends[1].ended);
     if (is_over && result.verdict == Connection::Verdict::open) result.verdict = Connection::Verdict::unclear;
 }

@@ -96,7 +96,9 @@ struct Connection {
 class Connecting {
 public:
     Connecting(std::shared_ptr<Surroundings> around, const RationalPose& start, const RationalPose& goal);
-    // Continue by about `most` trapezoids around each.
+    // Take how much of its cell each pose is known to reach. The surface of the smaller cell is closed sooner, so it grows faster.
+    void compare_cells(const std::array<std::size_t, 2>& reached);
+    // Continue by about `most` trapezoids around each, by fewer around a pose in a larger cell.
     void run(Index most);
     // Continue to the end, by twice as many each time, as long as `go_on`, called with the number, returns true.
     Connection::Verdict decide(const std::function<bool(Index most)>& go_on = {});
@@ -107,6 +109,7 @@ private:
     void look(int k, Index most);
     void join(const std::shared_ptr<const CellComplex>& common);
     std::array<Surroundings::Search, 2> ends;
+    std::array<double, 2> slower{1, 1};  // factors of the growth around each
     Connection result;
 };
 

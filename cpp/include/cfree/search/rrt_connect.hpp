@@ -36,6 +36,8 @@ public:
     Route run(int guesses);
     // Run, and continue as long as both trees reach new parts of the space.
     Route run_on(int guesses);
+    // Number of parts of the configuration space that the trees of start and goal have reached.
+    std::array<std::size_t, 2> reached() const { return {trees[0].parts.size(), trees[1].parts.size()}; }
 
 private:
     struct Tree {
