@@ -123,7 +123,7 @@ def test_poses_nearer_than_doubles_tell_are_two() -> None:
 
 def test_many_motions_become_few() -> None:
     scene = cfree.load_scene(ROOT / "examples/scenes/flat.json")
-    assert 5 * len(found(scene).motions) <= len(found(scene, improve=0).motions)
+    assert len(found(scene).motions) <= 10 < len(found(scene, improve=0).motions)
 
 
 def test_the_answer_depends_on_no_thread_and_no_time() -> None:

@@ -239,7 +239,6 @@ public:
     // Go on until the surfaces decide, or the search finds a way.
     Connection::Verdict decide(Connecting& joined) {
         std::size_t trimmed = joined.around->trimmed_patches(), met = joined.around->met_patches();
-        joined.compare_cells(search.reached());
         return joined.decide([&](Index) {
             const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
             const std::size_t met_before = std::exchange(met, joined.around->met_patches());

@@ -14,6 +14,7 @@ namespace cfree {
 namespace {
 
 constexpr Index first_step = 64, last_step = 1 << 29;  // trapezoids around each of the two poses
+constexpr Index alike = 128;       // steps up to this are the same around both: small surfaces cost little
 constexpr double most_slower = 4;  // the pose that reaches more may be in the smaller cell all the same
 constexpr int most_attempts = 48;  // places near a pose, closer and closer, from which rays are tried
 
@@ -190,7 +191,7 @@ void Connecting::compare_cells(const std::array<std::size_t, 2>& reached) {
 
 void Connecting::run(Index most) {
     for (const int k : {0, 1})
-        if (result.verdict == Connection::Verdict::open) look(k, static_cast<Index>(most / slower[k]));
+        if (result.verdict == Connection::Verdict::open) look(k, most <= alike ? most : static_cast<Index>(most / slower[k]));
     const bool is_over = ends[0].failed || ends[1].failed || (ends[0].ended && ends[1].ended);
     if (is_over && result.verdict == Connection::Verdict::open) result.verdict = Connection::Verdict::unclear;
 }

@@ -67,7 +67,8 @@ void RrtConnect::cut(Tree& tree, Index first) const {
 RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
                        std::uint64_t seed, const Growth& growth)
     : joins(std::move(j)), grid(g), area(a), weight(growth.turning * w),
-      range(growth.step * space_extent(a, weight)), least(std::min(least_step * space_extent(a, weight), range)), kept(growth.kept), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
+      range(growth.step * space_extent(a, weight)), least(std::min(least_step * space_extent(a, weight), range)),
+      kept(growth.kept), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
     trees[0].root = std::move(start), trees[1].root = std::move(goal);
     for (Tree& tree : trees) {
         tree.near.resize(squares * squares), tree.step = range;

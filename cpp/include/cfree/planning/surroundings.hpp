@@ -98,7 +98,7 @@ public:
     Connecting(std::shared_ptr<Surroundings> around, const RationalPose& start, const RationalPose& goal);
     // Take how much of its cell each pose is known to reach. The surface of the smaller cell is closed sooner, so it grows faster.
     void compare_cells(const std::array<std::size_t, 2>& reached);
-    // Continue by about `most` trapezoids around each, by fewer around a pose in a larger cell.
+    // Continue by about `most` trapezoids around each; if these are many, by fewer around a pose in a larger cell.
     void run(Index most);
     // Continue to the end, by twice as many each time, as long as `go_on`, called with the number, returns true.
     Connection::Verdict decide(const std::function<bool(Index most)>& go_on = {});
