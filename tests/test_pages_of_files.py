@@ -57,6 +57,7 @@ def test_commands_print_the_lines_that_are_shown(command: str, lines: list[str])
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.usefixtures("here")
 def test_the_forklift_is_led_from_the_map_to_poses() -> None:
     page = ROOT / "docs" / "forklift.md"

@@ -55,6 +55,7 @@ def some_frames(stage: Stage, shots: list, count: int = 6) -> Iterator[None]:  #
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_no_text_of_a_film_touches_another(five: Boundary, hall: Boundary) -> None:
     gap = boundary(load_scene("examples/scenes/round_gap.json"))
     ours, theirs = (shots_of([one], 60, "paper")[0] for one in (five, gap))

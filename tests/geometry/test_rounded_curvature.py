@@ -73,6 +73,7 @@ def test_degree_is_half_the_euler_number_among_rounded_shapes(name: str) -> None
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_degree_is_half_the_euler_number_among_random_arcs_with_a_finite_error() -> None:
     for kind in (random_scene, random_arcs, random_concave):
         assert sum(check_degrees(kind(seed)) for seed in range(12)) >= 10

@@ -234,6 +234,7 @@ def replace_start(scene: Scene, start: Any) -> Scene:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_nook_in_a_wide_hall_is_excluded_by_boxes_near_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reach, "BOXES", (2**19,))
     walls = (0, 0, 4, "3/10"), (0, "17/10", 4, 2), (-1, 0, 0, 2), (300, 0, 301, 1), (0, 300, 1, 301)

@@ -51,7 +51,7 @@ def test_a_robot_fits_a_corridor_of_its_own_width(robot: Curved, turn: Fraction)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("turn", TURNS)
+@pytest.mark.parametrize("turn", [TURNS[0], *(pytest.param(turn, marks=pytest.mark.long) for turn in TURNS[1:])])
 def test_a_robot_fits_between_discs(turn: Fraction) -> None:
     frame = Frame(Fraction(turn), shift=(Fraction(10**9), Fraction(-3)))
     discs = [*map(frame.shape, [Curved.circle((0, 3), 2), Curved.circle((0, -3), 2)])]

@@ -335,7 +335,12 @@ def mutants(proof: RoundSeparation, k: int, rng: random.Random) -> Iterator[tupl
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "name", ["stadium about a disc", "slanted triangle, irrational lengths", "circles that coincide at one angle"]
+    "name",
+    [
+        "stadium about a disc",
+        pytest.param("slanted triangle, irrational lengths", marks=pytest.mark.long),
+        pytest.param("circles that coincide at one angle", marks=pytest.mark.long),
+    ],
 )
 def test_every_mutation_of_a_surface_is_found(name: str) -> None:
     scene, rng = SCENES[name], random.Random(name)

@@ -61,7 +61,15 @@ def test_paths_of_the_page_are_free(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["benchmr_parking1", "comb_hook", "degenerate_island", "degenerate_workspace"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "benchmr_parking1",
+        pytest.param("comb_hook", marks=pytest.mark.long),
+        "degenerate_island",
+        "degenerate_workspace",
+    ],
+)
 def test_paths_of_vehicles_are_free_and_driven(name: str) -> None:
     scene = cfree.load_scene(SCENES / f"{name}.json")
     assert scene.start is not None and isinstance(scene.goal, Pose)

@@ -21,6 +21,7 @@ def drawn(view: Any) -> float:
     return 1.0 - np.unique(colours, return_counts=True)[1].max() / len(colours)
 
 
+@pytest.mark.long
 def test_every_scene_of_the_gallery_is_drawn(tried: Tried) -> None:
     names = tried.page.locator("#scenes option").evaluate_all("options => options.map(of => of.value)")
     assert len(names) == len(set(names)) == 12 and names[-1] == ""

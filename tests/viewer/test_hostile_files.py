@@ -110,6 +110,7 @@ def test_names_are_texts_wherever_they_are_shown(tried: Tried) -> None:
     is_untouched(tried)
 
 
+@pytest.mark.long
 def test_large_file_is_read(tried: Tried) -> None:
     give(tried, scene(name="large", note=LONG, obstacles=[{"outer": [[40, 40], [50, 40], [50, 60]]}]))
     tried.ready("large")

@@ -26,7 +26,9 @@ PLACES = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", PLACES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] if name == "nest_swim" else []) for name in PLACES]
+)
 def test_answers_and_scenes_are_verified(browser: Any, tmp_path: Path, name: str) -> None:
     scene = cfree.load_scene(PLACES[name] / f"{name}.json")
     tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))

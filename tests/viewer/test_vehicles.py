@@ -60,6 +60,7 @@ def test_scene_without_a_vehicle_moves_in_any_direction(tried: Tried) -> None:
     assert not tried.page.locator("#radius").is_visible()
 
 
+@pytest.mark.long
 def test_ways_to_move_are_switched_by_keys_undone_and_kept_in_the_link(park: Tried, browser: Any) -> None:
     park.page.locator("#drive [value=car]").focus()
     park.page.keyboard.press("ArrowLeft")
@@ -208,6 +209,7 @@ def test_front_wheels_are_steered_on_the_path(park: Tried) -> None:
     park.page.keyboard.press("Escape")
 
 
+@pytest.mark.long
 def test_many_manoeuvres_are_counted(browser: Any, tmp_path: Path) -> None:
     scene = cfree.load_scene(ROOT / "viewer" / "gallery" / "peg_in_hole.json")
     tried = opened(browser, tmp_path, scene)

@@ -224,6 +224,7 @@ def test_wheel_is_left_to_the_notebook_until_the_cell_is_clicked_in(cell: Cell) 
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_ways_to_move_are_switched_on_both_sides(cell: Cell) -> None:
     cell.frame.locator("#way").filter(has_text="A motion exists").wait_for()
     cell.frame.locator("#drive label:has([value=differential])").click()
