@@ -11,9 +11,11 @@ namespace cfree {
 AngleTable::AngleTable(const Scene& s, const Patches& p, const Trapezoids& t, int threads)
     : scene(s), patches(p), trapezoids(t) {
     from.resize(t.patch.size()), to.resize(t.patch.size());
-    sort_chart(0, threads);
+    std::array<std::vector<Angle>, 2> ends;
+    for_each_in_parallel(threads, ends.size(), [&](std::size_t chart) { ends[chart] = sorted_ends(static_cast<int>(chart)); });
+    order_chart(0, ends[0], threads);
     middle = static_cast<Index>(angles.size()) - 1;
-    sort_chart(1, threads);
+    order_chart(1, ends[1], threads);
     last = static_cast<Index>(angles.size()) - 2;
 }
 
@@ -22,7 +24,8 @@ CriticalAngle AngleTable::critical(const Angle& x) const {
     return x.is_to ? angle_to(patches, trapezoids, x.trapezoid) : angle_from(patches, trapezoids, x.trapezoid);
 }
 
-void AngleTable::sort_chart(int chart, int threads) {
+// Ends of a chart and of its trapezoids, in the order in which their intervals begin.
+std::vector<AngleTable::Angle> AngleTable::sorted_ends(int chart) const {
     const auto& t = trapezoids;
     std::vector<Angle> ends{{-1, -1, -1, false}, {1, 1, -1, false}};
     for (std::size_t k = 0; k < t.patch.size(); ++k) {
@@ -33,6 +36,10 @@ void AngleTable::sort_chart(int chart, int threads) {
     std::sort(ends.begin(), ends.end(), [](const Angle& x, const Angle& y) {
         return std::tuple(x.lo, x.trapezoid, x.is_to) < std::tuple(y.lo, y.trapezoid, y.is_to);
     });
+    return ends;
+}
+
+void AngleTable::order_chart(int chart, const std::vector<Angle>& ends, int threads) {
     const std::size_t block = block_of(ends.size());  // or more: whole clusters, runs of intervals that overlap
     std::vector<std::size_t> clusters, first;  // starts of clusters, and the first clusters of blocks
     double reach = -2;
@@ -46,8 +53,9 @@ void AngleTable::sort_chart(int chart, int threads) {
     first.push_back(clusters.size()), clusters.push_back(ends.size());
     std::vector<std::vector<Angle>> ordered(first.size() - 1);
     for_each_in_parallel(threads, ordered.size(), [&](std::size_t b) {
+        Cluster cluster;
         for (std::size_t c = first[b]; c < first[b + 1]; ++c)
-            order_cluster(&ends[clusters[c]], ends.data() + clusters[c + 1], ordered[b]);
+            order_cluster(std::span(ends).subspan(clusters[c], clusters[c + 1] - clusters[c]), cluster, ordered[b]);
     });
     for (std::size_t b = 0; b < ordered.size(); ++b) {
         const auto before = static_cast<Index>(angles.size()) - chart;
@@ -58,11 +66,19 @@ void AngleTable::sort_chart(int chart, int threads) {
 }
 
 // Append the angles of a cluster in order, and rank its members by their places there.
-void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector<Angle>& ordered) {
-    // one of each short name represents all that agree with it
-    std::vector<std::pair<CriticalAngle::ShortName, const Angle*>> named;
-    for (const Angle* x = begin; x != end; ++x) named.push_back({critical(*x).short_name(scene), x});
-    std::sort(named.begin(), named.end());
+void AngleTable::order_cluster(std::span<const Angle> ends, Cluster& cluster, std::vector<Angle>& ordered) {
+    auto& [all, named] = cluster;
+    all.clear(), named.clear();
+    for (const Angle& x : ends) all.push_back(critical(x));
+    for (std::size_t k = 0; k < ends.size(); ++k) named.push_back({all[k].short_name(scene), &ends[k]});
+    const auto is_first = [&](const auto& x) { return x.first == named[0].first; };
+    if (std::all_of(named.begin(), named.end(), is_first) && (ends.size() == 1 || CriticalAngle::are_one(scene, named[0].first, all))) {
+        for (const Angle& x : ends)
+            if (x.trapezoid >= 0) rank_of(x) = static_cast<Index>(ordered.size());
+        ordered.push_back(ends[0]);
+        return;
+    }
+    std::sort(named.begin(), named.end());  // one of each short name represents all that agree with it
     struct Class {
         CriticalAngle angle;
         std::vector<const Angle*> members;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "forbidden/junction_at.hpp"
+#include "forbidden/meeting_of_three.hpp"
 #include "predicates/round_junction.hpp"
 #include "support/parallel.hpp"
 #include "support/union_find.hpp"
@@ -25,7 +26,7 @@ struct Place {
 struct Level {
     Index trapezoid;
     bool is_above;
-    Feature contact;
+    Feature contact, lower, upper;
     Code low_code, high_code;
     Index low, high;    // its ends among the places, in the order of its own line
     int along = 1;      // direction of its line against that of the line's first level
@@ -49,10 +50,9 @@ class LevelGluer {
 
 public:
     LevelGluer(const Boundary& b, const Whole& w, Around a)
-        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), whole(w), around(a) {}
+        : scene(b.scene->near()), angles(b.angles()), whole(w), around(a) {}
 
-    // sides: twice a trapezoid that begins there, 1 more for one that ends
-    void glue(Index rank, std::span<const Index> sides);
+    void glue(Index rank, std::span<const SideAtAngle> sides);
     Parts parts;
 
 private:
@@ -67,8 +67,6 @@ private:
     void pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q, At& at);
 
     const Scene& scene;
-    const Patches& patches;
-    const Trapezoids& trapezoids;
     const AngleTable& angles;
     const Whole& whole;
     const Around around;
@@ -77,23 +75,21 @@ private:
 };
 
 template <class At>
-void LevelGluer<At>::glue(Index rank, std::span<const Index> sides) {
-    if (std::none_of(sides.begin(), sides.end(), [&](Index s) { return whole[s / 2]; })) return;
+void LevelGluer<At>::glue(Index rank, std::span<const SideAtAngle> sides) {
+    if (std::none_of(sides.begin(), sides.end(), [&](const SideAtAngle& s) { return whole[s.trapezoid]; })) return;
     const int chart = rank > angles.middle ? 1 : 0;
     At at = junction_at<At>(scene, angles, rank, chart);
+    if constexpr (!is_round)
+        if (glue_meeting_of_three(scene, whole, sides, at, parts)) return;
     levels.clear(), places.clear();
-    for (const Index s : sides) {
-        const Index k = s / 2;
-        const bool is_above = s % 2 == 0;
-        const Surface on = surface_of(patches, trapezoids, k);
-        const CriticalAngle angle = is_above ? angle_from(on, trapezoids, k) : angle_to(on, trapezoids, k);
+    for (const SideAtAngle& s : sides) {
+        const CriticalAngle angle = s.angle();
         if constexpr (!is_round) know(at, scene, angle);
         else if (angle.first.kind == Kind::edge_edge) at.know_parallel(angle.first.robot, angle.first.obstacle);
-        else if (angle.second.kind == Kind::none && angle.first.kind != Kind::none) at.know_touch(on.contact, angle.first);
+        else if (angle.second.kind == Kind::none && angle.first.kind != Kind::none) at.know_touch(s.on.contact, angle.first);
         else if (angle.second.kind != Kind::none && angle.place == 0)
-            at.know_meeting(on.contact, angle.first, angle.second, angle.lo, angle.hi);
-        const Code low = code(scene, unpacked(trapezoids.lower[k])), high = code(scene, unpacked(trapezoids.upper[k]));
-        levels.push_back({k, is_above, on.contact, low, high, 0, 0, 1, 0, 0});
+            at.know_meeting(s.on.contact, angle.first, angle.second, angle.lo, angle.hi);
+        levels.push_back({s.trapezoid, s.is_above, s.on.contact, s.lower, s.upper, code(scene, s.lower), code(scene, s.upper), 0, 0, 1, 0, 0});
     }
     std::vector<Index> all(levels.size());
     std::iota(all.begin(), all.end(), 0);
@@ -130,8 +126,7 @@ void LevelGluer<At>::find_places(Sheet& sheet, At& at) {
         auto operator<=>(const LevelEnd&) const = default;
     };
     const auto spot_of = [&](Index k, bool is_high) {
-        const Index trapezoid = levels[k].trapezoid;
-        const Feature named = unpacked((is_high ? trapezoids.upper : trapezoids.lower)[trapezoid]);
+        const Feature named = is_high ? levels[k].upper : levels[k].lower;
         if constexpr (is_round) return at.spot(levels[k].contact, named, levels[k].is_above);
         else return at.spot(levels[k].contact, named);
     };
@@ -406,10 +401,15 @@ std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, Around aro
         if (start[rank + 1] - start[first.back()] >= block || rank + 1 == ranks) first.push_back(rank + 1);
     std::vector<Parts> result(first.size() - 1);
     const auto glue_all = [&]<class At>(std::size_t k, LevelGluer<At>&& gluer) {
+        const auto begin = static_cast<std::size_t>(start[first[k]]), end = static_cast<std::size_t>(start[first[k + 1]]);
+        std::vector<SideAtAngle> rows;
+        rows.reserve(end - begin);
+        for (const Index side : std::span(sides).subspan(begin, end - begin))
+            rows.emplace_back(b.patches, b.trapezoids, side / 2, side % 2 == 0);
         for (Index rank = first[k]; rank < first[k + 1]; ++rank) {
             heed_stop();
             if (start[rank] < start[rank + 1])
-                gluer.glue(rank, std::span(sides).subspan(start[rank], start[rank + 1] - start[rank]));
+                gluer.glue(rank, std::span(rows).subspan(start[rank] - begin, start[rank + 1] - start[rank]));
         }
         gluer.parts.finish();
         result[k] = std::move(gluer.parts);

@@ -32,10 +32,10 @@ Trig<T> sum(const Trig<T>& f, const Trig<T>& g) { return {f.a + g.a, f.b + g.b, 
 
 Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> number,
                    std::function<std::optional<Predicates::Bracket>()> narrower)
-    : scene(s), chart(in), lo(from), hi(to), exact(std::move(number)), bracket(std::move(narrower)) {}
+    : on_any(s, {{}, in}), scene(s), chart(in), lo(from), hi(to), exact(std::move(number)), bracket(std::move(narrower)) {}
 
-Poly Junction::polynomial(const Trig<Int>& f) const { return on({}).polynomial(f); }
-Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtered(f); }
+Poly Junction::polynomial(const Trig<Int>& f) const { return on_any.polynomial(f); }
+Filtered Junction::filtered(const Trig<Approx>& f) const { return on_any.filtered(f); }
 
 // Sign at the angle of a trigonometric form, available in every number type.
 template <class F>
@@ -73,7 +73,7 @@ const Ball* Junction::dyadic() const {
 }
 
 Ball Junction::value_at(const Trig<Ball>& f, const Ball& tau) const {
-    const auto p = on({}).coefficients(f);
+    const auto p = on_any.coefficients(f);
     return p.c[0] + tau * (p.c[1] + tau * p.c[2]);
 }
 

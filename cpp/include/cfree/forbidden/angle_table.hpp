@@ -1,5 +1,8 @@
 // Critical angles of all trapezoids in one order, equal ones merged across patches, names and charts.
 #pragma once
+#include <span>
+#include <utility>
+
 #include "cfree/forbidden/critical_angle.hpp"
 
 namespace cfree {
@@ -27,8 +30,14 @@ private:
         bool is_to;
     };
     std::size_t place(Index rank, int chart) const { return static_cast<std::size_t>(rank + chart); }
-    void sort_chart(int chart, int threads);
-    void order_cluster(const Angle* begin, const Angle* end, std::vector<Angle>& ordered);
+    // Angles whose intervals overlap, one with the next; storage that is used again.
+    struct Cluster {
+        std::vector<CriticalAngle> all;
+        std::vector<std::pair<CriticalAngle::ShortName, const Angle*>> named;
+    };
+    std::vector<Angle> sorted_ends(int chart) const;
+    void order_chart(int chart, const std::vector<Angle>& ends, int threads);
+    void order_cluster(std::span<const Angle> ends, Cluster& cluster, std::vector<Angle>& ordered);
     Index& rank_of(const Angle& x) { return (x.is_to ? to : from)[x.trapezoid]; }
     CriticalAngle critical(const Angle& x) const;
 

@@ -61,6 +61,7 @@ public:
 
 private:
     Predicates on(const Feature& x) const { return {scene, {x, chart}}; }
+    Predicates on_any;  // for what is the same on every surface
     template <class T>
     Trig<T> along(const Feature& x, Index a, Index b) const;  // U . (b_b - R a_a - P)
     template <class T>
