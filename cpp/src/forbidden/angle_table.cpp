@@ -67,7 +67,8 @@ void AngleTable::order_chart(int chart, const std::vector<Angle>& ends, int thre
 
 // Append the angles of a cluster in order, and rank its members by their places there.
 void AngleTable::order_cluster(std::span<const Angle> ends, Cluster& cluster, std::vector<Angle>& ordered) {
-    auto& [all, named] = cluster;
+    auto& all = cluster.all;
+    auto& named = cluster.named;
     all.clear(), named.clear();
     for (const Angle& x : ends) all.push_back(critical(x));
     for (std::size_t k = 0; k < ends.size(); ++k) named.push_back({all[k].short_name(scene), &ends[k]});

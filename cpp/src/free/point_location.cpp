@@ -66,15 +66,22 @@ struct PointLocation::Probe {
 
 PointLocation::PointLocation(SharedBoundary b, std::vector<Index> of)
     : boundary(std::move(b)), scene(*boundary->scene), patches(boundary->patches), trapezoids(boundary->trapezoids),
-      component(std::move(of)), index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 1) {
-    extents.reserve(static_cast<std::size_t>(index.begin(index.count())));
-    for (Index part = 0; part < index.count(); ++part) {
-        for (const Index k : index.at(part)) extents.push_back(extent(k, index.from(part), index.to(part)));
-        std::sort(extents.begin() + index.begin(part), extents.end(), [](const Extent& x, const Extent& y) {
+      component(std::move(of)), index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 1),
+      parts(std::make_unique<Part[]>(static_cast<std::size_t>(index.count()))) {}
+
+std::span<const PointLocation::Extent> PointLocation::tree(Index part) const {
+    Part& own = parts[static_cast<std::size_t>(part)];
+    auto& extents = own.extents;
+    std::call_once(own.once, [&] {
+        const auto members = index.at(part);
+        extents.reserve(members.size());
+        for (const Index k : members) extents.push_back(extent(k, index.from(part), index.to(part)));
+        std::sort(extents.begin(), extents.end(), [](const Extent& x, const Extent& y) {
             return x.low < y.low || (x.low == y.low && x.trapezoid < y.trapezoid);
         });
-        plant(index.begin(part), index.begin(part + 1));
-    }
+        plant(extents);
+    });
+    return extents;
 }
 
 // Extent of segments: their ends move on circles, and rise above their heights at both ends of an arc by at most its sagitta.
@@ -107,11 +114,11 @@ PointLocation::Extent PointLocation::extent(Index k, double from, double to) con
     return result;
 }
 
-double PointLocation::plant(Index begin, Index end) {
-    if (begin == end) return -std::numeric_limits<double>::infinity();
-    const Index middle = begin + (end - begin) / 2;
+double PointLocation::plant(std::span<Extent> extents) {
+    if (extents.empty()) return -std::numeric_limits<double>::infinity();
+    const std::size_t middle = extents.size() / 2;
     Extent& x = extents[middle];
-    return x.top = std::max({x.high, plant(begin, middle), plant(middle + 1, end)});
+    return x.top = std::max({x.high, plant(extents.first(middle)), plant(extents.subspan(middle + 1))});
 }
 
 std::array<Dyadic, 2> PointLocation::angle(Index k, bool last, unsigned bits) const {
@@ -177,7 +184,7 @@ Spread spread(Approx p, Approx q) {
 PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) const {
     Nearby seen;
     const Index part = index.part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
-    stab(index.begin(part), index.begin(part + 1), q.place.x.v, q.place.y.v, [&](Index k) {
+    stab(tree(part), q.place.x.v, q.place.y.v, [&](Index k) {
         heed_stop();
         if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) return;
         const Feature contact = surface_of(patches, trapezoids, k).contact;
@@ -215,7 +222,7 @@ PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) c
 // Find trapezoids that hold the pose, and end there.
 void PointLocation::look_on(const View& q, Nearby& seen) const {
     const Index part = index.part_of(q.pose->chart, 1);
-    stab(index.begin(part), index.begin(part + 1), q.place.x.v, q.place.y.v, [&](Index k) {
+    stab(tree(part), q.place.x.v, q.place.y.v, [&](Index k) {
         if (trapezoids.to_hi[k] < q.tau_lo || order(true, k, q) != 0) return;
         if (may_be_on(surface_of(patches, trapezoids, k).contact, q) && is_on(k, q, true))
             seen.on.push_back(k), seen.end.push_back(1);
@@ -363,7 +370,7 @@ std::vector<Index> PointLocation::at_height_of(const ExactPose& pose) const {
     const View q(pose, scene.shift);
     const Index part = index.part_of(pose.chart, q.tau_lo);
     std::vector<Index> found;
-    stab(index.begin(part), index.begin(part + 1), q.place.x.v, q.place.y.v, [&](Index k) { found.push_back(k); });
+    stab(tree(part), q.place.x.v, q.place.y.v, [&](Index k) { found.push_back(k); });
     return found;
 }
 

@@ -58,7 +58,7 @@ PointLocation::Nearby PointLocation::look_among_grown(const ExactPose& q) const 
         return view.order((is_end ? angle_to(patches, trapezoids, k) : angle_from(patches, trapezoids, k)).exact_among_grown(scene));
     };
     const double x = ratio(q.X, W), y = ratio(q.Y, W);
-    stab(index.begin(part), index.begin(part + 1), x + std::abs(x) * 0x1p-50 + tiny, y, [&](Index k) {
+    stab(tree(part), x + std::abs(x) * 0x1p-50 + tiny, y, [&](Index k) {
         heed_stop();
         if (trapezoids.from_lo[k] > tau_hi || trapezoids.to_hi[k] < tau_lo) return;
         const int from = order(false, k), to = order(true, k);

@@ -1,7 +1,10 @@
 // Exact location of poses: the closed surfaces of a boundary around a pose are those that the ray from it towards -x, at its
 // orientation, crosses an odd number of times. Every crossing is the sign of a polynomial in tau at a rational number.
 #pragma once
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <span>
 
 #include "cfree/forbidden/cell_complex.hpp"
 #include "cfree/forbidden/tau_index.hpp"
@@ -108,18 +111,19 @@ private:
         Index trapezoid;
     };
     Extent extent(Index k, double from, double to) const;
-    double plant(Index begin, Index end);
+    static double plant(std::span<Extent> extents);
+    std::span<const Extent> tree(Index part) const;
     // Trapezoids that the ray from a point towards -x may cross.
     template <class F>
-    void stab(Index begin, Index end, double x, double y, F&& report) const {
-        while (begin < end) {
-            const Index middle = begin + (end - begin) / 2;
-            const Extent& e = extents[middle];
+    static void stab(std::span<const Extent> in, double x, double y, F&& report) {
+        while (!in.empty()) {
+            const std::size_t middle = in.size() / 2;
+            const Extent& e = in[middle];
             if (e.top < y) return;
-            stab(begin, middle, x, y, report);
+            stab(in.first(middle), x, y, report);
             if (e.low > y) return;
             if (e.high >= y && e.left <= x) report(e.trapezoid);
-            begin = middle + 1;
+            in = in.subspan(middle + 1);
         }
     }
     // The same where shapes are grown (round_location.cpp).
@@ -134,7 +138,13 @@ private:
     const Trapezoids& trapezoids;
     std::vector<Index> component;
     TauIndex index;
-    std::vector<Extent> extents;  // extents of the index's lists, each a tree: in order of `low`, the root in the middle
+    struct Part {
+        std::once_flag once;
+        std::vector<Extent> extents;
+    };
+    // Extents of each list of the index, made when a pose of its orientations is asked for first. Each is a tree: in order of
+    // `low`, the root in the middle.
+    std::unique_ptr<Part[]> parts;
 };
 
 }  // namespace cfree

@@ -1,34 +1,36 @@
 // Match five sides by the names of their curves; theory, "Closed surfaces".
-#include "forbidden/meeting_of_three.hpp"
+#include "forbidden/meetings_of_three.hpp"
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace cfree {
 
 namespace {
 
-struct Level {
-    const SideAtAngle* side;
-    Code own;
-    std::array<Code, 2> ends;  // names of its curves
-};
-
-// The sides of one surface: one of no length, or one below the angle and one above between the same two places.
-struct Line {
-    std::array<const Level*, 2> levels{};  // the second may be null
-    std::array<Spot, 2> ends;
-};
-
-class Meeting {
+class MeetingOfThree {
 public:
-    Meeting(const Scene& s, const Whole& w, Junction& j) : scene(s), whole(w), at(j) {}
+    static constexpr std::size_t size = 5;  // sides
+    MeetingOfThree(const Scene& s, Junction& j, const CriticalAngle::Name& met) : name(met), scene(s), at(j) {}
 
-    bool read(std::span<const SideAtAngle> sides);
+    const CriticalAngle::Name name;
+    bool read(const SideAtAngle& side);
     bool match();
-    void add(Parts& parts) const;
+    bool is_apart(const MeetingOfThree& other) const;
+    void add(const Whole& whole, Parts& parts) const;
 
 private:
+    struct Level {
+        const SideAtAngle* side;
+        Code own;
+        std::array<Code, 2> ends;  // names of its curves
+    };
+    // The sides of one surface: one of no length, or one below the angle and one above between the same two places.
+    struct Line {
+        std::array<const Level*, 2> levels{};  // the second may be null
+        std::array<Spot, 2> ends;
+    };
     bool add_to_line(const Level& level);
     bool find_helix();
     bool is_there(const Level& on, Code curve) const;
@@ -36,30 +38,22 @@ private:
     bool match(Line& line);
 
     const Scene& scene;
-    const Whole& whole;
     Junction& at;
-    std::array<Level, 5> levels;
-    CriticalAngle::Name name{};
+    std::array<Level, size> levels;
     Code helix = 0;  // 0: three surfaces meet in a point of none of their helices
     std::array<Line, 3> lines;  // in the order of their first levels
-    std::size_t found = 0;
+    std::size_t read_levels = 0, found = 0;
 };
 
-// Read the sides; false unless all name the same meeting, and are on three surfaces.
-bool Meeting::read(std::span<const SideAtAngle> sides) {
-    if (sides.size() != levels.size()) return false;
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-        const SideAtAngle& side = sides[k];
-        const auto met = side.angle().name(scene);
-        if (k == 0) name = met;
-        if (met != name) return false;
-        levels[k] = {&side, code(scene, side.on.contact), {code(scene, side.lower), code(scene, side.upper)}};
-        if (!add_to_line(levels[k])) return false;
-    }
-    return found == lines.size() && find_helix();
+// Take a side; false if there are too many, or of too many surfaces.
+bool MeetingOfThree::read(const SideAtAngle& side) {
+    if (read_levels == levels.size()) return false;
+    Level& level = levels[read_levels++];
+    level = {&side, code(scene, side.on.contact), {code(scene, side.lower), code(scene, side.upper)}};
+    return add_to_line(level);
 }
 
-bool Meeting::add_to_line(const Level& level) {
+bool MeetingOfThree::add_to_line(const Level& level) {
     for (std::size_t k = 0; k < found; ++k) {
         auto& on_it = lines[k].levels;
         if (on_it[0]->own != level.own) continue;
@@ -73,7 +67,7 @@ bool Meeting::add_to_line(const Level& level) {
 }
 
 // The meeting is that of the three surfaces, or that of a helix of two of them with the third.
-bool Meeting::find_helix() {
+bool MeetingOfThree::find_helix() {
     std::array<Code, 3> own{};
     for (std::size_t k = 0; k < own.size(); ++k) own[k] = lines[k].levels[0]->own;
     const auto is_own = [&](Code x) { return std::find(own.begin(), own.end(), x) != own.end(); };
@@ -88,28 +82,30 @@ bool Meeting::find_helix() {
 }
 
 // True if a curve is certainly where they meet.
-bool Meeting::is_there(const Level& on, Code curve) const {
+bool MeetingOfThree::is_there(const Level& on, Code curve) const {
     if (curve == on.own) return false;
     const bool is_through = helix == 0 || on.own == name[1] || on.own == name[2];  // each of the others is a curve on it
     if (!is_through) return curve == name[1] || curve == name[2];                  // the helix, and the surface that it meets
     return std::any_of(lines.begin(), lines.end(), [&](const Line& line) { return line.levels[0]->own == curve; });
 }
 
-// True if the lines of two surfaces are certainly not parallel.
-bool Meeting::cross(const Feature& x, const Feature& y) const {
+// True if the lines of two surfaces are not parallel.
+bool MeetingOfThree::cross(const Feature& x, const Feature& y) const {
     if (x.kind != y.kind) return at.turn(x, y) != 0;
     const Shape& shape = x.kind == Kind::vertex_edge ? scene.obstacles : scene.robot;
     const auto edge = [](const Feature& f) { return f.kind == Kind::vertex_edge ? f.obstacle : f.robot; };
     return shape.direction[edge(x)] != shape.direction[edge(y)];
 }
 
-bool Meeting::match() {
+// True if the meeting has all its sides, and they are matched.
+bool MeetingOfThree::match() {
+    if (read_levels < levels.size() || found < lines.size() || !find_helix()) return false;
     const auto contact = [&](int k) -> const Feature& { return lines[k].levels[0]->side->on.contact; };
     if (!cross(contact(0), contact(1)) || !cross(contact(0), contact(2)) || !cross(contact(1), contact(2))) return false;
     return std::all_of(lines.begin(), lines.end(), [&](Line& line) { return match(line); });
 }
 
-bool Meeting::match(Line& line) {
+bool MeetingOfThree::match(Line& line) {
     const auto& [x, y] = line.levels;
     if (!y) return is_there(*x, x->ends[0]) && is_there(*x, x->ends[1]);
     const bool same_low = x->ends[0] == y->ends[0], same_high = x->ends[1] == y->ends[1];
@@ -120,7 +116,21 @@ bool Meeting::match(Line& line) {
     return at.range(contact, line.ends[0]).hi < at.range(contact, line.ends[1]).lo;
 }
 
-void Meeting::add(Parts& parts) const {
+// True if no side of another meeting is on the line of one of this one.
+bool MeetingOfThree::is_apart(const MeetingOfThree& other) const {
+    const auto are_apart = [&](const Line& x, const Line& y) {
+        if (!x.levels[1] || !y.levels[1]) return true;
+        const Feature &p = x.levels[0]->side->on.contact, &q = y.levels[0]->side->on.contact;
+        if (cross(p, q)) return true;
+        const Interval offset = at.offset(p, q);
+        return offset.lo > 0 || offset.hi < 0;
+    };
+    return std::all_of(lines.begin(), lines.end(), [&](const Line& x) {
+        return std::all_of(other.lines.begin(), other.lines.end(), [&](const Line& y) { return are_apart(x, y); });
+    });
+}
+
+void MeetingOfThree::add(const Whole& whole, Parts& parts) const {
     for (const Line& line : lines) {
         const auto& [x, y] = line.levels;
         if (!y || (!whole[x->side->trapezoid] && !whole[y->side->trapezoid])) continue;
@@ -136,10 +146,21 @@ void Meeting::add(Parts& parts) const {
 
 }  // namespace
 
-bool glue_meeting_of_three(const Scene& scene, const Whole& whole, std::span<const SideAtAngle> sides, Junction& at, Parts& parts) {
-    Meeting meeting(scene, whole, at);
-    if (!meeting.read(sides) || !meeting.match()) return false;
-    meeting.add(parts);
+bool glue_meetings_of_three(const Scene& scene, const Whole& whole, std::span<const SideAtAngle> sides, Junction& at, Parts& parts) {
+    constexpr std::size_t most = 4;
+    if (sides.size() % MeetingOfThree::size != 0 || sides.size() > most * MeetingOfThree::size) return false;
+    std::array<std::optional<MeetingOfThree>, most> meetings;
+    const auto end = meetings.begin() + static_cast<std::ptrdiff_t>(sides.size() / MeetingOfThree::size);
+    for (const SideAtAngle& side : sides) {
+        const auto name = side.angle().name(scene);
+        const auto found = std::find_if(meetings.begin(), end, [&](const auto& x) { return !x || x->name == name; });
+        if (found == end) return false;
+        if (!*found) found->emplace(scene, at, name);
+        if (!(*found)->read(side)) return false;
+    }
+    for (auto x = meetings.begin(); x != end; ++x)
+        if (!*x || !(*x)->match() || !std::all_of(meetings.begin(), x, [&](const auto& y) { return (*x)->is_apart(*y); })) return false;
+    for (auto x = meetings.begin(); x != end; ++x) (*x)->add(whole, parts);
     return true;
 }
 
