@@ -2,6 +2,7 @@
 #include "cfree/free/free_space.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -34,34 +35,35 @@ std::vector<Index> depths(const Surfaces& s) {
 Turns turns_of(const CellComplex& c) {
     const auto& chart = c.boundary->trapezoids.chart;
     const auto leaves = [&](Index h) {  // over theta = 3 pi / 2
+        if (c.side[h] != static_cast<std::uint8_t>(Side::last)) return false;
         const Index twin = c.twin[h];
-        return c.side[h] == static_cast<std::uint8_t>(Side::last) && chart[c.face[h]] == 1 &&
-               c.side[twin] == static_cast<std::uint8_t>(Side::first) && chart[c.face[twin]] == 0;
+        return chart[c.face[h]] == 1 && c.side[twin] == static_cast<std::uint8_t>(Side::first) && chart[c.face[twin]] == 0;
     };
-    Turns out{std::vector<Index>(c.components, 0), std::vector<Index>(c.component.size(), 0)};
-    std::vector<char> seen(c.component.size(), 0);
+    constexpr Index none = std::numeric_limits<Index>::min();
+    const auto faces = static_cast<Index>(c.component.size());
+    Turns out{std::vector<Index>(c.components, 0), std::vector<Index>(c.component.size(), none)};
     std::vector<Index> stack;
-    for (Index f = 0; f < static_cast<Index>(c.component.size()); ++f) {
-        if (seen[f] || c.component[f] < 0) continue;
-        seen[f] = 1;
+    for (Index f = 0; f < faces; ++f) {
+        if (c.component[f] < 0 || out.lift[f] != none) continue;
+        Index& divisor = out.turns[c.component[f]];
+        out.lift[f] = 0;
         stack.push_back(f);
         while (!stack.empty()) {
             const Index g = stack.back();
             stack.pop_back();
             for (Index h = c.first[g]; h < c.first[g + 1]; ++h) {
-                const Index next = c.face[c.twin[h]];
-                if (c.component[next] < 0) continue;
-                const Index lift = out.lift[g] + leaves(h) - leaves(c.twin[h]);
-                if (!seen[next]) {
-                    seen[next] = 1, out.lift[next] = lift;
+                const Index next = c.face[c.twin[h]], lift = out.lift[g] + leaves(h) - leaves(c.twin[h]);
+                if (out.lift[next] != none) {
+                    if (lift != out.lift[next]) divisor = std::gcd(divisor, lift - out.lift[next]);
+                } else if (c.component[next] >= 0) {
+                    out.lift[next] = lift;
                     stack.push_back(next);
-                } else {
-                    Index& divisor = out.turns[c.component[f]];
-                    divisor = std::gcd(divisor, lift - out.lift[next]);
                 }
             }
         }
     }
+    for (Index f = 0; f < faces; ++f)
+        if (c.component[f] < 0) out.lift[f] = 0;
     return out;
 }
 
