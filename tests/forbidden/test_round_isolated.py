@@ -173,7 +173,11 @@ def test_lines_are_one_where_an_edge_ends_at_an_arc() -> None:
     assert not found_in(Scene(robot, [*walls, box(F(39, 4), 20, F(41, 4), 21)]))
 
 
-SEEDS = [pytest.param(family, seed, marks=pytest.mark.slow) for family in FAMILIES for seed in range(3)]
+SEEDS = [
+    pytest.param(family, seed, marks=[pytest.mark.slow, pytest.mark.long] if seed == 2 else pytest.mark.slow)
+    for family in FAMILIES
+    for seed in range(3)
+]
 
 
 @pytest.mark.parametrize(("family", "seed"), SEEDS)

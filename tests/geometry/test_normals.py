@@ -31,8 +31,12 @@ def radius(result: Boundary) -> float:
     return float(np.hypot(*result.features.robot.xy.T).max())
 
 
+LARGE = ("benchmr_warehouse", "nest_swim", "street_Berlin")
+PATHS = [pytest.param(path, marks=[pytest.mark.long] if path.stem in LARGE else []) for path in POLYGONS]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("path", POLYGONS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_degree_is_half_the_euler_number_on_all_example_scenes(path: Path) -> None:
     result = boundary(load_scene(path), threads=1)
     found = gauss_map(result, angle_scale=radius(result))

@@ -28,7 +28,7 @@ SCENE = cfree.Scene(
 BODIES = ["robot", "start", "goal"]
 
 
-@pytest.fixture(scope="module", params=[PHONE, TABLET], ids=["phone", "tablet"])
+@pytest.fixture(scope="module", params=[PHONE, pytest.param(TABLET, marks=pytest.mark.long)], ids=["phone", "tablet"])
 def device(browser: Any, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tried]:
     file = view(SCENE, html=tmp_path_factory.mktemp("page") / "page.html", browser=False)
     tried = Tried(browser, file, **request.param)
