@@ -85,9 +85,10 @@ void AngleTable::order_cluster(std::span<const Angle> ends, Cluster& cluster, st
         std::vector<const Angle*> members;
     };
     std::vector<Class> classes;  // in order
+    const auto angle = [&](std::size_t k) -> const CriticalAngle& { return all[static_cast<std::size_t>(named[k].second - ends.data())]; };
     const auto add = [&](std::size_t first, std::size_t next) {
         heed_stop();
-        CriticalAngle x = critical(*named[first].second);
+        CriticalAngle x = angle(first);
         std::size_t low = 0, high = classes.size();
         bool found = false;
         while (low < high && !found) {
@@ -104,7 +105,7 @@ void AngleTable::order_cluster(std::span<const Angle> ends, Cluster& cluster, st
     for (std::size_t k = 0, next; k < named.size(); k = next) {
         same.clear();
         for (next = k; next < named.size() && named[next].first == named[k].first; ++next)
-            same.push_back(critical(*named[next].second));
+            same.push_back(angle(next));
         if (same.size() == 1 || CriticalAngle::are_one(scene, named[k].first, same)) add(k, next);
         else
             for (std::size_t x = k; x < next; ++x) add(x, x + 1);

@@ -34,7 +34,6 @@ private:
     bool add_to_line(const Level& level);
     bool find_helix();
     bool is_there(const Level& on, Code curve) const;
-    bool cross(const Feature& x, const Feature& y) const;
     bool match(Line& line);
 
     const Scene& scene;
@@ -89,19 +88,12 @@ bool MeetingOfThree::is_there(const Level& on, Code curve) const {
     return std::any_of(lines.begin(), lines.end(), [&](const Line& line) { return line.levels[0]->own == curve; });
 }
 
-// True if the lines of two surfaces are not parallel.
-bool MeetingOfThree::cross(const Feature& x, const Feature& y) const {
-    if (x.kind != y.kind) return at.turn(x, y) != 0;
-    const Shape& shape = x.kind == Kind::vertex_edge ? scene.obstacles : scene.robot;
-    const auto edge = [](const Feature& f) { return f.kind == Kind::vertex_edge ? f.obstacle : f.robot; };
-    return shape.direction[edge(x)] != shape.direction[edge(y)];
-}
-
 // True if the meeting has all its sides, and they are matched.
 bool MeetingOfThree::match() {
     if (read_levels < levels.size() || found < lines.size() || !find_helix()) return false;
     const auto contact = [&](int k) -> const Feature& { return lines[k].levels[0]->side->on.contact; };
-    if (!cross(contact(0), contact(1)) || !cross(contact(0), contact(2)) || !cross(contact(1), contact(2))) return false;
+    for (const int k : {0, 1, 2})
+        if (at.turn(contact(k), contact((k + 1) % 3)) == 0) return false;  // their lines are parallel
     return std::all_of(lines.begin(), lines.end(), [&](Line& line) { return match(line); });
 }
 
@@ -121,7 +113,7 @@ bool MeetingOfThree::is_apart(const MeetingOfThree& other) const {
     const auto are_apart = [&](const Line& x, const Line& y) {
         if (!x.levels[1] || !y.levels[1]) return true;
         const Feature &p = x.levels[0]->side->on.contact, &q = y.levels[0]->side->on.contact;
-        if (cross(p, q)) return true;
+        if (at.turn(p, q) != 0) return true;
         const Interval offset = at.offset(p, q);
         return offset.lo > 0 || offset.hi < 0;
     };
