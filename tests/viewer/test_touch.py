@@ -26,6 +26,7 @@ SCENE = cfree.Scene(
     name="apart",
 )
 BODIES = ["robot", "start", "goal"]
+PLACES = "all => all.map(one => one.getAttribute('transform'))"
 
 
 @pytest.fixture(scope="module", params=[PHONE, pytest.param(TABLET, marks=pytest.mark.long)], ids=["phone", "tablet"])
@@ -48,7 +49,7 @@ def page(device: Tried) -> Any:
     device.page.locator(".body.robot").focus()
     for key in ["Shift+ArrowDown", "Shift+ArrowRight", "ArrowDown"]:
         device.page.keyboard.press(key)
-        device.page.wait_for_timeout(100)
+        settled(device.page)
     device.page.evaluate("document.activeElement.blur()")
     return device.page
 
@@ -82,7 +83,10 @@ def is_near(found: Place, x: float, y: float) -> bool:
 
 
 def settled(page: Any) -> None:
-    page.wait_for_timeout(300)
+    """Wait until bodies and drawing have stayed where they are for 0.3 s: contacts and the grid draw a body to them."""
+    places = None
+    while places != (places := page.locator("#workspace > svg [transform]").evaluate_all(PLACES)):
+        page.wait_for_timeout(300)
 
 
 def edited(page: Any) -> None:
