@@ -205,6 +205,17 @@ def test_exact_triangles_have_the_area_of_the_polygon(shape: Shape) -> None:
     assert sum(areas) == oracles.exact_area([shape])
 
 
+def test_exact_triangles_where_doubles_see_no_width() -> None:
+    """A hole touches the slanted side of its outer ring in a point that no double has."""
+    third, hair = Fraction(1, 3), Fraction(1, 10**40)
+    touching = ([(0, 0), (3, 1), (0, 2)], [[(1, third), (4 * third, 1), (Fraction(1, 2), 1)]])
+    split = ([(0, 0), (9, 0), (9, 9), (third + hair, 9), (third, 1), (third, 9), (0, 9)], [])
+    for polygon in (touching, split):
+        triangles = oracles.exact_triangles([polygon])
+        assert all(oracles.ring_area(triangle) > 0 for triangle in triangles)
+        assert sum(map(oracles.ring_area, triangles)) == oracles.exact_area([polygon])
+
+
 @pytest.mark.parametrize("name", NAMED)
 def test_named_shapes_are_valid_and_have_their_interior_on_the_left(name: str) -> None:
     shape = NAMED[name]()

@@ -19,6 +19,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -256,8 +257,8 @@ def exact_is_forbidden(
 def exact_triangles(polygons: Sequence[Polygon]) -> list[ExactRing]:
     """Counter-clockwise triangles that tile the polygons exactly.
 
-    Shapely proposes them on rounded vertices; that they tile is then proved on the exact ones: every
-    triangle is positive, every ring edge is used once, every diagonal once in each direction.
+    Shapely proposes them on rounded vertices. They are taken if the exact ones prove that they tile: every triangle
+    is positive, every ring edge is used once, every diagonal once in each direction. Else they are computed exactly.
     """
     return [triangle for polygon in polygons for triangle in _exact_triangles(_fractions(polygon))]
 
@@ -367,12 +368,42 @@ def _exact_triangles(polygon: tuple[ExactRing, tuple[ExactRing, ...]]) -> tuple[
     rings = [outer if ring_area(outer) > 0 else outer[::-1]]
     rings += [hole if ring_area(hole) < 0 else hole[::-1] for hole in holes]
     exact = {(float(x), float(y)): (x, y) for ring in rings for x, y in ring}
-    assert len(exact) == len({p for ring in rings for p in ring}), "distinct vertices round to one"
-    triangles = tuple(tuple(exact[p] for p in t) for t in _triangles(*_floats([polygon])))
-    assert all(orient(*triangle) > 0 for triangle in triangles), "a triangle is flat or turned over"
+    try:
+        proposed = tuple(tuple(exact[p] for p in t) for t in _triangles(*_floats([polygon])))
+    except AtALoss:
+        proposed = ()
+    if _tile(proposed, rings):
+        return proposed
+    found = _triangles_between_verticals(rings)
+    assert sum(map(ring_area, found)) == sum(map(ring_area, rings))
+    return found
+
+
+def _tile(triangles: Sequence[ExactRing], rings: Sequence[ExactRing]) -> bool:
+    """True if the triangles certainly tile what the rings bound."""
     uses = Counter(edge for triangle in triangles for edge in edges(triangle))
     sides = {edge for ring in rings for edge in edges(ring)}
-    assert all(count == 1 for count in uses.values()), "two triangles lie on the same side of an edge"
-    assert sides <= uses.keys(), "a side of the polygon is no side of a triangle"
-    assert all((q, p) in uses for p, q in uses.keys() - sides), "the triangles leave a gap"
-    return triangles
+    return (
+        all(orient(*triangle) > 0 for triangle in triangles)
+        and all(count == 1 for count in uses.values())
+        and sides <= uses.keys()
+        and all((q, p) in uses for p, q in uses.keys() - sides)
+    )
+
+
+def _triangles_between_verticals(rings: Sequence[ExactRing]) -> tuple[ExactRing, ...]:
+    """Triangles of the pieces into which vertical lines through all vertices cut what the rings bound."""
+    sides = [side if side[0] < side[1] else side[::-1] for ring in rings for side in edges(ring)]
+    found = []
+    for x0, x1 in pairwise(sorted({x for ring in rings for x, _ in ring})):
+        across = sorted(
+            (
+                [(x, y + (x - u) * (v - y) / (w - u)) for x in (x0, x1)]
+                for (u, y), (w, v) in sides
+                if u <= x0 and x1 <= w
+            ),
+            key=lambda ends: ends[0][1] + ends[1][1],
+        )
+        for (a, b), (d, c) in zip(across[::2], across[1::2], strict=True):
+            found += [triangle for triangle in ((a, b, c), (a, c, d)) if orient(*triangle) > 0]
+    return tuple(found)
