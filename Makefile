@@ -38,12 +38,12 @@ test: $(TESTED)  ## the quick tests, in a few minutes
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
 check: test  ## every test, those of the core under sanitizers, types and style
-	$(MAKE) rest
-	$(BIN)/python -m pytest -n 2 --dist worksteal -m long
-
-rest: $(INSTALLED)  ## what `make test` leaves out, but for the longest tests
 	$(MAKE) -j 2 --output-sync $(TESTED) ctest lint
-	$(BIN)/python -m pytest -n 2 --dist worksteal -m "slow and not long"  # files of tests stay together as long as there are enough
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m slow  # files of tests stay together as long as there are enough
+
+rest: $(INSTALLED)  ## what `make test` leaves out, but for the longest tests and most cases of tests that have many
+	$(MAKE) -j 2 --output-sync $(TESTED) ctest lint
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "slow and not long" --one-of 3
 
 ctest: $(INSTALLED)  ## the core's own tests, without Python, under the address and undefined-behaviour sanitizers
 	$(BIN)/cmake -S . -B build/ctest -DCFREE_SANITIZE=ON -DCFREE_UNITY=ON -DCMAKE_CXX_FLAGS_RELEASE=-O0 \

@@ -7,6 +7,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from cfree import Scene
+from cfree.formats.scene_file import scene_text
+
 CHROMIUM = Path("/usr/bin/chromium")
 SWIFTSHADER = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 
@@ -40,6 +43,15 @@ class Tried:
     def give(self, text: str, name: str = "scene.json") -> None:
         """Give it a file, by the button that opens files."""
         self.page.set_input_files("#file", {"name": name, "mimeType": "application/json", "buffer": text.encode()})
+
+    def show(self, scene: Scene) -> None:
+        """Give it another scene, as a file; shapes are not edited then, and patches are coloured by contact."""
+        if self.page.locator("#edit-shapes").get_attribute("aria-pressed") == "true":
+            self.page.locator("#edit-shapes").click()
+        self.page.select_option("#colour", "contact")
+        self.page.evaluate("delete document.body.dataset.ready, scrollTo(0, 0)")
+        self.give(scene_text(scene))
+        self.ready(scene.name)
 
     def say(self, which: str, text: str) -> None:
         """Wait until an element has this text; else raise an error with the text that it has."""

@@ -7,17 +7,15 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
 
 import cfree
-from cfree import Pose, verify, view
+from cfree import Pose, verify
 from cfree.curves import Arc
 from cfree.scene.rounded import rounded_shapes
 from pages import Tried
@@ -31,14 +29,10 @@ MOUND = cfree.Curved([(-1, -2), (1, -2), Arc((-1, -2), through=("1/2", "3/10"))]
 
 
 @pytest.fixture
-def tried(browser: Any, tmp_path: Path) -> Iterator[Tried]:
-    scene = cfree.Scene(
-        DISC, [FLOOR, cfree.Curved.circle((0, "5/2"), 1), MOUND], start=(-5, 0, 0), goal=(5, 0, 0), name="floor"
-    )
-    tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
-    tried.ready("floor")
-    yield tried
-    tried.close()
+def floor(tried: Tried) -> Tried:
+    obstacles = [FLOOR, cfree.Curved.circle((0, "5/2"), 1), MOUND]
+    tried.show(cfree.Scene(DISC, obstacles, start=(-5, 0, 0), goal=(5, 0, 0), name="floor"))
+    return tried
 
 
 def saved_and_verified(tried: Tried, folder: Path) -> cfree.Path | cfree.Separated:
@@ -49,21 +43,20 @@ def saved_and_verified(tried: Tried, folder: Path) -> cfree.Path | cfree.Separat
     return answer
 
 
-def test_round_shapes_are_drawn_round_and_their_path_is_saved_and_verified(tried: Tried, tmp_path: Path) -> None:
-    assert [" ".join(d).count("A") for d in zip(tried.outlines(), strict=True)] == [0, 4, 3]
-    assert "A0.5 0.5" in str(tried.page.locator(".body.robot .shape").get_attribute("d"))
-    tried.say("#facts", "obstacle 2: drawn as a polygon around the arcs, within 0.0")
-    tried.say("#way", "A motion exists")
-    tried.say("#pose", "Touching obstacle 0. Allowed.")
-    path = saved_and_verified(tried, tmp_path)
+def test_round_shapes_are_drawn_round_and_their_path_is_saved_and_verified(floor: Tried, tmp_path: Path) -> None:
+    assert [" ".join(d).count("A") for d in zip(floor.outlines(), strict=True)] == [0, 4, 3]
+    assert "A0.5 0.5" in str(floor.page.locator(".body.robot .shape").get_attribute("d"))
+    floor.say("#facts", "obstacle 2: drawn as a polygon around the arcs, within 0.0")
+    floor.say("#way", "A motion exists")
+    floor.say("#pose", "Touching obstacle 0. Allowed.")
+    path = saved_and_verified(floor, tmp_path)
     assert isinstance(path, cfree.Path) and (path.start, path.goal) == (Pose(-5, 0), Pose(5, 0))
     assert "polygons" not in json.loads((tmp_path / "answer.json").read_text())
 
 
-def test_a_disc_dragged_gently_onto_an_arc_touches_it(browser: Any, tmp_path: Path) -> None:
+def test_a_disc_dragged_gently_onto_an_arc_touches_it(tried: Tried) -> None:
     scene = cfree.Scene(DISC, [HILL], start=(0, 2, 0), name="hill")
-    tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
-    tried.ready("hill")
+    tried.show(scene)
     tried.say("#pose", "Free, in cell 0; ")
     pixels = tried.page.evaluate("document.querySelector('#workspace svg > g').transform.baseVal[0].matrix.a")
     tried.drag("robot", 0, pixels * (2 - 5 / 6) + 4)  # the arc is at 1/3, the radius 1/2
@@ -71,19 +64,18 @@ def test_a_disc_dragged_gently_onto_an_arc_touches_it(browser: Any, tmp_path: Pa
     told.filter(has_text=re.compile(r"^Touching(:.*)? \S*obstacle 0\. Allowed\.$")).wait_for(timeout=30_000)
     tried.drag("robot", 0, 60)
     tried.say("#pose", "Forbidden: the robot overlaps obstacle 0.")
-    tried.close()
 
 
-def test_a_round_obstacle_moves_as_a_whole_and_stays_exact(tried: Tried, tmp_path: Path) -> None:
-    page = tried.page
+def test_a_round_obstacle_moves_as_a_whole_and_stays_exact(floor: Tried, tmp_path: Path) -> None:
+    page = floor.page
     page.locator("#edit-shapes").click()
-    before = tried.outlines()
-    tried.built(lambda: tried.pull(page.locator(".obstacle").nth(1), 20, 30))
-    assert page.locator(".vertex").count() == 0 and tried.outlines()[0] == before[0]
-    moved = cfree.load_scene(tried.saved("scene", tmp_path / "moved.json")).obstacles[1]
+    before = floor.outlines()
+    floor.built(lambda: floor.pull(page.locator(".obstacle").nth(1), 20, 30))
+    assert page.locator(".vertex").count() == 0 and floor.outlines()[0] == before[0]
+    moved = cfree.load_scene(floor.saved("scene", tmp_path / "moved.json")).obstacles[1]
     assert isinstance(moved, cfree.Curved) and moved.size == 2 and moved != cfree.Curved.circle((0, "5/2"), 1)
-    tried.built(lambda: page.locator("#undo").click())
-    assert tried.outlines() == before
+    floor.built(lambda: page.locator("#undo").click())
+    assert floor.outlines() == before
 
 
 def test_other_curves_are_refused_with_the_remedy(tried: Tried) -> None:
@@ -154,11 +146,9 @@ LEGEND = {
 
 
 @pytest.fixture
-def opened(browser: Any, tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Tried]:
-    tried = Tried(browser, view(ROUNDED[request.param], html=tmp_path / "page.html", browser=False))
-    tried.ready(request.param)
-    yield tried
-    tried.close()
+def opened(tried: Tried, request: pytest.FixtureRequest) -> Tried:
+    tried.show(ROUNDED[request.param])
+    return tried
 
 
 def colours(tried: Tried) -> set[tuple[int, int, int]]:
@@ -235,14 +225,12 @@ def test_cells_follow_drags_of_round_robots_and_obstacles(opened: Tried, tmp_pat
     assert isinstance(saved_and_verified(opened, tmp_path), cfree.Path)
 
 
-def test_a_round_robot_in_a_ring_of_discs_is_proved_to_stay_there(browser: Any, tmp_path: Path) -> None:
+def test_a_round_robot_in_a_ring_of_discs_is_proved_to_stay_there(tried: Tried, tmp_path: Path) -> None:
     near = [(2, 0), (-2, 0), (0, 2), (0, -2), *((x, y) for x in ("1.5", "-1.5") for y in ("1.5", "-1.5"))]
     ring = [cfree.Curved.circle(at, "0.6") for at in near]
     scene = cfree.Scene(TRIANGLE, ring, start=(0, 0, 0), goal=(5, 0, 0), name="ring")
-    tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
-    tried.ready("ring")
+    tried.show(scene)
     tried.say("#facts", "2 cells")
     tried.say("#way", "No motion, not even touching: separated by obstacles 0, 1, 2, 3 and 4 more.")
     proof = saved_and_verified(tried, tmp_path)
     assert isinstance(proof, cfree.Separated) and proof.rounded is not None
-    tried.close()

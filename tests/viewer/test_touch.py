@@ -9,7 +9,6 @@ import pytest
 
 import cfree
 from cfree import view
-from cfree.formats.scene_file import scene_text
 from pages import PHONE, TABLET, Fingers, Place, Tried
 
 pytestmark = pytest.mark.slow
@@ -41,11 +40,7 @@ def device(browser: Any, request: pytest.FixtureRequest, tmp_path_factory: pytes
 @pytest.fixture
 def page(device: Tried) -> Any:
     """The page as it begins, but for the robot, which has been moved away from its start."""
-    if device.page.locator("#edit-shapes").get_attribute("aria-pressed") == "true":
-        device.page.locator("#edit-shapes").click()
-    device.page.evaluate("delete document.body.dataset.ready, scrollTo(0, 0)")
-    device.give(scene_text(SCENE))
-    device.ready("apart")
+    device.show(SCENE)
     device.page.locator(".body.robot").focus()
     for key in ["Shift+ArrowDown", "Shift+ArrowRight", "ArrowDown"]:
         device.page.keyboard.press(key)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -24,17 +23,21 @@ CAR, DRIVE = "A car drives there: ", "A machine that turns in place drives there
 
 
 @pytest.fixture
-def park(browser: Any, tmp_path: Path) -> Iterator[Tried]:
-    tried = opened(browser, tmp_path)
-    yield tried
-    tried.close()
+def park(tried: Tried) -> Tried:
+    tried.show(cfree.load_scene(PARK))
+    answered(tried)
+    return tried
+
+
+def answered(tried: Tried) -> None:
+    tried.page.locator("#way:not(.old):not(:empty)").filter(has_not_text="Looking for").wait_for(timeout=60_000)
 
 
 def opened(browser: Any, folder: Path, scene: cfree.Scene | None = None, **device: Any) -> Tried:
     scene = scene or cfree.load_scene(PARK)
     tried = Tried(browser, view(scene, html=folder / "page.html", browser=False), **device)
     tried.ready(scene.name)
-    tried.page.locator("#way:not(.old):not(:empty)").filter(has_not_text="Looking for").wait_for(timeout=60_000)
+    answered(tried)
     return tried
 
 
@@ -54,6 +57,8 @@ def test_scene_with_a_vehicle_opens_with_it(park: Tried) -> None:
 
 
 def test_scene_without_a_vehicle_moves_in_any_direction(tried: Tried) -> None:
+    tried.page.select_option("#scenes", "paper_fig9")
+    tried.ready("paper_fig9")
     tried.say("#way", "A motion exists")
     assert moves(tried) == "any"
     assert tried.page.locator(".wheels rect").count() == tried.page.locator(".handle:visible").count() == 0

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import cfree
-from cfree import verify, view
+from cfree import verify
 from pages import Tried
 
 pytestmark = pytest.mark.slow
@@ -21,12 +20,9 @@ ROOM = [(-9, -9), (9, -9), (9, 9), (-9, 9)]
 
 
 @pytest.fixture
-def tried(browser: Any, tmp_path: Path) -> Iterator[Tried]:
-    scene = cfree.Scene(BAR, WALLS, workspace=ROOM, start=(0, 5, 0), goal=(0, -5, 0), name="gap", units="m")
-    tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
-    tried.ready("gap")
-    yield tried
-    tried.close()
+def gap(tried: Tried) -> Tried:
+    tried.show(cfree.Scene(BAR, WALLS, workspace=ROOM, start=(0, 5, 0), goal=(0, -5, 0), name="gap", units="m"))
+    return tried
 
 
 def wish(tried: Tried, name: str, text: str) -> None:
@@ -41,45 +37,44 @@ def saved(tried: Tried, folder: Path) -> Any:
     return answer
 
 
-def test_a_clearance_is_kept_or_proved_impossible_and_undone(tried: Tried, tmp_path: Path) -> None:
-    page = tried.page
-    wish(tried, "clearance", "0.4")
-    tried.say("#way", "A motion exists that keeps 0.4 m: ")
+def test_a_clearance_is_kept_or_proved_impossible_and_undone(gap: Tried, tmp_path: Path) -> None:
+    page = gap.page
+    wish(gap, "clearance", "0.4")
+    gap.say("#way", "A motion exists that keeps 0.4 m: ")
     assert "A0.4 0.4" in str(page.locator(".body.robot .halo").get_attribute("d"))
-    assert str(saved(tried, tmp_path).clearance) == "2/5"
-    wish(tried, "clearance", "6/10")
-    tried.say("#way", "No motion that keeps 6/10 m: separated by ")
-    tried.say("#missing", "Missing: the robot gets there if all its sides move inwards by 0.1")
-    assert isinstance(saved(tried, tmp_path), cfree.Separated)
+    assert str(saved(gap, tmp_path).clearance) == "2/5"
+    wish(gap, "clearance", "6/10")
+    gap.say("#way", "No motion that keeps 6/10 m: separated by ")
+    gap.say("#missing", "Missing: the robot gets there if all its sides move inwards by 0.1")
+    assert isinstance(saved(gap, tmp_path), cfree.Separated)
     page.locator("#undo").click()
-    tried.say("#way", "A motion exists that keeps 0.4 m: ")
+    gap.say("#way", "A motion exists that keeps 0.4 m: ")
     assert page.locator("#clearance").input_value() == "0.4" and page.locator("#missing").inner_text() == ""
-    wish(tried, "clearance", "-1")
-    tried.say("#edit", "clearance -1: give a length, 0 or more")
+    wish(gap, "clearance", "-1")
+    gap.say("#edit", "clearance -1: give a length, 0 or more")
 
 
-def test_preferences_change_the_path_and_a_link_keeps_them(tried: Tried) -> None:
-    page = tried.page
+def test_preferences_change_the_path_and_a_link_keeps_them(gap: Tried) -> None:
+    page = gap.page
     turning = re.compile(r"turning (\d+) degrees")
-    tried.say("#way", "turning 0 degrees")
-    wish(tried, "sideways", "5")
+    gap.say("#way", "turning 0 degrees")
+    wish(gap, "sideways", "5")
     page.locator("#way").filter(has_text=re.compile(r"turning [1-9]\d+ degrees")).wait_for(timeout=30_000)
     found = turning.search(page.locator("#way").inner_text())
     assert found and int(found[1]) >= 45
     page.wait_for_timeout(500)
     page.reload()
-    tried.ready("gap")
-    wish(tried, "turning", "0.5")
-    tried.say("#edit", "turning 0.5: give a factor of 1 or more")
+    gap.ready("gap")
+    wish(gap, "turning", "0.5")
+    gap.say("#edit", "turning 0.5: give a factor of 1 or more")
     page.locator("input[name=moves][value=car]").check(force=True)
     assert not page.locator("#objective").is_visible() and page.locator("#clearance").is_visible()
 
 
-def test_a_proof_is_framed_and_beside_it_is_how_much_is_missing(browser: Any, tmp_path: Path) -> None:
+def test_a_proof_is_framed_and_beside_it_is_how_much_is_missing(tried: Tried) -> None:
     square = [("-1.25", "-1.25"), ("1.25", "-1.25"), ("1.25", "1.25"), ("-1.25", "1.25")]
     scene = cfree.Scene(square, WALLS, workspace=ROOM, start=(0, 5, 0), goal=(0, -5, 0), name="tight", units="m")
-    tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
-    tried.ready("tight")
+    tried.show(scene)
     page = tried.page
     tried.say("#way", "No motion, not even touching: separated by the workspace, obstacle 0 and obstacle 1.")
     tried.say("#missing", "Missing: the robot gets there if all its sides move inwards by 0.25 m, and not by 0.248 m.")
@@ -95,11 +90,10 @@ def test_a_proof_is_framed_and_beside_it_is_how_much_is_missing(browser: Any, tm
     tried.say("#way", "A motion exists")
     assert page.locator(".blocks").count() == 0 and not page.locator("#frame-proof").is_visible()
     assert page.locator("#missing").inner_text() == ""
-    tried.close()
 
 
-def test_legends_are_those_of_the_colouring(tried: Tried) -> None:
-    page = tried.page
+def test_legends_are_those_of_the_colouring(gap: Tried) -> None:
+    page = gap.page
     legend = page.locator("#legend span")
     assert legend.all_inner_texts() == ["vertex on edge", "edge on vertex", "helix", "edge on edge"]
     page.select_option("#colour", "obstacle")
@@ -116,10 +110,9 @@ def test_legends_are_those_of_the_colouring(tried: Tried) -> None:
     assert "vertex on edge" in legend.all_inner_texts()
 
 
-def test_a_dragged_obstacle_has_its_slice_at_once(browser: Any, tmp_path: Path) -> None:
+def test_a_dragged_obstacle_has_its_slice_at_once(tried: Tried) -> None:
     scene = cfree.load_scene(Path(__file__).parents[2] / "examples" / "scenes" / "benchmr_parking1.json")
-    tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
-    tried.ready(scene.name)
+    tried.show(scene)
     page = tried.page
     page.locator("#edit-shapes").click()
     slice_before, built = tried.slice(), page.evaluate("document.body.dataset.built")
@@ -127,4 +120,3 @@ def test_a_dragged_obstacle_has_its_slice_at_once(browser: Any, tmp_path: Path) 
     sliced = int(page.evaluate("document.body.dataset.sliced ?? 0"))
     assert sliced >= 1 and int(page.evaluate("document.body.dataset.built")) > int(built)
     assert tried.slice() != slice_before
-    tried.close()
