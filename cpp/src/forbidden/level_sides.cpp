@@ -7,6 +7,7 @@
 
 #include "forbidden/junction_at.hpp"
 #include "forbidden/meetings_of_three.hpp"
+#include "forbidden/parallel_edges.hpp"
 #include "predicates/round_junction.hpp"
 #include "support/parallel.hpp"
 #include "support/union_find.hpp"
@@ -80,7 +81,7 @@ void LevelGluer<At>::glue(Index rank, std::span<const SideAtAngle> sides) {
     const int chart = rank > angles.middle ? 1 : 0;
     At at = junction_at<At>(scene, angles, rank, chart);
     if constexpr (!is_round)
-        if (glue_meetings_of_three(scene, whole, sides, at, parts)) return;
+        if (glue_meetings_of_three(scene, whole, sides, at, parts) || glue_parallel_edges(scene, whole, sides, at, parts)) return;
     levels.clear(), places.clear();
     for (const SideAtAngle& s : sides) {
         const CriticalAngle angle = s.angle();
