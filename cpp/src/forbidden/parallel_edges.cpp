@@ -1,36 +1,54 @@
-// Match four sides by the names of their helices; theory, "Closed surfaces".
+// Match four sides a pair of edges, by the names of their helices; theory, "Closed surfaces".
 #include "forbidden/parallel_edges.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <utility>
 
 namespace cfree {
 
 namespace {
 
-struct EdgeSide {
-    const SideAtAngle* side;
-    Code lower, upper;
-};
+// An edge of the robot and one of the obstacles, parallel at this angle, with their interiors on both sides of one line. Below the
+// angle two sides in a row reach from where their ends first meet to where they last do, above it two others do.
+class SlidingEdges {
+public:
+    static constexpr std::size_t size = 4;  // sides
+    Feature edges;
+    Interval offset;  // of the line, from the first one at this angle
 
-// Two sides in a row on one line, both below the angle or both above it.
-struct Row {
-    std::array<const EdgeSide*, 2> sides{};
+    bool read(const Scene& scene, const SideAtAngle& side);
+    bool match(Junction& at);
+    const Feature& line() const { return sides[0].side->on.contact; }
+    void add(const Whole& whole, Junction& at, Parts& parts) const;
+
+private:
+    struct EdgeSide {
+        const SideAtAngle* side;
+        Code lower, upper;  // names of its curves
+    };
+    struct Row {
+        std::array<const EdgeSide*, 2> sides;
+        std::size_t count = 0;
+
+        bool join() {
+            if (count < sides.size()) return false;
+            if (sides[0]->upper != sides[1]->lower) std::swap(sides[0], sides[1]);
+            return sides[0]->upper == sides[1]->lower;
+        }
+        Spot begin() const { return {sides[0]->side->lower, sides[0]->lower, sides[0]->side->on.contact}; }
+        Spot middle() const { return {sides[0]->side->upper, sides[0]->upper, sides[0]->side->on.contact}; }
+        Spot end() const { return {sides[1]->side->upper, sides[1]->upper, sides[1]->side->on.contact}; }
+    };
+    std::array<EdgeSide, size> sides;
     std::size_t count = 0;
-
-    bool is_full() const { return count == sides.size(); }
-    bool join() {
-        if (sides[0]->upper != sides[1]->lower) std::swap(sides[0], sides[1]);
-        return sides[0]->upper == sides[1]->lower;
-    }
-    Code begin() const { return sides[0]->lower; }
-    Code middle() const { return sides[0]->upper; }
-    Code end() const { return sides[1]->upper; }
+    std::array<Row, 2> rows;  // below and above; once they are matched the one with the nearer middle is first
 };
 
 // True if the contact is that of an end of one of two edges with the other edge. All four lines then have one direction where the
-// edges are parallel: elsewhere than with their interiors on both sides such a contact does not exist.
+// edges are parallel: such a contact exists only where their interiors are on both sides.
 bool is_of_edges(const Scene& scene, const Feature& contact, const Feature& edges) {
     const Shape &robot = scene.robot, &obstacles = scene.obstacles;
     const auto [g, f] = std::array{edges.robot, edges.obstacle};
@@ -38,47 +56,68 @@ bool is_of_edges(const Scene& scene, const Feature& contact, const Feature& edge
     return contact.robot == g && (contact.obstacle == obstacles.v[f] || contact.obstacle == obstacles.w[f]);
 }
 
-}  // namespace
+// Take a side; false if there are too many, or if it ends before its line's end.
+bool SlidingEdges::read(const Scene& scene, const SideAtAngle& side) {
+    Row& row = rows[side.is_above ? 1 : 0];
+    const Feature& contact = side.on.contact;
+    if (row.count == row.sides.size() || !is_of_edges(scene, contact, edges)) return false;
+    EdgeSide& read = sides[count++];
+    read = {&side, code(scene, side.lower), code(scene, side.upper)};
+    row.sides[row.count++] = &read;
+    return read.lower == code(scene, end_helix(scene, contact, 0)) && read.upper == code(scene, end_helix(scene, contact, 1));
+}
 
-bool glue_parallel_edges(const Scene& scene, const Whole& whole, std::span<const SideAtAngle> sides, Junction& at, Parts& parts) {
-    std::array<EdgeSide, 4> all;
-    if (sides.size() != all.size() || sides[0].first.kind != Kind::edge_edge) return false;
-    std::array<Row, 2> rows;  // below, above
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const SideAtAngle& s = sides[k];
-        if (s.first != sides[0].first || !is_of_edges(scene, s.on.contact, s.first)) return false;
-        const auto end = [&](int which) { return code(scene, end_helix(scene, s.on.contact, which)); };
-        all[k] = {&s, code(scene, s.lower), code(scene, s.upper)};
-        Row& row = rows[s.is_above ? 1 : 0];
-        if (row.is_full() || all[k].lower != end(0) || all[k].upper != end(1)) return false;
-        row.sides[row.count++] = &all[k];
-    }
-    auto& [below, above] = rows;
-    if (!below.is_full() || !above.is_full() || !below.join() || !above.join()) return false;
-    if (below.begin() != above.begin() || below.end() != above.end()) return false;
-    // the longer edge's line is met by three of the four: the two places between the ends are apart
-    const Feature& line = sides[0].on.contact;
-    const auto spot = [](const SideAtAngle& of, bool is_upper) {
-        return Spot{is_upper ? of.upper : of.lower, 0, of.on.contact};
-    };
-    const std::array middles{spot(*below.sides[0]->side, true), spot(*above.sides[0]->side, true)};
-    const Interval x = at.range(line, middles[0]), y = at.range(line, middles[1]);
-    if (!(x.hi < y.lo || y.hi < x.lo)) return false;
-    const std::size_t nearer = x.hi < y.lo ? 0 : 1;
-    const std::array<Spot, 4> places{spot(*below.sides[0]->side, false), middles[nearer], middles[1 - nearer],
-                                     spot(*below.sides[1]->side, true)};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const EdgeSide* x = rows[nearer].sides[k == 0 ? 0 : 1];
-        const EdgeSide* y = rows[1 - nearer].sides[k == 2 ? 1 : 0];
-        if (x > y) std::swap(x, y);
-        parts.begin_edge();
-        const auto add = [&](const SideAtAngle& of) {
+// True if the four sides are there, and the edges certainly differ in length.
+bool SlidingEdges::match(Junction& at) {
+    auto& [x, y] = rows;
+    if (!x.join() || !y.join() || x.begin().code != y.begin().code || x.end().code != y.end().code) return false;
+    const Interval of_x = at.range(line(), x.middle()), of_y = at.range(line(), y.middle());
+    if (of_y.hi < of_x.lo) std::swap(x, y);
+    return of_x.hi < of_y.lo || of_y.hi < of_x.lo;
+}
+
+void SlidingEdges::add(const Whole& whole, Junction& at, Parts& parts) const {
+    if (std::none_of(sides.begin(), sides.end(), [&](const EdgeSide& x) { return whole[x.side->trapezoid]; })) return;
+    const auto& [x, y] = rows;
+    const std::array places{x.begin(), x.middle(), y.middle(), y.end()};
+    const std::array<std::array<const EdgeSide*, 2>, 3> pairs{{{x.sides[0], y.sides[0]}, {x.sides[1], y.sides[0]}, {x.sides[1], y.sides[1]}}};
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto add_side = [&](const SideAtAngle& of) {
             const Side side = of.is_above ? Side::first : Side::last;
             return parts.add(of.trapezoid, side, false, at.value(of.on.contact, places[is_forwards(side) ? k : k + 1]));
         };
-        const Index first = add(*x->side);
-        parts.pair(first, add(*y->side));
+        const auto [first, last] = std::minmax(pairs[k][0], pairs[k][1]);
+        parts.begin_edge();
+        const Index added = add_side(*first->side);
+        parts.pair(added, add_side(*last->side));
     }
+}
+
+}  // namespace
+
+bool glue_parallel_edges(const Scene& scene, const Whole& whole, std::span<const SideAtAngle> sides, Junction& at, Parts& parts) {
+    constexpr std::size_t most = 8;
+    if (sides.size() % SlidingEdges::size != 0 || sides.size() > most * SlidingEdges::size || sides[0].first.kind != Kind::edge_edge) return false;
+    std::array<SlidingEdges, most> pairs;
+    std::array<SlidingEdges*, most> in_order;
+    const std::size_t n = sides.size() / SlidingEdges::size;
+    const Code direction = code(scene, sides[0].first);
+    for (std::size_t k = 0; k < n; ++k) in_order[k] = &pairs[k];
+    const auto end = in_order.begin() + n;
+    for (const SideAtAngle& side : sides) {
+        const auto found = std::find_if(in_order.begin(), end, [&](const auto* x) { return x->edges.kind == Kind::none || x->edges == side.first; });
+        if (found == end || side.first.kind != Kind::edge_edge || code(scene, side.first) != direction) return false;
+        (*found)->edges = side.first;
+        if (!(*found)->read(scene, side)) return false;
+    }
+    for (auto x = in_order.begin(); x != end; ++x) {
+        if (!(*x)->match(at)) return false;
+        (*x)->offset = at.offset(pairs[0].line(), (*x)->line());
+    }
+    std::sort(in_order.begin(), end, [](const auto* x, const auto* y) { return x->offset.lo < y->offset.lo; });
+    const auto are_apart = [](const auto* x, const auto* y) { return x->offset.hi < y->offset.lo; };
+    if (std::adjacent_find(in_order.begin(), end, std::not_fn(are_apart)) != end) return false;
+    for (auto x = in_order.begin(); x != end; ++x) (*x)->add(whole, at, parts);
     return true;
 }
 
