@@ -37,7 +37,7 @@ struct Level {
 // The levels on one surface: at this angle they are on one line.
 struct Sheet {
     Code code;
-    std::vector<Index> levels;  // in order, as lists of numbers are everywhere below
+    std::span<Index> levels;  // in order, as lists of numbers are everywhere below
     Feature contact;            // contact of the first level
     int along = 1;              // direction against that of the first sheet parallel to it
     Interval offset;            // offset from that sheet; only for the first on a line
@@ -57,13 +57,14 @@ public:
     Parts parts;
 
 private:
-    std::vector<Sheet> sheets_of(std::vector<Index>&& chosen) const;
+    std::vector<Sheet> sheets_of_levels();
     void find_places(Sheet& sheet, At& at);
     std::vector<std::vector<Sheet*>> parallels(std::vector<Sheet>& sheets, At& at) const;
     std::vector<std::vector<Sheet*>> lines_of(const std::vector<Sheet*>& parallel) const;
     std::vector<std::vector<Sheet*>> circles(std::vector<Sheet>& sheets, At& at) const;
     void glue_parallels(const std::vector<Sheet*>& sheets, At& at);
     void glue_line(std::span<Sheet* const> sheets, At& at);
+    bool glue_two_alike(const Sheet& sheet, At& at);
     void number_places(const Feature& line, std::vector<Index>& on_it, At& at);
     void pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q, At& at);
 
@@ -72,6 +73,8 @@ private:
     const Whole& whole;
     const Around around;
     std::vector<Level> levels;
+    std::vector<std::pair<Code, Index>> by_code;
+    std::vector<Index> of_sheets;  // levels, sheet by sheet
     std::vector<Place<Spot>> places;
 };
 
@@ -92,9 +95,7 @@ void LevelGluer<At>::glue(Index rank, std::span<const SideAtAngle> sides) {
             at.know_meeting(s.on.contact, angle.first, angle.second, angle.lo, angle.hi);
         levels.push_back({s.trapezoid, s.is_above, s.on.contact, s.lower, s.upper, code(scene, s.lower), code(scene, s.upper), 0, 0, 1, 0, 0});
     }
-    std::vector<Index> all(levels.size());
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<Sheet> sheets = sheets_of(std::move(all));
+    std::vector<Sheet> sheets = sheets_of_levels();
     for (Sheet& s : sheets) find_places(s, at);
     std::erase_if(sheets, [](const Sheet& s) { return s.levels.empty(); });
     std::sort(sheets.begin(), sheets.end(), [](const Sheet& x, const Sheet& y) { return x.levels[0] < y.levels[0]; });
@@ -104,14 +105,16 @@ void LevelGluer<At>::glue(Index rank, std::span<const SideAtAngle> sides) {
 }
 
 template <class At>
-std::vector<Sheet> LevelGluer<At>::sheets_of(std::vector<Index>&& chosen) const {
-    std::vector<std::pair<Code, Index>> by_code;
-    for (const Index k : chosen) by_code.push_back({code(scene, levels[k].contact), k});
+std::vector<Sheet> LevelGluer<At>::sheets_of_levels() {
+    by_code.clear(), of_sheets.clear();
+    for (const Level& x : levels) by_code.push_back({code(scene, x.contact), static_cast<Index>(by_code.size())});
     std::sort(by_code.begin(), by_code.end());
+    for (const auto& [own, k] : by_code) of_sheets.push_back(k);
     std::vector<Sheet> result;
-    for (const auto& [own, k] : by_code) {
-        if (result.empty() || result.back().code != own) result.push_back({own, {}, levels[k].contact, 1, {}});
-        result.back().levels.push_back(k);
+    for (std::size_t begin = 0, end; begin < by_code.size(); begin = end) {
+        const Code own = by_code[begin].first;
+        for (end = begin + 1; end < by_code.size() && by_code[end].first == own; ++end) {}
+        result.push_back({own, std::span(of_sheets).subspan(begin, end - begin), levels[of_sheets[begin]].contact, 1, {}});
     }
     return result;
 }
@@ -149,11 +152,12 @@ void LevelGluer<At>::find_places(Sheet& sheet, At& at) {
         }
         (is_high ? levels[of].high : levels[of].low) = static_cast<Index>(places.size()) - 1;
     }
-    std::erase_if(sheet.levels, [&](Index k) {
+    const auto end = std::remove_if(sheet.levels.begin(), sheet.levels.end(), [&](Index k) {
         if (levels[k].low_code == levels[k].high_code) return true;
         const auto &low = places[levels[k].low], &high = places[levels[k].high];
         return !(low.t.hi < high.t.lo) && at.order(sheet.contact, low.spot, high.spot) == 0;
     });
+    sheet.levels = {sheet.levels.begin(), end};
 }
 
 // Group sheets by the direction of their lines. Sheets of one kind are parallel if their edges are. At most one direction of
@@ -255,6 +259,7 @@ std::vector<std::vector<Sheet*>> LevelGluer<At>::lines_of(const std::vector<Shee
 // Glue line after line, from right to left of the first.
 template <class At>
 void LevelGluer<At>::glue_parallels(const std::vector<Sheet*>& sheets, At& at) {
+    if (sheets.size() == 1) return glue_line(sheets, at);
     const Feature& front = sheets[0]->contact;
     for (Sheet* s : sheets) s->along = s == sheets[0] ? 1 : at.parallel(front, s->contact);
     std::vector<std::vector<Sheet*>> lines = lines_of(sheets);
@@ -273,8 +278,30 @@ void LevelGluer<At>::glue_parallels(const std::vector<Sheet*>& sheets, At& at) {
     }
 }
 
+// Match a side below and one above on a surface that is alone on its line, if they have the same ends.
+template <class At>
+bool LevelGluer<At>::glue_two_alike(const Sheet& sheet, At& at) {
+    const Level &x = levels[sheet.levels[0]], &y = levels[sheet.levels[1]];
+    const auto is_one = [&](Index p, Index q) {
+        if (p == q) return true;
+        const auto &of_x = places[p], &of_y = places[q];
+        return !(of_x.t.hi < of_y.t.lo || of_y.t.hi < of_x.t.lo) && at.order(sheet.contact, of_x.spot, of_y.spot) == 0;
+    };
+    if (x.is_above == y.is_above || !is_one(x.low, y.low) || !is_one(x.high, y.high)) return false;
+    if (!whole[x.trapezoid] && !whole[y.trapezoid]) return true;
+    parts.begin_edge();
+    const auto add = [&](const Level& level) {
+        const Side side = level.is_above ? Side::first : Side::last;
+        return parts.add(level.trapezoid, side, false, at.value(level.contact, places[is_forwards(side) ? x.low : x.high].spot));
+    };
+    const Index first = add(x);
+    parts.pair(first, add(y));
+    return true;
+}
+
 template <class At>
 void LevelGluer<At>::glue_line(std::span<Sheet* const> sheets, At& at) {
+    if (sheets.size() == 1 && sheets[0]->levels.size() == 2 && glue_two_alike(*sheets[0], at)) return;
     std::vector<Index> chosen;
     for (const Sheet* s : sheets)
         for (const Index k : s->levels) chosen.push_back(k), levels[k].along = s->along;
@@ -322,7 +349,6 @@ void LevelGluer<At>::glue_line(std::span<Sheet* const> sheets, At& at) {
 // Order places along a line, one for equal places, and number all of them.
 template <class At>
 void LevelGluer<At>::number_places(const Feature& line, std::vector<Index>& on_it, At& at) {
-    std::vector<Index> first;  // one per place
     const auto is_before = [&](Index p, Index q) {
         if (p == q) return false;
         const auto &x = places[p], &y = places[q];
