@@ -6,7 +6,8 @@ import contextlib
 import math
 import signal
 import time
-from itertools import pairwise
+from fractions import Fraction
+from itertools import pairwise, product
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ import fuzz
 from cfree import Boundary, Scene, boundary, load_scene
 from cfree.forbidden.cell_complex import CellComplex, glue
 from cfree.forbidden.record import glue_by
-from compared import scene_of
+from compared import scene_of, turned
 from examples import POLYGONS
 from shapes import KINDS, PlainScene, box, random_scene
 
@@ -95,6 +96,18 @@ def test_a_niche_that_only_some_orientations_fit_is_a_sphere() -> None:
     hollow = ([(-5, -3), (5, -3), (5, 3), (-5, 3)], [[(-4, -2), (-4, 2), (4, 2), (4, -2)]])
     cells = check(boundary(scene_of(PlainScene([box(-3, -1, 3, 1)], [hollow]))))
     assert sorted(cells.euler.tolist()) == [0, 2, 2]
+
+
+@pytest.mark.parametrize("k", [1, 20, 52, 90])
+def test_edges_slide_along_parallel_ones_of_nearly_their_length_and_nearly_their_line(k: int) -> None:
+    hair = Fraction(1, 2**k)
+    for robot in ([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 0), (1, 0), (1, 2 - hair), (0, 2 - hair)]):
+        for longer, off in product((-hair, 0, hair), (0, hair)):
+            places = [(4, 0, 5 + longer, 1), (8, off, 9, 1 + off), (4, 4, 5, 5 + longer)]
+            squares = [[(x, y), (u, y), (u, v), (x, v)] for x, y, u, v in places]
+            slanted = [[turned((Fraction(3, 5), Fraction(4, 5)), p) for p in square] for square in squares]
+            found = [check(boundary(Scene(robot, obstacles))) for obstacles in (squares, slanted)]
+            assert sorted(found[0].euler) == sorted(found[1].euler)
 
 
 def test_pinched_edges_pair_the_sides_of_free_sectors() -> None:

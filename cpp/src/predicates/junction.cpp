@@ -32,7 +32,7 @@ Trig<T> sum(const Trig<T>& f, const Trig<T>& g) { return {f.a + g.a, f.b + g.b, 
 
 Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> number,
                    std::function<std::optional<Predicates::Bracket>()> narrower)
-    : on_any(s, {{}, in}), scene(s), chart(in), lo(from), hi(to), exact(std::move(number)), bracket(std::move(narrower)) {}
+    : scene(s), chart(in), on_any(s, {{}, in}), lo(from), hi(to), exact(std::move(number)), bracket(std::move(narrower)) {}
 
 Poly Junction::polynomial(const Trig<Int>& f) const { return on_any.polynomial(f); }
 Filtered Junction::filtered(const Trig<Approx>& f) const { return on_any.filtered(f); }

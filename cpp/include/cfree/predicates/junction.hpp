@@ -61,7 +61,6 @@ public:
 
 private:
     Predicates on(const Feature& x) const { return {scene, {x, chart}}; }
-    Predicates on_any;  // for what is the same on every surface
     template <class T>
     Trig<T> along(const Feature& x, Index a, Index b) const;  // U . (b_b - R a_a - P)
     template <class T>
@@ -95,6 +94,7 @@ private:
 
     const Scene& scene;
     int chart;
+    Predicates on_any;  // for what is the same on every surface
     double lo, hi;
     std::function<RealRoot()> exact;
     mutable std::optional<RealRoot> root;  // computed when needed
