@@ -37,7 +37,7 @@ struct Level {
 // The levels on one surface: at this angle they are on one line.
 struct Sheet {
     Code code;
-    std::span<Index> levels;  // in order, as lists of numbers are everywhere below
+    std::span<Index> levels;    // in order, as lists of numbers are everywhere below
     Feature contact;            // contact of the first level
     int along = 1;              // direction against that of the first sheet parallel to it
     Interval offset;            // offset from that sheet; only for the first on a line
@@ -287,7 +287,8 @@ bool LevelGluer<At>::glue_two_alike(const Sheet& sheet, At& at) {
         const auto &of_x = places[p], &of_y = places[q];
         return !(of_x.t.hi < of_y.t.lo || of_y.t.hi < of_x.t.lo) && at.order(sheet.contact, of_x.spot, of_y.spot) == 0;
     };
-    if (x.is_above == y.is_above || !is_one(x.low, y.low) || !is_one(x.high, y.high)) return false;
+    if (x.is_above == y.is_above || !(places[x.low].t.hi < places[x.high].t.lo)) return false;
+    if (!is_one(x.low, y.low) || !is_one(x.high, y.high)) return false;
     if (!whole[x.trapezoid] && !whole[y.trapezoid]) return true;
     parts.begin_edge();
     const auto add = [&](const Level& level) {
