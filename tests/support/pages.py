@@ -53,6 +53,11 @@ class Tried:
         self.give(scene_text(scene))
         self.ready(scene.name)
 
+    def answered(self) -> None:
+        """Wait until it tells the way that is looked for, or that there is none."""
+        way = self.page.locator("#way:not(.old):not(:empty)").filter(has_not_text="Looking for")
+        way.wait_for(timeout=60_000)
+
     def say(self, which: str, text: str) -> None:
         """Wait until an element has this text; else raise an error with the text that it has."""
         try:

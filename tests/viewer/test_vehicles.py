@@ -25,19 +25,15 @@ CAR, DRIVE = "A car drives there: ", "A machine that turns in place drives there
 @pytest.fixture
 def park(tried: Tried) -> Tried:
     tried.show(cfree.load_scene(PARK))
-    answered(tried)
+    tried.answered()
     return tried
-
-
-def answered(tried: Tried) -> None:
-    tried.page.locator("#way:not(.old):not(:empty)").filter(has_not_text="Looking for").wait_for(timeout=60_000)
 
 
 def opened(browser: Any, folder: Path, scene: cfree.Scene | None = None, **device: Any) -> Tried:
     scene = scene or cfree.load_scene(PARK)
     tried = Tried(browser, view(scene, html=folder / "page.html", browser=False), **device)
     tried.ready(scene.name)
-    answered(tried)
+    tried.answered()
     return tried
 
 

@@ -8,6 +8,7 @@
 #include "forbidden/junction_at.hpp"
 #include "forbidden/meetings_of_three.hpp"
 #include "forbidden/parallel_edges.hpp"
+#include "forbidden/partners.hpp"
 #include "predicates/round_junction.hpp"
 #include "support/parallel.hpp"
 #include "support/union_find.hpp"
@@ -65,6 +66,7 @@ private:
     void glue_parallels(const std::vector<Sheet*>& sheets, At& at);
     void glue_line(std::span<Sheet* const> sheets, At& at);
     bool glue_two_alike(const Sheet& sheet, At& at);
+    int order(const Feature& line, Index p, Index q, At& at) const;
     void number_places(const Feature& line, std::vector<Index>& on_it, At& at);
     void pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q, At& at);
 
@@ -153,9 +155,7 @@ void LevelGluer<At>::find_places(Sheet& sheet, At& at) {
         (is_high ? levels[of].high : levels[of].low) = static_cast<Index>(places.size()) - 1;
     }
     const auto end = std::remove_if(sheet.levels.begin(), sheet.levels.end(), [&](Index k) {
-        if (levels[k].low_code == levels[k].high_code) return true;
-        const auto &low = places[levels[k].low], &high = places[levels[k].high];
-        return !(low.t.hi < high.t.lo) && at.order(sheet.contact, low.spot, high.spot) == 0;
+        return levels[k].low_code == levels[k].high_code || order(sheet.contact, levels[k].low, levels[k].high, at) == 0;
     });
     sheet.levels = {sheet.levels.begin(), end};
 }
@@ -282,21 +282,11 @@ void LevelGluer<At>::glue_parallels(const std::vector<Sheet*>& sheets, At& at) {
 template <class At>
 bool LevelGluer<At>::glue_two_alike(const Sheet& sheet, At& at) {
     const Level &x = levels[sheet.levels[0]], &y = levels[sheet.levels[1]];
-    const auto is_one = [&](Index p, Index q) {
-        if (p == q) return true;
-        const auto &of_x = places[p], &of_y = places[q];
-        return !(of_x.t.hi < of_y.t.lo || of_y.t.hi < of_x.t.lo) && at.order(sheet.contact, of_x.spot, of_y.spot) == 0;
-    };
-    if (x.is_above == y.is_above || !(places[x.low].t.hi < places[x.high].t.lo)) return false;
-    if (!is_one(x.low, y.low) || !is_one(x.high, y.high)) return false;
-    if (!whole[x.trapezoid] && !whole[y.trapezoid]) return true;
-    parts.begin_edge();
-    const auto add = [&](const Level& level) {
-        const Side side = level.is_above ? Side::first : Side::last;
-        return parts.add(level.trapezoid, side, false, at.value(level.contact, places[is_forwards(side) ? x.low : x.high].spot));
-    };
-    const Index first = add(x);
-    parts.pair(first, add(y));
+    const auto ordered = [&](Index p, Index q) { return order(sheet.contact, p, q, at); };
+    if (x.is_above == y.is_above || ordered(x.low, x.high) >= 0 || ordered(x.low, y.low) != 0 || ordered(x.high, y.high) != 0) return false;
+    if (whole[x.trapezoid] || whole[y.trapezoid])
+        pair_on_piece<At>({x.trapezoid, x.is_above, x.contact}, {y.trapezoid, y.is_above, y.contact}, places[x.low].spot,
+                          places[x.high].spot, at, parts);
     return true;
 }
 
@@ -347,15 +337,19 @@ void LevelGluer<At>::glue_line(std::span<Sheet* const> sheets, At& at) {
     }
 }
 
+// Order of two places along a line.
+template <class At>
+int LevelGluer<At>::order(const Feature& line, Index p, Index q, At& at) const {
+    if (p == q) return 0;
+    const auto &x = places[p], &y = places[q];
+    if (x.t.hi < y.t.lo) return -1;
+    return y.t.hi < x.t.lo ? 1 : at.order(line, x.spot, y.spot);
+}
+
 // Order places along a line, one for equal places, and number all of them.
 template <class At>
 void LevelGluer<At>::number_places(const Feature& line, std::vector<Index>& on_it, At& at) {
-    const auto is_before = [&](Index p, Index q) {
-        if (p == q) return false;
-        const auto &x = places[p], &y = places[q];
-        if (x.t.hi < y.t.lo || y.t.hi < x.t.lo) return x.t.hi < y.t.lo;
-        return at.order(line, x.spot, y.spot) < 0;
-    };
+    const auto is_before = [&](Index p, Index q) { return order(line, p, q, at) < 0; };
     std::stable_sort(on_it.begin(), on_it.end(), is_before);
     std::size_t count = 0;
     for (std::size_t k = 0; k < on_it.size(); ++k) {

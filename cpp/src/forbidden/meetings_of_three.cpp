@@ -5,6 +5,8 @@
 #include <array>
 #include <optional>
 
+#include "forbidden/partners.hpp"
+
 namespace cfree {
 
 namespace {
@@ -126,13 +128,7 @@ void MeetingOfThree::add(const Whole& whole, Parts& parts) const {
     for (const Line& line : lines) {
         const auto& [x, y] = line.levels;
         if (!y || (!whole[x->side->trapezoid] && !whole[y->side->trapezoid])) continue;
-        parts.begin_edge();
-        const auto add_level = [&](const SideAtAngle& of) {
-            const Side side = of.is_above ? Side::first : Side::last;
-            return parts.add(of.trapezoid, side, false, at.value(of.on.contact, line.ends[is_forwards(side) ? 0 : 1]));
-        };
-        const Index first = add_level(*x->side);
-        parts.pair(first, add_level(*y->side));
+        pair_on_piece(level_side(*x->side), level_side(*y->side), line.ends[0], line.ends[1], at, parts);
     }
 }
 

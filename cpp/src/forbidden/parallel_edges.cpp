@@ -7,6 +7,8 @@
 #include <functional>
 #include <utility>
 
+#include "forbidden/partners.hpp"
+
 namespace cfree {
 
 namespace {
@@ -82,14 +84,8 @@ void SlidingEdges::add(const Whole& whole, Junction& at, Parts& parts) const {
     const std::array places{x.begin(), x.middle(), y.middle(), y.end()};
     const std::array<std::array<const EdgeSide*, 2>, 3> pairs{{{x.sides[0], y.sides[0]}, {x.sides[1], y.sides[0]}, {x.sides[1], y.sides[1]}}};
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto add_side = [&](const SideAtAngle& of) {
-            const Side side = of.is_above ? Side::first : Side::last;
-            return parts.add(of.trapezoid, side, false, at.value(of.on.contact, places[is_forwards(side) ? k : k + 1]));
-        };
         const auto [first, last] = std::minmax(pairs[k][0], pairs[k][1]);
-        parts.begin_edge();
-        const Index added = add_side(*first->side);
-        parts.pair(added, add_side(*last->side));
+        pair_on_piece(level_side(*first->side), level_side(*last->side), places[k], places[k + 1], at, parts);
     }
 }
 
