@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "cfree/support/elementary.hpp"
 #include "collision/box_tree.hpp"
@@ -87,8 +89,9 @@ Nearness::~Nearness() = default;
 struct Nearness::Placed {
     double px, py, c, s;
     std::vector<double> x, y;
-    Placed(const Pieces& p, const Place& at)
-        : px(at.x), py(at.y), c(cosine(at.theta)), s(sine(at.theta)), x(p.x.size()), y(p.x.size()) {
+    Placed(const Pieces& p, const Place& at) : Placed(p, at, cosine_sine(at.theta)) {}
+    Placed(const Pieces& p, const Place& at, const CosineSine& turn)
+        : px(at.x), py(at.y), c(turn.c), s(turn.s), x(p.x.size()), y(p.x.size()) {
         for (std::size_t k = 0; k < x.size(); ++k) {
             x[k] = px + (c * p.x[k] - s * p.y[k]);
             y[k] = py + (s * p.x[k] + c * p.y[k]);
@@ -281,25 +284,34 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
     struct Part {
         double lo, hi;
         int depth;
+        double need_lo, need_hi;  // unknown: negative
     };
-    std::vector<Part> parts{{0, 1, 0}};
+    std::vector<Part> parts{{0, 1, 0, -1, -1}};
     const double most = travel_between(a, b) + reach * std::abs(turn_between(a, b));
     const auto at = [&](double share) { return Placed(robot, along(a, b, share)); };
     for (std::size_t next = 0; next < parts.size(); ++next) {
-        const auto [lo, hi, depth] = parts[next];
-        const double mid = 0.5 * (lo + hi), in_middle = need(mid);
+        Part part = parts[next];
+        const double mid = 0.5 * (part.lo + part.hi), in_middle = need(mid), travel = 0.5 * (part.hi - part.lo) * most;
         const Placed m = at(mid);
-        if (0.5 * (hi - lo) * most > 4 * in_middle + 2 * reach) {  // far too long: test only the middle
+        const auto divided = [&] {
+            if (part.depth == deepest || parts.size() > most_parts) return false;
+            parts.push_back({part.lo, mid, part.depth + 1, part.need_lo, in_middle});
+            parts.push_back({mid, part.hi, part.depth + 1, in_middle, part.need_hi});
+            return true;
+        };
+        if (travel > 4 * in_middle + 2 * reach) {  // far too long: test only the middle
             if (in_middle > least_distance && distance(m, in_middle) < in_middle) return false;
-            if (depth == deepest || parts.size() > most_parts) return false;
-            parts.push_back({lo, mid, depth + 1});
-            parts.push_back({mid, hi, depth + 1});
+            if (!divided()) return false;
             continue;
         }
-        const double asked = std::max({need(lo), in_middle, need(hi)});
+        if (part.need_lo < 0) part.need_lo = need(part.lo);
+        if (part.need_hi < 0) part.need_hi = need(part.hi);
+        const double asked = std::max({part.need_lo, in_middle, part.need_hi});
         if (asked <= least_distance) continue;
-        const Placed p = at(lo), q = at(hi);
+        std::optional<std::pair<Placed, Placed>> ends;
         const auto moves = [&](Index begin, Index end) {
+            if (!ends) ends.emplace(at(part.lo), at(part.hi));
+            const auto& [p, q] = *ends;
             double most_square = 0;
             for (Index v = begin; v < end; ++v) {
                 const double px = p.x[v] - m.x[v], py = p.y[v] - m.y[v], qx = q.x[v] - m.x[v], qy = q.y[v] - m.y[v];
@@ -308,20 +320,20 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
             return std::sqrt(most_square);
         };
         bool holds = true;
-        const auto others = candidates(m, asked + moves(0, robot.first[robot_parts]));
+        const auto others = candidates(m, asked + travel);
         for (Index i = 0; i < (others.empty() ? 0 : robot_parts); ++i) {
-            const double within = asked + moves(robot.first[i], robot.first[i + 1]);
+            double within = asked + travel;
+            bool is_exact = false;
             for (const Index j : others) {
                 Witness w;
                 if (!are_near(m, i, j, within, w)) continue;
                 if (w.distance < asked) return false;
-                holds = holds && separates(w.normal, p, m, q, i, j) >= nearly * asked;
+                if (!holds) continue;
+                if (!is_exact) within = asked + moves(robot.first[i], robot.first[i + 1]), is_exact = true;
+                if (w.distance < within) holds = separates(w.normal, ends->first, m, ends->second, i, j) >= nearly * asked;
             }
         }
-        if (holds) continue;
-        if (depth == deepest || parts.size() > most_parts) return false;
-        parts.push_back({lo, mid, depth + 1});
-        parts.push_back({mid, hi, depth + 1});
+        if (!holds && !divided()) return false;
     }
     return true;
 }

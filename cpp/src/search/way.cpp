@@ -2,6 +2,7 @@
 #include "cfree/search/way.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -57,36 +58,28 @@ std::vector<Route> turned_or_straight(const Configuration& a, const Configuratio
 }
 
 Way Way::asking(Marked along, std::vector<double> what) const {
-    std::vector<Place> at;
-    for (const Configuration& q : along.route) at.push_back({q.px, q.py, q.theta});
+    Places at;
+    for (const Configuration& q : along.route) at.x.push_back(q.px), at.y.push_back(q.py), at.theta.push_back(q.theta);
     return {checker, nearness, grid, limits, costs, per_motion, center, may_turn, std::move(along), std::move(what), std::move(at)};
 }
 
-std::size_t Way::nearest(const Place& at, double from, double to, std::size_t guess) const {
+std::size_t Way::nearest(const Place& at, double from, double to) const {
     const auto& mark = ridge.mark;
     const double around = radii_around * costs.weight;
     const auto begin = std::lower_bound(mark.begin(), mark.end(), from - around), end = std::upper_bound(begin, mark.end(), to + around);
-    if (begin == end) return static_cast<std::size_t>(std::min(begin, mark.end() - 1) - mark.begin());
-    const auto apart = [&](std::size_t k) {
-        const double dx = places[k].x - at.x, dy = places[k].y - at.y;
-        return dx * dx + dy * dy;
-    };
-    const auto square = [&](std::size_t k) {
-        const double turn = costs.weight * wrapped(places[k].theta - at.theta);
-        return apart(k) + turn * turn;
-    };
     const auto index = [&](auto place) { return static_cast<std::size_t>(place - mark.begin()); };
-    const double bound = square(std::clamp(guess, index(begin), index(end) - 1));
-    std::size_t best = index(begin);
+    std::size_t best = std::min(index(begin), mark.size() - 1);
     double least = HUGE_VAL;
-    for (auto place = begin; place < end;) {
-        const std::size_t k = index(place);
-        const double here = apart(k), enough = std::min(least, bound);
-        if (here < least)
-            if (const double s = square(k); s < least) least = s, best = k;
-        // poses are not farther apart than their marks
-        const double beyond = mark[k] + (here > enough ? (1 - 1e-9) * (std::sqrt(here) - std::sqrt(enough)) : 0);
-        if (++place < end && *place < beyond) place = std::lower_bound(place, end, beyond);
+    std::array<double, 32> squares;  // of distances: a loop without branches, which compilers turn into vectors
+    for (std::size_t first = index(begin); first < index(end); first += squares.size()) {
+        const std::size_t count = std::min(squares.size(), index(end) - first);
+        for (std::size_t k = 0; k < count; ++k) {
+            const double dx = places.x[first + k] - at.x, dy = places.y[first + k] - at.y, turn = std::abs(places.theta[first + k] - at.theta);
+            const double least_turn = costs.weight * (turn > std::numbers::pi ? turn - 2 * std::numbers::pi : turn);
+            squares[k] = dx * dx + dy * dy + least_turn * least_turn;
+        }
+        for (std::size_t k = 0; k < count; ++k)
+            if (squares[k] < least) least = squares[k], best = first + k;
     }
     return best;
 }
@@ -94,10 +87,8 @@ std::size_t Way::nearest(const Place& at, double from, double to, std::size_t gu
 bool Way::joins(const Configuration& a, const Configuration& b, double from, double to) const {
     if (!nearness) return is_free(a, b);
     double least = HUGE_VAL;
-    std::size_t last = 0;
     const auto need = [&](double share) {
-        last = nearest(along(a, b, share), from, to, last);
-        const double distance = distances[last];
+        const double distance = distances[nearest(along(a, b, share), from, to)];
         least = std::min(least, distance);
         return distance;
     };
@@ -132,7 +123,7 @@ Marked Way::marked(Route route, double from, double to) const {
     std::vector<double> mark{from};
     for (std::size_t k = 1; k + 1 < route.size(); ++k) {
         const Configuration& q = route[k];
-        const double there = ridge.mark.empty() ? from : ridge.mark[nearest({q.px, q.py, q.theta}, from, to, 0)];
+        const double there = ridge.mark.empty() ? from : ridge.mark[nearest({q.px, q.py, q.theta}, from, to)];
         mark.push_back(std::clamp(there, mark.back(), to));
     }
     mark.push_back(to);

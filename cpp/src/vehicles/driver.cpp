@@ -61,7 +61,7 @@ Configuration Driver::rounded(const Place& axle, int bits) const {
 
 double Driver::mark_of(const Configuration& axle, double from, double to) const {
     if (way.ridge.mark.empty()) return from;
-    return std::clamp(way.ridge.mark[way.nearest(vehicle.robot_of(axle.place()), from, to, 0)], from, to);
+    return std::clamp(way.ridge.mark[way.nearest(vehicle.robot_of(axle.place()), from, to)], from, to);
 }
 
 double Driver::short_run(double length) const { return length < short_share * size ? cost_of_short * dues.cusp : 0; }

@@ -48,11 +48,13 @@ struct Way {
     bool may_turn = true;          // false: poses keep their orientations when they are pushed away from obstacles
     Marked ridge = {};                   // ridge with requirements,
     std::vector<double> distances = {};  // a distance for each pose of it,
-    std::vector<Place> places = {};      // and the places of these poses
+    struct Places {
+        std::vector<double> x, y, theta;
+    } places = {};  // and the places of these poses
 
     Way asking(Marked along, std::vector<double> what) const;
-    // Pose of the ridge nearest to a place, among marks between about `from` and `to`; fast if the guess is near.
-    std::size_t nearest(const Place& at, double from, double to, std::size_t guess) const;
+    // Pose of the ridge nearest to a place, among marks between about `from` and `to`.
+    std::size_t nearest(const Place& at, double from, double to) const;
     // True if the motion is free and keeps a distance. A motion that keeps a meaningful distance within the limits is free.
     bool keeps(const Configuration& a, const Configuration& b, double distance) const;
     // True if the motion is free and keeps the distances required from mark to mark.
