@@ -17,6 +17,7 @@ namespace cfree {
 namespace {
 
 constexpr double lowest = 1.0 / 64;                        // level of distance, in radii
+constexpr double to_next = 8, nearly_most = 1.3;           // factor from one level to the next; of a level that the last one replaces
 constexpr double share_asked = 0.7, share_between = 0.85;  // share of a ridge's distances; factor from one level to the next
 constexpr double gained = 0.7;                             // least share of a level's possible distance, to try the next
 constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii; times the narrowest place
@@ -294,8 +295,7 @@ Balanced shortest_along(const Way& way, const Ridge& top, std::size_t nodes) {
     for (const int depth : {1, all_parts}) {
         Way along = way.asking(top.path, distances_asked(top, way.costs.weight, share_asked, depth));
         along.per_motion = worth_of_motion * way.costs.weight;
-        const std::size_t motions = pruned(along, top.path).route.size() - 1;
-        Marked path = shortest(along, top.path, way.costs.prefer() ? most_nodes : std::min(nodes, 6 + 2 * motions));
+        Marked path = shortest(along, top.path, way.costs.prefer() ? most_nodes : nodes);
         if (!found || cost_of(path.route, way.costs) < not_much * cost_of(found->path.route, way.costs))
             found.emplace(Balanced{std::move(along), std::move(path)});
     }
@@ -314,7 +314,8 @@ void push_on(const Way& way, Pushed& top) {
     for (;;) {
         std::vector<double> asked = distances_asked(top.ridge, radius, share_between, all_parts);
         if (top.level == top.most || *std::max_element(asked.begin(), asked.end()) <= gained * share_between * top.level) return;
-        top.level = std::min(top.most, top.level * (top.level < radius / 5 ? 4 : 2));
+        top.level *= to_next;
+        if (top.level * nearly_most >= top.most) top.level = top.most;
         top.ridge = ridge(way, pruned(way.asking(top.ridge.path, std::move(asked)), top.ridge.path).route, top.level);
     }
 }

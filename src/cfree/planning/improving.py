@@ -25,7 +25,7 @@ from cfree.planning.core_ways import end_of, from_numbers
 from cfree.scene.scene import Scene
 
 REFINE = 400  # motions checked to improve a path without a time limit
-BALANCE = 50  # motions checked for each pose of a path that keeps a distance, counted before and after balancing
+BALANCE = 30  # motions checked for each pose of a path that keeps a distance, counted before and after balancing
 MOST = 300  # most poses counted before balancing: a check takes longer the longer the path is
 DEAR = 3  # factor of these numbers with preferences: there is more to try
 OTHERS = 30  # other paths that each core searches for
