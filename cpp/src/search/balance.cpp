@@ -159,7 +159,7 @@ Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j
     area = {std::max(area.x0, way.limits.x0), std::max(area.y0, way.limits.y0), std::min(area.x1, way.limits.x1), std::min(area.y1, way.limits.y1)};
     const auto seems = [&](const Place& a, const Place& b) {
         const double length = norm(b.x - a.x, b.y - a.y) + radius * std::abs(wrapped(b.theta - a.theta));
-        const auto keeps = [&](const Place& q) { return way.nearness->distance(q, asked) >= asked; };
+        const auto keeps = [&](const Place& q) { return !way.nearness->is_nearer(q, asked); };
         return all_along(a, b, static_cast<int>(length / step) + 1, keeps);
     };
     const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };

@@ -247,6 +247,16 @@ double Nearness::distance(const Placed& placed, double within) const {
     return best;
 }
 
+bool Nearness::is_nearer(const Place& at, double than) const { return is_nearer(Placed(robot, at), than); }
+
+bool Nearness::is_nearer(const Placed& placed, double than) const {
+    Witness w;
+    for (const Index j : candidates(placed, than))
+        for (Index i = 0; i < robot_parts; ++i)
+            if (are_near(placed, i, j, than, w) && w.distance < than) return true;
+    return false;
+}
+
 // Sample the middle, the middles of both halves, and so on.
 bool Nearness::overlaps(const Configuration& a, const Configuration& b) const {
     const double most = travel_between(a, b) + reach * std::abs(turn_between(a, b));
@@ -254,7 +264,7 @@ bool Nearness::overlaps(const Configuration& a, const Configuration& b) const {
     while (count < most_counted && most > looks_apart * reach * count) count *= 2;
     for (int by = count; by > 0; by /= 2)
         for (int k = by; k < 2 * count; k += 2 * by)
-            if (distance(along(a, b, 0.5 * k / count), 0) < -least_distance) return true;
+            if (is_nearer(along(a, b, 0.5 * k / count), -least_distance)) return true;
     return false;
 }
 
@@ -300,8 +310,7 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
             return true;
         };
         if (travel > 4 * in_middle + 2 * reach) {  // far too long: test only the middle
-            if (in_middle > least_distance && distance(m, in_middle) < in_middle) return false;
-            if (!divided()) return false;
+            if ((in_middle > least_distance && is_nearer(m, in_middle)) || !divided()) return false;
             continue;
         }
         if (part.need_lo < 0) part.need_lo = need(part.lo);

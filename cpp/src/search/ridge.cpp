@@ -148,7 +148,8 @@ private:
     std::vector<Step> bridged(const Configuration& a, const Configuration& b, int depth) const;
     std::vector<Step> around(const Sample& a, const Sample& b) const;
     bool is_above(const Sample& s) const { return s.is_on_route && !way.nearness->overlaps(s.own, s.high); }
-    double distance(const Configuration& q) const { return way.nearness->distance({q.px, q.py, q.theta}, enough); }
+    double distance(const Configuration& q) const { return way.nearness->distance(q.place(), enough); }
+    bool touches(const Configuration& q) const { return way.nearness->is_nearer(q.place(), way.nearness->least()); }
 
     const Way& way;
     const Route& route;
@@ -167,7 +168,7 @@ Sample Climber::sample(double where, double up_to) const {
     };
     const Place here = along(a, b, share);
     Sample s{where, where == at[k + 1] ? b : where == at[k] ? a : way.grid.exact(here.x, here.y, here.theta), {}, 0, true};
-    s.high = s.own, s.is_on_route = where == at[k] || where == at[k + 1] || distance(s.own) > way.nearness->least();
+    s.high = s.own, s.is_on_route = where == at[k] || where == at[k + 1] || !touches(s.own);
     if (where != at.front() && where != at.back()) {
         Place q = here;
         const double reached = climb(way, q, direction(a, b, share), up_to);
@@ -238,7 +239,7 @@ std::vector<Step> Climber::bridged(const Configuration& a, const Configuration& 
     Place q = along(a, b, 0.5);
     climb(way, q, {b.px - a.px, b.py - a.py, way.costs.weight * turn_between(a, b)}, std::min({enough, distance(a), distance(b)}));
     const Configuration middle = way.grid.exact(q.x, q.y, q.theta);
-    if (distance(middle) <= way.nearness->least()) return {};
+    if (touches(middle)) return {};
     std::vector<Step> steps;
     for (const auto& [from, to] : {std::pair{&a, &middle}, std::pair{&middle, &b}}) {
         if (cost_between(*from, *to, way.length()) > most_of_apart * apart) return {};

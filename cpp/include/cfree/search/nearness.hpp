@@ -30,6 +30,8 @@ public:
     std::vector<Witness> around(const Place& at, double within) const;
     // Least distance, at most `within`; not positive if the robot overlaps something.
     double distance(const Place& at, double within) const;
+    // True if the robot is nearer to something than that, or overlaps it by more than a negative distance.
+    bool is_nearer(const Place& at, double than) const;
     // True if the robot keeps the distance need(u), or nearly, at every share u of the motion. False: it does not, or not
     // certainly. Distances below `least` do not count.
     bool keeps(const Configuration& a, const Configuration& b, const std::function<double(double)>& need) const;
@@ -55,6 +57,7 @@ private:
     struct Placed;
     struct Gap;
     double distance(const Placed& placed, double within) const;
+    bool is_nearer(const Placed& placed, double than) const;
     bool are_near(const Placed& placed, Index i, Index j, double within, Witness& found) const;
     bool is_gap_narrower(const Placed& placed, Index i, Index j, double within, Gap& gap) const;
     bool are_features_near(const Placed& placed, Index i, Index j, double within, const Gap& gap, Witness& found) const;
