@@ -17,7 +17,7 @@ namespace cfree {
 namespace {
 
 constexpr double lowest = 1.0 / 64;                        // level of distance, in radii
-constexpr double to_next = 8, nearly_most = 1.3;           // factor from one level to the next; of a level that the last one replaces
+constexpr double to_next = 8, near_last = 0.5;             // factor from one level to the next; none is above this share of the last one
 constexpr double share_asked = 0.7, share_between = 0.85;  // share of a ridge's distances; factor from one level to the next
 constexpr double gained = 0.7;                             // least share of a level's possible distance, to try the next
 constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii; times the narrowest place
@@ -315,7 +315,7 @@ void push_on(const Way& way, Pushed& top) {
         std::vector<double> asked = distances_asked(top.ridge, radius, share_between, all_parts);
         if (top.level == top.most || *std::max_element(asked.begin(), asked.end()) <= gained * share_between * top.level) return;
         top.level *= to_next;
-        if (top.level * nearly_most >= top.most) top.level = top.most;
+        if (top.level >= near_last * top.most) top.level = top.most;
         top.ridge = ridge(way, pruned(way.asking(top.ridge.path, std::move(asked)), top.ridge.path).route, top.level);
     }
 }
