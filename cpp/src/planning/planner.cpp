@@ -18,14 +18,17 @@ namespace {
 constexpr int search_guesses = 40000;  // most guesses of motions, if there are not many patches
 constexpr int patches_each = 2;        // else one guess for as many
 constexpr int all_guesses = 1 << 21;   // in any case: trees take memory
-constexpr int quick_guesses = 2000;    // guesses before any exact work
+constexpr int quick_guesses = 4000;    // guesses before any exact work
 constexpr int round_guesses = 16000;   // among round shapes
 constexpr int straight_guesses = 500;  // there, of motions without turns, which come first
-constexpr int guesses_each = 45;       // guesses that take no longer than a patch of a surface, of a robot of few vertices
-constexpr int few_vertices = 16, most_vertices = 256;
-// A pair of trees may go astray: one in eight took ten times the guesses of others of other seeds. So after as many guesses in
-// turns new trees begin where patches are dear, each of twice as many as the one before, up to a limit.
-constexpr int first_trees = 20000, least_trees = 4000, most_trees = 16000;
+constexpr int first_trees = 20000;     // guesses in turns that trees need for most ways that are not narrow
+constexpr int guesses_each = 25;       // of these for each patch that the surfaces meet
+// Later the trees make one guess a patch for so many patches of the scene: few patches decide sooner than trees go through narrow
+// places.
+constexpr int scene_patches_each = 500, least_each = 6, most_each = 500;
+// A pair of trees may go astray: one in eight took ten times the guesses of others of other seeds. So where surfaces take long,
+// new trees begin then, each of twice as many guesses as the one before, up to a limit.
+constexpr int each_in_many_patches = 50, least_trees = 4000, most_trees = 16000;
 constexpr std::size_t most_ways = 16;  // paths that are kept for planners of other scenes
 constexpr int nodes_near = 4;          // poses of such a path to which a motion is tried
 constexpr int mending_guesses = 1000;  // guesses to lead such a path around what is in its way, each time
@@ -222,27 +225,29 @@ int Planner::most_guesses() const {
     return static_cast<int>(std::min<std::int64_t>(search_guesses, quick_guesses + 8 * scene->patches()));
 }
 
-// A search with random poses and a decision by surfaces, in turns: after some patches are trimmed, the search makes as many guesses
-// as take no longer.
+// A search with random poses and a decision by surfaces, in turns: for each patch that the surfaces meet, the search makes some
+// guesses.
 class Planner::Turns {
 public:
     Turns(const Planner& planner, const End& from, const End& until, const Listener& to)
         : listener(to), deadline(to), searcher(planner.scene, std::array{from.place, until.place}, {planner.angle_scale}),
           start(from), goal(until), search(searcher.search(start, goal)) {
-        const auto vertices = static_cast<int>(planner.scene->scene().robot.convex.size());
-        each = guesses_each * std::clamp(vertices, few_vertices, most_vertices) / few_vertices;
-        left = static_cast<int>(std::clamp<std::int64_t>(planner.scene->patches() / patches_each, search_guesses, all_guesses));
+        const std::int64_t patches = planner.scene->patches();
+        later_each = static_cast<int>(std::clamp<std::int64_t>(patches / scene_patches_each, least_each, most_each));
+        left = static_cast<int>(std::clamp<std::int64_t>(patches / patches_each, search_guesses, all_guesses));
     }
 
     std::optional<Poses> search_alone() { return guess(quick_guesses); }
 
     // Go on until the surfaces decide, or the search finds a way.
     Connection::Verdict decide(Connecting& joined) {
-        std::size_t trimmed = joined.around->trimmed_patches(), met = joined.around->met_patches();
+        std::size_t trimmed = joined.around->trimmed_patches();
+        auto met = static_cast<std::int64_t>(joined.around->met_patches());
         return joined.decide([&](Index) {
             const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
-            const std::size_t met_before = std::exchange(met, joined.around->met_patches());
-            const int guesses = static_cast<int>(std::min<std::int64_t>(left, each * static_cast<std::int64_t>(met - met_before)));
+            const auto met_now = static_cast<std::int64_t>(joined.around->met_patches()), more = met_now - std::exchange(met, met_now);
+            const std::int64_t first = std::clamp<std::int64_t>(first_trees - made, 0, guesses_each * more);
+            const auto guesses = static_cast<int>(std::min<std::int64_t>(left, std::max(first, later_each * more)));
             left -= guesses, made += guesses;
             way = in_turn(guesses);
             if (way) return false;
@@ -261,7 +266,7 @@ private:
     // The first trees go on. Once they have had their time, others get as much, from new seeds.
     std::optional<Poses> in_turn(int guesses) {
         if (auto found = guess(guesses)) return found;
-        if (made <= first_trees || each < 2 * guesses_each) return {};  // else they cost more than the surfaces
+        if (made <= first_trees || later_each < each_in_many_patches) return {};
         for (int rest = guesses; rest > 0;) {
             if (of_others <= 0) {
                 others.emplace(searcher.search(start, goal, ++seed));
@@ -286,7 +291,7 @@ private:
     RrtConnect search;
     std::optional<RrtConnect> others;
     std::uint64_t seed = 0;
-    int each, left, made = 0, of_others = 0, size = least_trees;
+    int later_each, left, made = 0, of_others = 0, size = least_trees;
 };
 
 std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal, const Listener& listener) {
