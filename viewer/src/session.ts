@@ -15,7 +15,7 @@ import type { Drag, Seen, Who, Workspace } from "./workspace";
 const PATIENCE = 300;
 const MOST_PATIENCE = 1500;
 const LAG = 250; // milliseconds for which a drag waits for the slice of the scene before
-const PAUSE = 2; // times that a way takes: so long a drag asks for no other
+const PAUSE = 4; // times that a way takes: so long a drag asks for no other
 const REST = 4; // times that the right view takes: so long only the left one follows a drag
 const COARSE = 9000;
 const FINE = 60_000; // triangles
