@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "predicates/form.hpp"
 
@@ -186,6 +187,8 @@ std::array<Code, 3> Junction::parallels(Index g, Index f) const { return {0, 0, 
 
 // Surfaces of the ends of two parallel edges have one line, and all helices of these ends are on it.
 void Junction::know_parallel(Index g, Index f) {
+    const std::array<Index, 2> edges{g, f};
+    if (std::exchange(last_parallel, edges) == edges) return;
     know(parallels(g, f));
     const Shape &A = scene.robot, &O = scene.obstacles;
     const auto [a, b] = std::array{A.v[g], A.w[g]};

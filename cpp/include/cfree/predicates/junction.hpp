@@ -102,6 +102,7 @@ private:
     mutable std::function<std::optional<Predicates::Bracket>()> bracket;  // called at most once
     mutable std::optional<Ball> narrowed;
     MeetingNames known;
+    std::array<Index, 2> last_parallel{-1, -1};  // the edges entered last
 };
 
 }  // namespace cfree
