@@ -96,7 +96,7 @@ static void the_nearest_pose_of_a_ridge_is_that_of_all(const Nearness& nearness,
     Random random(5);
     Marked ridge{{grid.exact(0, 0, 0)}, {0}};
     for (int k = 0; k < 200; ++k) {
-        const Configuration& last = ridge.route.back();
+        const Configuration last = ridge.route.back();
         ridge.route.push_back(grid.exact(last.px + random() - 0.4, last.py + random() - 0.5, last.theta + random() - 0.5));
         ridge.mark.push_back(ridge.mark.back() + travel_between(last, ridge.route.back()));
     }
