@@ -146,5 +146,7 @@ void bind_free_space(nb::module_& m) {
         auto found = watched([&] { return cfree::turns_of(cells); });
         return std::tuple(array_of(std::move(found.turns)), array_of(std::move(found.lift)));
     }, "cells"_a);
-    m.def("free_space", [](const cfree::CellComplex& cells) { return watched([&] { return FreeSpace::of(cells); }); }, "cells"_a);
+    m.def("free_space", [](const cfree::CellComplex& cells, int threads) {
+        return watched([&] { return FreeSpace::of(cells, threads); });
+    }, "cells"_a, "threads"_a = 1);
 }

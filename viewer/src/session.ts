@@ -539,9 +539,10 @@ export class Session {
   private async edit_once(source: string, done: boolean): Promise<void> {
     this.stop_playing();
     try {
+      const changes = source !== this.now.source;
       // the builder, if it has nothing to do, reads the scene meanwhile
-      if (source !== this.now.source && !this.building && !this.builder.busy) this.builder.of(source).catch(() => {});
-      const read = source === this.now.source ? undefined : await this.quick.open(source);
+      if (changes && !this.building && !this.builder.busy) this.builder.of(source).catch(() => {});
+      const read = changes ? await this.quick.open(source) : undefined;
       const { gallery: _, ...now } = this.now;
       this.keep(read ? { ...now, source } : this.now, done);
       if (read) this.scene = read;

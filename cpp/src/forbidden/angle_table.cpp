@@ -2,6 +2,7 @@
 #include "cfree/forbidden/angle_table.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "support/parallel.hpp"
@@ -24,18 +25,35 @@ CriticalAngle AngleTable::critical(const Angle& x) const {
     return x.is_to ? angle_to(patches, trapezoids, x.trapezoid) : angle_from(patches, trapezoids, x.trapezoid);
 }
 
-// Ends of a chart and of its trapezoids, in the order in which their intervals begin.
+// Ends of a chart and of its trapezoids, in the order in which their intervals begin: distributed over small parts of the chart, then
+// sorted in each.
 std::vector<AngleTable::Angle> AngleTable::sorted_ends(int chart) const {
     const auto& t = trapezoids;
-    std::vector<Angle> ends{{-1, -1, -1, false}, {1, 1, -1, false}};
-    for (std::size_t k = 0; k < t.patch.size(); ++k) {
-        if (t.chart[k] != chart) continue;
-        ends.push_back({t.from_lo[k], t.from_hi[k], static_cast<Index>(k), false});
-        ends.push_back({t.to_lo[k], t.to_hi[k], static_cast<Index>(k), true});
-    }
-    std::sort(ends.begin(), ends.end(), [](const Angle& x, const Angle& y) {
-        return std::tuple(x.lo, x.trapezoid, x.is_to) < std::tuple(y.lo, y.trapezoid, y.is_to);
-    });
+    const auto for_each_end = [&](auto&& take) {
+        take(Angle{-1, -1, -1, false}), take(Angle{1, 1, -1, false});
+        for (std::size_t k = 0; k < t.patch.size(); ++k) {
+            if (t.chart[k] != chart) continue;
+            take(Angle{t.from_lo[k], t.from_hi[k], static_cast<Index>(k), false});
+            take(Angle{t.to_lo[k], t.to_hi[k], static_cast<Index>(k), true});
+        }
+    };
+    constexpr std::size_t per_part = 8;
+    const std::size_t parts = t.patch.size() / per_part + 1;
+    const auto part = [&](const Angle& x) {
+        const double share = std::clamp(0.5 * (x.lo + 1), 0.0, 1.0);
+        return static_cast<std::size_t>(share * static_cast<double>(parts));
+    };
+    std::vector<std::size_t> first(parts + 2, 0);
+    for_each_end([&](const Angle& x) { ++first[part(x) + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Angle> ends(first.back());
+    std::vector<std::size_t> next(first.begin(), first.end() - 1);
+    for_each_end([&](const Angle& x) { ends[next[part(x)]++] = x; });
+    const auto at = [&](std::size_t k) { return ends.begin() + static_cast<std::ptrdiff_t>(first[k]); };
+    for (std::size_t k = 0; k + 1 < first.size(); ++k)
+        std::sort(at(k), at(k + 1), [](const Angle& x, const Angle& y) {
+            return std::tie(x.lo, x.trapezoid, x.is_to) < std::tie(y.lo, y.trapezoid, y.is_to);
+        });
     return ends;
 }
 

@@ -34,23 +34,25 @@ void number_edges(CellComplex& cells) {
 class Assembly {
 public:
     // Face k is trapezoid trapezoid_of[k] of the boundary.
-    Assembly(const Boundary& b, std::vector<Index>&& trapezoid_of, int t)
-        : boundary(&b), faces(std::move(trapezoid_of)), threads(t) {}
+    Assembly(SharedBoundary b, std::vector<Index>&& trapezoid_of, int t)
+        : boundary(std::move(b)), faces(std::move(trapezoid_of)), threads(t) {}
 
     // Complex of parts of faces; components of the own ones, or of all.
     CellComplex run(std::vector<Parts>&& lists, const std::vector<char>* own = nullptr) {
         make_loops(std::move(lists));
-        number_edges(result);
-        place_vertices(find_vertices());
-        find_components(own);
+        in_two(threads, [&] { find_components(own); }, [&] {
+            number_edges(result);
+            place_later(find_vertices());
+        });
         return std::move(result);
     }
     // Complex of half-edges that have their faces, sides and twins, and any numbers of edges; without places.
     CellComplex run(CellComplex&& half_edges) {
         result = std::move(half_edges);
-        number_edges(result);
-        find_vertices();
-        find_components(nullptr);
+        in_two(threads, [&] { find_components(nullptr); }, [&] {
+            number_edges(result);
+            find_vertices();
+        });
         return std::move(result);
     }
 
@@ -63,11 +65,10 @@ private:
     }
     void make_loops(std::vector<Parts>&& lists);
     std::vector<Index> find_vertices();
-    void place_vertices(const std::vector<Index>& best);
-    void place_vertex(Index vertex, Index h);
+    void place_later(const std::vector<Index>& best);
     void find_components(const std::vector<char>* own);
 
-    const Boundary* boundary;
+    const SharedBoundary boundary;
     const std::vector<Index> faces;
     const int threads;
     CellComplex result;
@@ -100,17 +101,25 @@ std::vector<Index> Assembly::find_vertices() {
     return best;
 }
 
-void Assembly::place_vertices(const std::vector<Index>& best) {
-    VertexPlaces& places = result.placing->places;
-    places.xy.resize(2 * best.size()), places.theta.resize(best.size());
-    for_each_block_in_parallel(threads, best.size(), [&](std::size_t v) { place_vertex(static_cast<Index>(v), best[v]); });
+void Assembly::place_later(const std::vector<Index>& best) {
+    struct Start {
+        double at;  // see Parts
+        Index trapezoid;
+        Side side;
+    };
+    std::vector<Start> starts;
+    starts.reserve(best.size());
+    for (const Index h : best) starts.push_back({start[h], faces[result.face[h]], side(h)});
     free_memory(start);
-}
-
-void Assembly::place_vertex(Index vertex, Index h) {
-    const auto [xy, theta] = place_of(*boundary, faces[result.face[h]], side(h), start[h]);
-    VertexPlaces& places = result.placing->places;
-    places.xy[2 * vertex] = xy.x, places.xy[2 * vertex + 1] = xy.y, places.theta[vertex] = theta;
+    result.placing->later = [from = boundary, starts = std::move(starts), threads = threads] {
+        VertexPlaces places{std::vector<double>(2 * starts.size()), std::vector<double>(starts.size())};
+        const double unit = from->scene->near().unit();
+        for_each_block_in_parallel(threads, starts.size(), [&](std::size_t v) {
+            const auto [xy, theta] = place_of(*from, starts[v].trapezoid, starts[v].side, starts[v].at);
+            places.xy[2 * v] = xy.x * unit, places.xy[2 * v + 1] = xy.y * unit, places.theta[v] = theta;
+        });
+        return places;
+    };
 }
 
 void Assembly::find_components(const std::vector<char>* own) {
@@ -148,8 +157,6 @@ std::vector<Parts> matched_sides(const Boundary& boundary, const Whole& whole, i
 std::shared_ptr<const CellComplex> shared(CellComplex&& built, const SharedBoundary& boundary) {
     auto result = std::make_shared<CellComplex>(std::move(built));
     result->boundary = boundary;
-    const double unit = boundary->scene->near().unit();
-    for (double& c : result->placing->places.xy) c *= unit;
     return result;
 }
 
@@ -314,9 +321,9 @@ std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, const Ce
     const Loops loops = loops_of(kept->chosen.size(), matched_sides(part, whole, threads));
     auto half_edges = Merging(reuse, *kept, loops).run();
     if (!half_edges) return glue(boundary, threads);
-    CellComplex result = Assembly(*boundary, std::vector<Index>(kept->is_inner.size()), threads).run(std::move(*half_edges));
+    CellComplex result = Assembly(boundary, std::vector<Index>(kept->is_inner.size()), threads).run(std::move(*half_edges));
     result.boundary = boundary;
-    result.placing->later = [boundary, threads] { return std::move(glue(boundary, threads)->placing->places); };
+    result.placing->later = [boundary, threads] { return glue(boundary, threads)->places(); };
     return std::make_shared<const CellComplex>(std::move(result));
 }
 
@@ -329,7 +336,7 @@ std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int thre
         for (Index k = 0; k < list.size(); ++k)
             if (list.twin[k] < 0) fail_alone(list.trapezoid[k]);
     give_back_memory(all.size());
-    auto result = shared(Assembly(*boundary, std::move(all), threads).run(std::move(lists)), boundary);
+    auto result = shared(Assembly(boundary, std::move(all), threads).run(std::move(lists)), boundary);
     give_back_memory(boundary->trapezoids.size());
     return result;
 }
@@ -344,7 +351,9 @@ GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, con
     for (Parts& list : lists) keep(list, face_of);
     const auto part = std::make_shared<const Boundary>(boundary->scene, boundary->patches, boundary->trimmed, std::move(rows),
                                                        IsolatedParts{});
-    return {shared(Assembly(*boundary, std::vector(faces), 1).run(std::move(lists)), part), std::move(faces), std::move(missing)};
+    auto cells = shared(Assembly(boundary, std::vector(faces), 1).run(std::move(lists)), part);
+    cells->places();  // so that nothing keeps the whole boundary
+    return {std::move(cells), std::move(faces), std::move(missing)};
 }
 
 std::shared_ptr<const CellComplex> glue_own(const SharedBoundary& boundary, const std::vector<char>& own, int threads) {
@@ -356,12 +365,13 @@ std::shared_ptr<const CellComplex> glue_own(const SharedBoundary& boundary, cons
     for (const Parts& list : lists)
         for (Index k = 0; k < list.size(); ++k)
             if (list.twin[k] < 0 && own[list.trapezoid[k]]) fail_alone(list.trapezoid[k]);
-    return shared(Assembly(*boundary, std::move(all), threads).run(std::move(lists), &own), boundary);
+    return shared(Assembly(boundary, std::move(all), threads).run(std::move(lists), &own), boundary);
 }
 
 const VertexPlaces& CellComplex::places() const {
     std::call_once(placing->once, [&] {
-        if (placing->later) placing->places = placing->later();
+        placing->places = placing->later();
+        placing->later = nullptr;
     });
     return placing->places;
 }

@@ -241,11 +241,11 @@ public:
 
     // Go on until the surfaces decide, or the search finds a way.
     Connection::Verdict decide(Connecting& joined) {
-        std::size_t trimmed = joined.around->trimmed_patches();
-        auto met = static_cast<std::int64_t>(joined.around->met_patches());
+        std::size_t trimmed = joined.around->trimmed_patches(), met = joined.around->met_patches();
         return joined.decide([&](Index) {
             const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
-            const auto met_now = static_cast<std::int64_t>(joined.around->met_patches()), more = met_now - std::exchange(met, met_now);
+            const std::size_t met_before = std::exchange(met, joined.around->met_patches());
+            const auto more = static_cast<std::int64_t>(met - met_before);
             const std::int64_t first = std::clamp<std::int64_t>(first_trees - made, 0, guesses_each * more);
             const auto guesses = static_cast<int>(std::min<std::int64_t>(left, std::max(first, later_each * more)));
             left -= guesses, made += guesses;

@@ -145,17 +145,6 @@ bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
 }
 
 // True if two polynomials are equal, up to a factor.
-template <class T>
-std::optional<bool> are_proportional(const Coefficients<T>& p, const Coefficients<T>& q) {
-    const int count = std::max(p.count, q.count);
-    for (int i = 0; i + 1 < count; ++i)
-        for (int j = i + 1; j < count; ++j) {
-            const auto sign = certain_sign(p.c[i] * q.c[j] - p.c[j] * q.c[i]);
-            if (!sign || *sign != 0) return sign ? std::optional(false) : std::nullopt;
-        }
-    return true;
-}
-
 bool are_proportional(const Poly& p, const Poly& q) {
     if (p.size() != q.size()) return false;
     for (int i = 0; i < p.size(); ++i)
@@ -278,10 +267,19 @@ std::optional<Predicates::Bracket> Predicates::bracket_of(const Event& x, const 
     return {};
 }
 
-bool Predicates::are_one_of_few_digits(const Event& x, const Predicates& other, const Event& y) const {
-    const double t = of_few_digits_near(x.lo);
-    return t >= y.lo && t <= y.hi && as_few_digits(x, coefficients<Ball>(x.first, x.second)) == t &&
-           as_few_digits(y, other.coefficients<Ball>(y.first, y.second)) == t;
+bool Predicates::are_one(const Event& x, const Predicates& other, const Event& y) const {
+    const auto are_equal = [&]<class T>() -> std::optional<bool> {
+        const auto p = coefficients<T>(x.first, x.second), q = other.coefficients<T>(y.first, y.second);
+        if constexpr (std::is_same_v<T, Ball>) {
+            const auto t = as_few_digits(x, p);
+            if (t && t == as_few_digits(y, q)) return true;
+        }
+        // opposite signs around both: one of a quadratic's two roots is there
+        const bool is_alone = !scene.is_round && p.count == 3 && changes_sign(x, std::min(x.lo, y.lo), std::max(x.hi, y.hi));
+        return is_alone ? are_proportional(p, q) : false;
+    };
+    const auto by_balls = are_equal.template operator()<Ball>();
+    return by_balls ? *by_balls : *are_equal.template operator()<Int>();
 }
 
 std::optional<double> Predicates::as_few_digits(const Event& x, const Coefficients<Ball>& p) {

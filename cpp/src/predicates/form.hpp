@@ -12,6 +12,22 @@ inline constexpr double product_error = 8 * u;
 
 inline std::optional<int> certain_sign(const Int& n) { return n.sign(); }
 
+// True if two polynomials are equal, up to a factor.
+template <class T>
+std::optional<bool> are_proportional(const Coefficients<T>& p, const Coefficients<T>& q) {
+    const int count = std::max(p.count, q.count);
+    const auto is_zero = [](const T& x) { return certain_sign(x) == 0; };
+    bool are_equal = true;  // balls of two equal numbers are equal, but their products with others may be too long
+    for (int i = 0; i < count && are_equal; ++i) are_equal = is_zero(p.c[i] - q.c[i]);
+    if (are_equal) return true;
+    for (int i = 0; i + 1 < count; ++i)
+        for (int j = i + 1; j < count; ++j) {
+            const auto sign = certain_sign(p.c[i] * q.c[j] - p.c[j] * q.c[i]);
+            if (!sign || *sign != 0) return sign ? std::optional(false) : std::nullopt;
+        }
+    return true;
+}
+
 // Decide cases that the filter leaves open, with one formula for both number types: balls, then exact integers.
 template <class Question>
 auto settled(Counters& counters, Question&& question) {

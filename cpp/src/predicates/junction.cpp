@@ -42,8 +42,12 @@ Filtered Junction::filtered(const Trig<Approx>& f) const { return on_any.filtere
 template <class F>
 int Junction::sign(const F& trig) const {
     if (const int s = Predicates::sign_on(filtered(trig(Approx{})), lo, hi); s != 0) return s;
-    const auto s = by_balls([&](const Ball& tau) { return certain_sign(value_at(trig(Ball{}), tau)); });
-    return s ? *s : sign_at(polynomial(trig(Int{})), here());
+    const auto p = on_any.coefficients(trig(Ball{}));
+    if (const auto s = by_balls([&](const Ball& tau) { return certain_sign(value_at(p, tau)); })) return *s;
+    if (zero_here && are_proportional(*zero_here, p) == true) return 0;
+    const int s = sign_at(polynomial(trig(Int{})), here());
+    if (s == 0 && std::any_of(p.c, p.c + p.count, [](const Ball& c) { return certain_sign(c).value_or(0) != 0; })) zero_here = p;
+    return s;
 }
 
 // Sign in a ball around the angle, which mostly suffices if doubles do not; then at the angle, if it has few digits.
@@ -73,10 +77,7 @@ const Ball* Junction::dyadic() const {
     return few_digits && few_digits->radius == 0 ? &*few_digits : nullptr;
 }
 
-Ball Junction::value_at(const Trig<Ball>& f, const Ball& tau) const {
-    const auto p = on_any.coefficients(f);
-    return p.c[0] + tau * (p.c[1] + tau * p.c[2]);
-}
+Ball Junction::value_at(const Coefficients<Ball>& p, const Ball& tau) { return p.c[0] + tau * (p.c[1] + tau * p.c[2]); }
 
 // Range of f times 1 + tau^2: between its Bernstein coefficients, each within err.
 Interval Junction::range(const Filtered& f) const {
@@ -329,8 +330,9 @@ int Junction::order_exactly(const Feature& line, const Spot& p, const Spot& q) {
     const auto found = by_balls([&](const Ball& tau) -> std::optional<int> {
         const auto [Np, Dp] = position<Ball>(line, p);
         const auto [Nq, Dq] = position<Ball>(line, q);
-        const Ball dp = value_at(Dp, tau), dq = value_at(Dq, tau);
-        const auto s = certain_sign(value_at(Np, tau) * dq - value_at(Nq, tau) * dp), of_p = certain_sign(dp), of_q = certain_sign(dq);
+        const auto at = [&](const Trig<Ball>& f) { return value_at(on_any.coefficients(f), tau); };
+        const Ball dp = at(Dp), dq = at(Dq);
+        const auto s = certain_sign(at(Np) * dq - at(Nq) * dp), of_p = certain_sign(dp), of_q = certain_sign(dq);
         if (s && of_p && of_q) return *s * *of_p * *of_q;
         return {};
     });

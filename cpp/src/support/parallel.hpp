@@ -73,4 +73,10 @@ void for_each_block_in_parallel(int threads, std::size_t count, Work&& work) {
     });
 }
 
+// Run two tasks, on two threads if there are.
+template <class First, class Second>
+void in_two(int threads, First&& first, Second&& second) {
+    for_each_in_parallel(threads, 2, [&](std::size_t k) { k == 0 ? first() : second(); });
+}
+
 }  // namespace cfree

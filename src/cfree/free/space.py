@@ -445,9 +445,10 @@ def free_space(boundary: Boundary, *, threads: int | None = None, reuse: FreeSpa
     boundary.require_complete()
     bounding = bounding_surfaces(boundary, threads)
     before = reuse.surfaces if reuse is not None and bounding is boundary else None
-    glue_by(threads or os.cpu_count() or 1, bounding, before)
+    threads = threads or os.cpu_count() or 1
+    glue_by(threads, bounding, before)
     try:
-        core = _core.free_space(bounding._complex_handle)
+        core = _core.free_space(bounding._complex_handle, threads)
     except RuntimeError as error:
         raise InvariantError(str(error), state=boundary.scene) from error
     return _of_core(boundary, core)

@@ -26,6 +26,7 @@ from cfree.scene.scene import Scene
 
 REFINE = 400  # motions checked to improve a path without a time limit
 BALANCE = 30  # motions checked for each pose of a path that keeps a distance, counted before and after balancing
+LEAST = 1000  # least motions checked: paths of few poses are cheap
 MOST = 300  # most poses counted before balancing: a check takes longer the longer the path is
 DEAR = 3  # factor of these numbers with preferences: there is more to try
 OTHERS = 30  # other paths that each core searches for
@@ -138,7 +139,8 @@ class Improver:
 
     def _run(self, poses: Sequence[Pose], better: Better) -> Better:
         """Balance a path in the usual number of attempts."""
-        better.run((DEAR if self._prefers else 1) * BALANCE * (len(better.path()) + min(MOST, len(poses))))
+        checks = max(LEAST, BALANCE * (len(better.path()) + min(MOST, len(poses))))
+        better.run((DEAR if self._prefers else 1) * checks)
         return better
 
     def _least(self, better: Better) -> float:

@@ -23,13 +23,13 @@ struct CellComplex {
     std::vector<Index> first;      // half-edges of face k: first[k] .. first[k + 1]
     std::vector<Index> component;  // each face's component
     Index edges = 0, vertices = 0, components = 0;
-    // Computed at the first call if faces of another complex were taken: by gluing anew, as last digits depend on all faces.
+    // Computed at the first call. If faces of another complex were taken all are glued for it, as last digits depend on all faces.
     const VertexPlaces& places() const;
 
     struct Placing {
         std::once_flag once;
         VertexPlaces places;
-        std::function<VertexPlaces()> later;  // empty: they are there
+        std::function<VertexPlaces()> later;
     };
     std::shared_ptr<Placing> placing = std::make_shared<Placing>();
 };

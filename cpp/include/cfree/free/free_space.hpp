@@ -24,7 +24,7 @@ public:
     FreeSpace(SharedBoundary boundary, Surfaces surfaces);
     FreeSpace(SharedBoundary boundary, Surfaces surfaces, PointLocation location);
     // Throws std::logic_error if the nesting of the surfaces is impossible.
-    static std::shared_ptr<const FreeSpace> of(const CellComplex& cells);
+    static std::shared_ptr<const FreeSpace> of(const CellComplex& cells, int threads = 1);
 
     const SharedBoundary boundary;
     const Surfaces surfaces;

@@ -78,7 +78,7 @@ private:
     const Ball* narrow() const;
     template <class Question>
     std::optional<int> by_balls(const Question& question) const;
-    Ball value_at(const Trig<Ball>& f, const Ball& tau) const;
+    static Ball value_at(const Coefficients<Ball>& p, const Ball& tau);
     int order_exactly(const Feature& line, const Spot& p, const Spot& q);
     std::array<Code, 2> helices(const Feature& f) const;  // both ends of a surface, or the helix itself
     bool meets(const Feature& surface, Code helix) const;
@@ -101,6 +101,7 @@ private:
     mutable std::optional<Ball> few_digits;
     mutable std::function<std::optional<Predicates::Bracket>()> bracket;  // called at most once
     mutable std::optional<Ball> narrowed;
+    mutable std::optional<Coefficients<Ball>> zero_here;  // a quadratic, not zero everywhere
     MeetingNames known;
     std::array<Index, 2> last_parallel{-1, -1};  // the edges entered last
 };

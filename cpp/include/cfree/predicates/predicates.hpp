@@ -185,9 +185,9 @@ public:
     bool isolates(const Event& x, int place) const;
     // True if 0 <= lower <= upper <= 1 for two curves everywhere between two angles.
     bool are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to);
-    // True if an angle and one of another surface, each alone in its interval, are proved to be one number of few digits: in
-    // axis-parallel scenes thousands are.
-    bool are_one_of_few_digits(const Event& x, const Predicates& other, const Event& y) const;
+    // True if an angle and one of another surface, each alone in its interval, are proved to be one: a number of few digits, as
+    // thousands are in axis-parallel scenes, or a root of one quadratic.
+    bool are_one(const Event& x, const Predicates& other, const Event& y) const;
     static std::optional<double> as_few_digits(const Event& x, const Coefficients<Ball>& p);
     static double of_few_digits_near(double tau) { return std::nearbyint(16 * tau) / 16; }
     LongRoot long_root_of(const Event& x) const;  // where shapes are grown
