@@ -59,15 +59,12 @@ static std::optional<int> locate_one(const FreeSpace& space, const cfree::PoseCh
 
 static void bind_surfaces(nb::module_& m) {
     nb::class_<Surfaces> surfaces(m, "Surfaces");
-    surfaces.def("__init__", [](Surfaces* s, Column<int> component, Column<int> parent, Column<std::uint8_t> free_inside,
-                                Column<int> turns, Column<int> lift) {
-        new (s) Surfaces{vector_of(component), vector_of(parent), vector_of(free_inside), vector_of(turns), vector_of(lift)};
-    }, "component"_a, "parent"_a, "free_inside"_a, "turns"_a, "lift"_a);
+    surfaces.def("__init__", [](Surfaces* s, Column<int> component, Column<int> parent, Column<std::uint8_t> free_inside) {
+        new (s) Surfaces{vector_of(component), vector_of(parent), vector_of(free_inside)};
+    }, "component"_a, "parent"_a, "free_inside"_a);
     column(surfaces, "component", &Surfaces::component);
     column(surfaces, "parent", &Surfaces::parent);
     column(surfaces, "free_inside", &Surfaces::free_inside);
-    column(surfaces, "turns", &Surfaces::turns);
-    column(surfaces, "lift", &Surfaces::lift);
 }
 
 static void bind_location(nb::module_& m) {
@@ -146,7 +143,5 @@ void bind_free_space(nb::module_& m) {
         auto found = watched([&] { return cfree::turns_of(cells); });
         return std::tuple(array_of(std::move(found.turns)), array_of(std::move(found.lift)));
     }, "cells"_a);
-    m.def("free_space", [](const cfree::CellComplex& cells, int threads) {
-        return watched([&] { return FreeSpace::of(cells, threads); });
-    }, "cells"_a, "threads"_a = 1);
+    m.def("free_space", [](const cfree::CellComplex& cells) { return watched([&] { return FreeSpace::of(cells); }); }, "cells"_a);
 }

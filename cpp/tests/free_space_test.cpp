@@ -16,10 +16,11 @@ static void a_room_is_a_cell() {
                                   {{-1, 9}, {10, 9}, {10, 10}, {-1, 10}},
                                   {{-1, -1}, {0, -1}, {0, 10}, {-1, 10}},
                                   {{9, -1}, {10, -1}, {10, 10}, {9, 10}}};
-    const auto space = FreeSpace::of(*glue(compute_boundary(scene_of({{{0, 0}, {2, 0}, {0, 1}}}, walls))));
+    const auto cells = glue(compute_boundary(scene_of({{{0, 0}, {2, 0}, {0, 1}}}, walls)));
+    const auto space = FreeSpace::of(*cells);
     CHECK(space->cells() == 2 && space->outside == 0);
     CHECK(space->locate(at(20, 0)) == 0 && space->locate(at(4, 4)) == 1 && space->locate(at(8, 8)) == -1);
-    CHECK(space->surfaces.turns == std::vector<Index>({1, 1}) && space->depth == std::vector<Index>({0, 1}));
+    CHECK(turns_of(*cells).turns == std::vector<Index>({1, 1}) && space->depth == std::vector<Index>({0, 1}));
 }
 
 static std::string fault(const std::vector<std::vector<Index>>& sets, const std::vector<std::uint8_t>& free_inside) {

@@ -50,6 +50,7 @@ public:
     std::optional<NearShapes> proved;  // the polygons of the last proof among round shapes, or smaller rounded shapes
     std::unique_ptr<const RoundCells> by_cells;  // among rounded shapes, once they are needed
     std::vector<double> volumes;  // volumes of cells, once they are needed
+    std::optional<Turns> turns;   // the same
 
     void need_boundary() const;
     void need_space() const;

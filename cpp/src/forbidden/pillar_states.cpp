@@ -19,20 +19,22 @@ void Trimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& 
         todo.pop_back();
         Sample at = decide.between(events[whole.from], events[whole.to]);
         Span span = whole;
-        State state = at.fine ? state_at<Int>(p, k, at) : state_at<double>(p, k, at);
+        State state = at.fine ? state_at<Ball>(p, k, at) : state_at<double>(p, k, at);
         const double lo = events[whole.from].lo, hi = events[whole.to].hi;
         if (state.meets == Meets::crosses) find_curves(state);
         if (state.meets == Meets::crosses && !part.may_pinch && is_beyond(state, slices, lo, hi)) continue;
         Verdict verdict = lifetime(state, at, span);
+        bool is_exact = false;
         for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no sample decides a pillar's state");
+            if (verdict == Verdict::wrong && is_exact) throw std::logic_error("an exact state contradicts its own conditions");
             if (verdict == Verdict::resample)  // the sample is itself a critical angle
                 at = decide.between(events[whole.from], events[whole.to], attempt + 1);
             span = whole;
-            state = state_at<Int>(p, k, at);
+            is_exact = attempt > 0 || at.fine;
+            state = is_exact ? state_at<Int>(p, k, at) : state_at<Ball>(p, k, at);
             if (state.meets == Meets::crosses) find_curves(state);
             verdict = lifetime(state, at, span);
-            if (verdict == Verdict::wrong) throw std::logic_error("an exact state contradicts its own conditions");
         }
         if (state.meets == Meets::crosses) add_band(state, span, p, k);
         else pass(state, span);
@@ -48,20 +50,31 @@ Rotation<double> rotation_at(const Sample& at, int chart, double) {
     const double kappa = chart ? -1 : 1, tau = at.tau, w = 1 + tau * tau;
     return {kappa * (1 - tau * tau) / w, kappa * 2 * tau / w, 1};
 }
+Rotation<Ball> rotation_at(const Sample& at, int chart, const Ball&) {
+    const Ball t = at.ball(), c = Ball(1) - t * t, s = Ball(2) * t;
+    return {chart ? -c : c, chart ? -s : s, Ball(1) + t * t};
+}
 Rotation<Int> rotation_at(const Sample& at, int chart, const Int&) {
     const Dyadic t = at.exact();
     return rotation_by(chart, t.n, Int(1) << t.k);
 }
 template <class T>
 Vec<T> between_vertices(const Shape& s, Index p, Index q) {
-    if constexpr (std::is_same_v<T, Int>) return difference<Int>(s, p, q);
-    else return {s.x[p] - s.x[q], s.y[p] - s.y[q]};
+    if constexpr (std::is_same_v<T, double>) return {s.x[p] - s.x[q], s.y[p] - s.y[q]};
+    else return difference<T>(s, p, q);
 }
+
+// Order of two numbers; of two balls that of their middles.
+template <class T>
+bool less(const T& x, const T& y) { return x < y; }
+bool less(const Ball& x, const Ball& y) { return is_below(x, y); }
 
 }  // namespace
 
 template <>
 std::vector<double>* Trimmer::scratch() const { return heights; }
+template <>
+std::vector<Ball>* Trimmer::scratch() const { return ball_heights; }
 template <>
 std::vector<Int>* Trimmer::scratch() const { return exact_heights; }
 
@@ -84,8 +97,8 @@ public:
     // One of the highest vertices: see `last`.
     Vertex highest() const { return {robot.lowest, obstacle.highest}; }
     Vertex lowest() const { return {robot.highest, obstacle.lowest}; }
-    bool is_left(const Vertex& v) const { return obstacle.at[v.y] > robot.at[v.x]; }
-    bool is_right(const Vertex& v) const { return obstacle.at[v.y] < robot.at[v.x]; }
+    bool is_left(const Vertex& v) const { return less(robot.at[v.x], obstacle.at[v.y]); }
+    bool is_right(const Vertex& v) const { return less(obstacle.at[v.y], robot.at[v.x]); }
     // Last of the highest or lowest vertices in counter-clockwise order.
     Vertex last(Vertex v) const { return {last(v.x, robot.at, n), last(v.y, obstacle.at, m)}; }
 
@@ -124,7 +137,7 @@ private:
             T top = at[0], bottom = at[0];
             for (Index x = 1; x < count; ++x) {
                 const T& height = at[x] = cross(along, between_vertices<T>(s, vertices[x], origin));
-                const bool is_top = height > top, is_bottom = height < bottom;
+                const bool is_top = less(top, height), is_bottom = less(height, bottom);
                 highest = is_top ? x : highest, lowest = is_bottom ? x : lowest;
                 if constexpr (std::is_same_v<T, double>) top = std::max(top, height), bottom = std::min(bottom, height);
                 else if (is_top) top = height;
@@ -138,7 +151,8 @@ private:
         around[0] = size > 1 ? edges[prior(x, size)] : -1, around[1] = size > 1 ? edges[x] : -1;
     }
     static Index last(Index x, const std::vector<T>& heights, Index size) {
-        for (Index c = 0; c < size && heights[after(x, size)] == heights[x]; ++c) x = after(x, size);
+        const auto is_level = [](const T& p, const T& q) { return !less(p, q) && !less(q, p); };
+        for (Index c = 0; c < size && is_level(heights[after(x, size)], heights[x]); ++c) x = after(x, size);
         return x;
     }
 
@@ -156,10 +170,10 @@ private:
     // True if the pillar's next edge is the obstacle's; decided by direction if both pieces have an edge in this sense.
     bool is_obstacle_next(const Vertex& v, bool down) const {
         const Index x1 = after(v.x, n), y1 = after(v.y, m);
-        const bool by_obstacle = down ? obstacle.at[y1] < obstacle.at[v.y] : obstacle.at[y1] > obstacle.at[v.y];
-        const bool by_robot = down ? robot.at[x1] > robot.at[v.x] : robot.at[x1] < robot.at[v.x];
+        const T &p = obstacle.at[v.y], &q = obstacle.at[y1], &r = robot.at[v.x], &s = robot.at[x1];
+        const bool by_obstacle = down ? less(q, p) : less(p, q), by_robot = down ? less(r, s) : less(s, r);
         if (!by_obstacle || !by_robot) return by_obstacle || n == 1;
-        return cross(between_vertices<T>(O, b[y1], b[v.y]), R(between_vertices<T>(A, a[x1], a[v.x]))) < 0;
+        return less(cross(between_vertices<T>(O, b[y1], b[v.y]), R(between_vertices<T>(A, a[x1], a[v.x]))), T{});
     }
 
     const Shape &A, &O;

@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "support/parallel.hpp"
-
 namespace cfree {
 
 namespace {
@@ -108,16 +106,11 @@ FreeSpace::FreeSpace(SharedBoundary b, Surfaces s, PointLocation points)
     : boundary(std::move(b)), surfaces(std::move(s)), outside(boundary->scene->is_bounded ? -1 : 0),
       cell_of(cells_of(surfaces, outside)), depth(depths(surfaces)), location(std::move(points)) {}
 
-std::shared_ptr<const FreeSpace> FreeSpace::of(const CellComplex& cells, int threads) {
-    Surfaces s{cells.component, {}, {}, {}, {}};
+std::shared_ptr<const FreeSpace> FreeSpace::of(const CellComplex& cells) {
+    Surfaces s{cells.component, {}, {}};
     PointLocation location(cells.boundary, cells.component);
-    in_two(threads, [&] {
-        auto nesting = location.nesting();
-        s.parent = parents(nesting, cells.boundary->scene->is_bounded), s.free_inside = std::move(nesting.free_inside);
-    }, [&] {
-        Turns turns = turns_of(cells);
-        s.turns = std::move(turns.turns), s.lift = std::move(turns.lift);
-    });
+    auto nesting = location.nesting();
+    s.parent = parents(nesting, cells.boundary->scene->is_bounded), s.free_inside = std::move(nesting.free_inside);
     return std::make_shared<const FreeSpace>(cells.boundary, std::move(s), std::move(location));
 }
 

@@ -10,7 +10,7 @@ namespace {
 // A surface, or a part of it, as the boundary of one cell.
 std::shared_ptr<const FreeSpace> cell_of(const CellComplex& surface) {
     std::vector<Index> one(surface.component.size(), 0);
-    return std::make_shared<const FreeSpace>(surface.boundary, Surfaces{one, {-1}, {1}, {0}, one});
+    return std::make_shared<const FreeSpace>(surface.boundary, Surfaces{one, {-1}, {1}});
 }
 
 }  // namespace

@@ -205,7 +205,7 @@ std::shared_ptr<const Built> KnownScene::build(const Listener& listener) {
         if (has_slits) result.surfaces = glue(computed(features->scene, true, listener), listener.threads);
         else if (former) result.surfaces = glue(result.boundary, *former->surfaces, listener.threads);
         else result.surfaces = glue(result.boundary, listener.threads);
-        result.space = FreeSpace::of(*result.surfaces, listener.threads);
+        result.space = FreeSpace::of(*result.surfaces);
     }
     former = nullptr;
     keep(std::make_shared<const Built>(std::move(result)));

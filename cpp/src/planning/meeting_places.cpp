@@ -21,8 +21,7 @@ constexpr double turn = 2 * std::numbers::pi;
 std::unique_ptr<const BoundaryWalker> walker_on_slits(const BoundaryWalker& walker, std::shared_ptr<const CellComplex> cells) {
     if (!cells) return nullptr;
     const auto count = static_cast<std::size_t>(cells->components);
-    Surfaces surfaces{cells->component, std::vector<Index>(count, -1), std::vector<std::uint8_t>(count, 1),
-                      std::vector<Index>(count, 0), std::vector<Index>(cells->component.size(), 0)};
+    Surfaces surfaces{cells->component, std::vector<Index>(count, -1), std::vector<std::uint8_t>(count, 1)};
     auto space = std::make_shared<const FreeSpace>(cells->boundary, std::move(surfaces));
     return std::make_unique<const BoundaryWalker>(std::move(space), std::move(cells), walker.checker, walker.angle_scale, walker.slides);
 }

@@ -50,7 +50,7 @@ class TileFaces:
     def _faces(self) -> _core.FreeSpace:
         """Free space of the tile alone, used only for searches near a pose: its one surface means nothing."""
         one, each = np.ones(1, np.int32), np.zeros(len(self._component), np.int32)
-        return _core.FreeSpace(self._boundary, _core.Surfaces(each, -one, one.astype(np.uint8), one, each))
+        return _core.FreeSpace(self._boundary, _core.Surfaces(each, -one, one.astype(np.uint8)))
 
     def crossings(self, pose: InChart, surface: Ints) -> list[Crossing] | None:
         """Crossings of the line from a pose; None if it is not in general position, or the pose on a face.

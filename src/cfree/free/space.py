@@ -135,10 +135,6 @@ class FreeSpace(Value, Shown):
         True if space is free just inside a closed surface: it is then the outer boundary of a cell, else of an island.
     cell_of : (C,) int32
         The cell that a closed surface bounds.
-    turns : (C,) int32
-        Greatest common divisor of the full turns of its loops in theta.
-    lift : (F,) int32
-        Full turns to add to the orientations of a trapezoid, so that they continue its neighbours' if `turns` is 0.
     cells : tuple of Cell
         An unbounded one comes first.
     """
@@ -149,17 +145,17 @@ class FreeSpace(Value, Shown):
         component: Ints,
         parent: Ints,
         free_inside: NDArray[np.bool_],
-        turns: Ints,
-        lift: Ints,
+        turns: Ints | None = None,
+        lift: Ints | None = None,
         core: _core.FreeSpace | None = None,
     ) -> None:
         self.boundary = boundary
         self.surfaces = bounding_surfaces(boundary)
-        self._handle = core or _in_core(self.surfaces, component, parent, free_inside, turns, lift)
+        self._handle = core or _in_core(self.surfaces, component, parent, free_inside)
         surfaces = self._handle.surfaces
-        self.component, self.parent, self.turns, self.lift = (
-            getattr(surfaces, name) for name in ("component", "parent", "turns", "lift")
-        )
+        self.component, self.parent = surfaces.component, surfaces.parent
+        if turns is not None and lift is not None:
+            self._turned = turns, lift
         self.free_inside = surfaces.free_inside.view(np.bool_)
         self.cell_of, self.depth = self._handle.cell_of, self._handle.depth
         self.outside = 0 if boundary.features.rim is None else FORBIDDEN
@@ -175,6 +171,20 @@ class FreeSpace(Value, Shown):
         n, caged = len(self.cells), sum(cell.caged for cell in self.cells)
         surfaces = counted(len(self.parent), "closed surface")
         return f"FreeSpace({counted(n, 'cell')}, {caged} caged, {surfaces})"
+
+    @cached_property
+    def _turned(self) -> tuple[Ints, Ints]:
+        return _core.turns_of(self.surfaces._complex_handle)
+
+    @property
+    def turns(self) -> Ints:
+        """(C,) int32. Greatest common divisor of the full turns of each closed surface's loops in theta."""
+        return self._turned[0]
+
+    @property
+    def lift(self) -> Ints:
+        """(F,) int32. Full turns to add to a trapezoid's orientations to continue its neighbours', if `turns` is 0."""
+        return self._turned[1]
 
     @property
     def complex(self) -> CellComplex:
@@ -445,10 +455,9 @@ def free_space(boundary: Boundary, *, threads: int | None = None, reuse: FreeSpa
     boundary.require_complete()
     bounding = bounding_surfaces(boundary, threads)
     before = reuse.surfaces if reuse is not None and bounding is boundary else None
-    threads = threads or os.cpu_count() or 1
-    glue_by(threads, bounding, before)
+    glue_by(threads or os.cpu_count() or 1, bounding, before)
     try:
-        core = _core.free_space(bounding._complex_handle, threads)
+        core = _core.free_space(bounding._complex_handle)
     except RuntimeError as error:
         raise InvariantError(str(error), state=boundary.scene) from error
     return _of_core(boundary, core)
@@ -468,7 +477,7 @@ def built_space(
 def _of_core(boundary: Boundary, core: _core.FreeSpace) -> FreeSpace:
     surfaces = core.surfaces
     inside = surfaces.free_inside.view(np.bool_)
-    return FreeSpace(boundary, surfaces.component, surfaces.parent, inside, surfaces.turns, surfaces.lift, core)
+    return FreeSpace(boundary, surfaces.component, surfaces.parent, inside, core=core)
 
 
 def bounding_surfaces(boundary: Boundary, threads: int | None = None) -> Boundary:
@@ -479,8 +488,6 @@ def bounding_surfaces(boundary: Boundary, threads: int | None = None) -> Boundar
     return boundary.regularized
 
 
-def _in_core(
-    boundary: Boundary, component: Ints, parent: Ints, free_inside: NDArray[np.bool_], turns: Ints, lift: Ints
-) -> _core.FreeSpace:
-    surfaces = _core.Surfaces(component, parent, free_inside.view(np.uint8), turns, lift)
+def _in_core(boundary: Boundary, component: Ints, parent: Ints, free_inside: NDArray[np.bool_]) -> _core.FreeSpace:
+    surfaces = _core.Surfaces(component, parent, free_inside.view(np.uint8))
     return _core.FreeSpace(boundary._handle, surfaces)

@@ -268,6 +268,7 @@ protected:
     std::vector<Index> pinches;  // angles at which a pillar's edge touches the surface along the line
     std::vector<Span> todo;
     mutable std::vector<double> heights[2];  // scratch of state_at
+    mutable std::vector<Ball> ball_heights[2];
     mutable std::vector<Int> exact_heights[2];
 };
 

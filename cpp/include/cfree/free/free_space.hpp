@@ -4,18 +4,17 @@
 
 namespace cfree {
 
-// Data of the closed surfaces, one row each; and of trapezoids: `component` and `lift`.
+// Data of the closed surfaces, one row each; and of trapezoids: `component`.
 struct Surfaces {
     std::vector<Index> component;           // each trapezoid's closed surface
     std::vector<Index> parent;              // the next surface around, or -1
     std::vector<std::uint8_t> free_inside;  // outer rim of a cell, or an island
-    std::vector<Index> turns;               // greatest common divisor of the turns of its loops in theta
-    std::vector<Index> lift;                // each trapezoid's full turns against the first one of its surface, along some path
 };
 
-// Turns in theta of loops on each component, and turns by which its faces are lifted; over sides that two of its faces share.
+// Turns in theta, over sides that two faces of a component share.
 struct Turns {
-    std::vector<Index> turns, lift;
+    std::vector<Index> turns;  // greatest common divisor of the full turns of loops on each component
+    std::vector<Index> lift;   // each face's full turns against the first one of its component, along some path
 };
 Turns turns_of(const CellComplex& cells);
 
@@ -24,7 +23,7 @@ public:
     FreeSpace(SharedBoundary boundary, Surfaces surfaces);
     FreeSpace(SharedBoundary boundary, Surfaces surfaces, PointLocation location);
     // Throws std::logic_error if the nesting of the surfaces is impossible.
-    static std::shared_ptr<const FreeSpace> of(const CellComplex& cells, int threads = 1);
+    static std::shared_ptr<const FreeSpace> of(const CellComplex& cells);
 
     const SharedBoundary boundary;
     const Surfaces surfaces;
