@@ -33,6 +33,14 @@ static int names_of_one_chord(const std::vector<Ring>& robot, const std::vector<
     return joined;
 }
 
+// True if there is no bracket, or if it holds a root, between opposite signs.
+static bool is_narrow_around(const std::optional<Predicates::Bracket>& bracket, const RealRoot& root) {
+    if (!bracket) return true;
+    const Dyadic below = Dyadic::from((*bracket)[0]), above = Dyadic::from((*bracket)[1]);
+    const bool is_narrow = (*bracket)[1].hi - (*bracket)[0].hi < 0x1p-50;
+    return is_narrow && compare(root, below) > 0 && compare(root, above) < 0 && sign_at(root.p, below) * sign_at(root.p, above) < 0;
+}
+
 // Compare orders of angles whose intervals overlap with those of their exact roots. Returns how many have one value and two names.
 static int names_of_one_angle(const std::vector<Ring>& robot, const std::vector<Ring>& obstacles) {
     const auto boundary = compute_boundary(scene_of(robot, obstacles));
@@ -50,6 +58,7 @@ static int names_of_one_angle(const std::vector<Ring>& robot, const std::vector<
                 if (x.name(scene) == y.name(scene)) continue;
                 const int quick = order(scene, x, y), narrowing = x.narrowing_order(scene, y);
                 RealRoot p = x.exact(scene), q = y.exact(scene);
+                CHECK(is_narrow_around(x.bracket(scene), p) && is_narrow_around(y.bracket(scene), q));
                 const int exact = compare(p, q);
                 CHECK(quick == exact && narrowing == exact);
                 if (exact == 0) ++equal;

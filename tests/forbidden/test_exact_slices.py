@@ -33,7 +33,7 @@ from exact_slices import (
     without,
 )
 from exact_slices import _fractions as fractions_of
-from shapes import NAMED, PlainScene, Point, box, frame, random_scene, u_shape
+from shapes import NAMED, PlainScene, Point, Shape, box, frame, random_scene, u_shape
 
 T = TypeVar("T")
 UNIT = box(0, 0, 1, 1)
@@ -187,6 +187,15 @@ def test_slices_of_the_kinds_that_are_fuzzed_are_exact(kind: str) -> None:
         assert not wrong, f"{kind} {number}"
         compared += slices
     assert compared > 15
+
+
+def test_angles_with_another_root_near_theirs_are_in_order() -> None:
+    # a part of 2^-147: angles 2^-137 from a right one, with a second root that Newton's method may find
+    e = Fraction(1, 2**147)
+    robot: list[Shape] = [([(0, 2), (-2, 2), (0, 0)], []), ([(e, 0), (e, 2 * e), (0, 2 * e)], [])]
+    obstacles: list[Shape] = [([(-4, 0), (-5, -5), (-4, -2)], []), ([(-2, 0), (0, 0), (-2, 2)], [])]
+    wrong, compared = fuzz.mistakes(PlainScene(robot, obstacles), "tiny")
+    assert not wrong and compared > 4
 
 
 # --- the comparison, and what fuzz does with a difference ---

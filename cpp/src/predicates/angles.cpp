@@ -242,7 +242,40 @@ std::optional<Predicates::Bracket> Predicates::bracket(const Event& x) const {
     return bracket_of(x, coefficients<Ball>(x.first, x.second));
 }
 
+// Bracket of the one root in the interval of an angle, if the polynomial is certainly monotone there: two steps of Newton's method.
+// By the mean value theorem a step from t errs by as much as the slope changes between t and the root.
+static std::optional<Predicates::Bracket> steep_bracket(const Event& x, const Coefficients<Ball>& p) {
+    const double width = x.hi - x.lo, t = 0.5 * (x.lo + x.hi);
+    double slope = 0, size = 0, bend = 0, slip = 0;  // |tau| < 1.1: a factor of 2 covers its powers in bounds
+    for (int i = p.count - 1; i > 0; --i) {
+        const double c = std::abs(p.c[i].hi);
+        slope = slope * t + i * p.c[i].hi;
+        size += i * c, bend += i * (i - 1) * (c + p.c[i].radius), slip += i * p.c[i].radius;
+    }
+    const double change = 2 * (0x1p-47 * size + slip + bend * width), share = change / std::abs(slope);
+    if (!(share < 0.25)) return {};
+    const auto value_at = [&](const Ball& at) {
+        Ball v = p.c[p.count - 1];
+        for (int i = p.count - 1; i-- > 0;) v = v * at + p.c[i];
+        return v;
+    };
+    const Ball first = value_at(t);
+    const double step = -first.hi / slope;
+    const auto [s, e] = two_sum(t, step);
+    if (!(x.lo < s && s < x.hi)) return {};
+    const Ball near(s, e, 0), rest = value_at(near);
+    const double last = -rest.hi / slope;
+    const double error = 2 * ((share + 4 * u) * std::abs(last) + (rest.radius + std::abs(rest.lo)) / std::abs(slope)) + 0x1p-102;
+    const Ball root = near + Ball(last);
+    Predicates::Bracket b{root - Ball(error), root + Ball(error)};
+    b[0].radius = b[1].radius = 0;
+    if (!is_below(x.lo, b[0]) || !is_below(b[1], x.hi)) return {};
+    return b;
+}
+
 std::optional<Predicates::Bracket> Predicates::bracket_of(const Event& x, const Coefficients<Ball>& of) {
+    if (x.fine < 0)
+        if (const auto found = steep_bracket(x, of)) return found;
     const auto factor = simple(x, of);
     if (!factor) return {};
     const auto& p = *factor;
@@ -262,7 +295,8 @@ std::optional<Predicates::Bracket> Predicates::bracket_of(const Event& x, const 
         if (is_below(b[0], x.lo)) b[0] = x.lo;
         if (is_below(x.hi, b[1])) b[1] = x.hi;
         const auto below = cfree::sign_at(p, b[0]), above = cfree::sign_at(p, b[1]);
-        if (below && above && *below * *above < 0) return b;
+        // Newton's method may have left for another root, beside which the signs are opposite, too
+        if (is_below(b[0], b[1]) && below && above && *below * *above < 0) return b;
     }
     return {};
 }
