@@ -36,7 +36,8 @@ def columns_of(scene: cfree.Scene) -> dict[str, np.ndarray[Any, Any]]:
         (core.trapezoids, "patch chart lower upper from_first from_second to_first to_second"),
         (core.trapezoids, "from_lo from_hi to_lo to_hi from_place to_place"),
         (cells, "face twin edge vertex side first component xy theta"),
-        (surfaces, "parent free_inside turns lift"),
+        (surfaces, "parent free_inside"),
+        (space, "turns lift"),
     )
     return (
         {f"patches.{name}": getattr(core.patches, name) for name in ("kind", "robot", "obstacle")}
