@@ -79,15 +79,19 @@ CriticalAngle::ShortName CriticalAngle::short_name(const Scene& scene) const {
     return {found ? *found : name(scene), found.has_value()};
 }
 
+// The intervals that begin first and end last hold all others. If they overlap, no root is between them. If signs change around both,
+// and around the two together, they have one root in all: two would change them back.
 bool CriticalAngle::are_one(const Scene& scene, const ShortName& name, const std::vector<CriticalAngle>& same) {
-    const CriticalAngle& x = same[0];
-    if (x.is_chart_end() || name.second) return true;
-    double low = x.lo, high = x.hi;
-    for (const CriticalAngle& y : same) {
-        if (y.place != 0) return false;
-        low = std::min(low, y.lo), high = std::max(high, y.hi);
-    }
-    return Predicates(scene, x.surface).changes_sign({x.first, x.second, x.lo, x.hi}, low, high);
+    if (same[0].is_chart_end() || name.second) return true;
+    if (std::any_of(same.begin(), same.end(), [](const CriticalAngle& x) { return x.place != 0; })) return false;
+    const auto &first = *std::min_element(same.begin(), same.end(), [](const auto& x, const auto& y) { return x.lo < y.lo; }),
+               &last = *std::max_element(same.begin(), same.end(), [](const auto& x, const auto& y) { return x.hi < y.hi; });
+    if (first.hi == last.hi || first.lo == last.lo) return true;
+    const auto changes_sign = [&](const CriticalAngle& x, double low, double high) {
+        return Predicates(scene, x.surface).changes_sign({x.first, x.second, x.lo, x.hi}, low, high);
+    };
+    return last.lo <= first.hi && changes_sign(first, first.lo, last.hi) && changes_sign(first, first.lo, first.hi) &&
+           changes_sign(last, last.lo, last.hi);
 }
 
 const RealRoot& CriticalAngle::exact(const Scene& scene) const {
