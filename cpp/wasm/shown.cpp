@@ -328,7 +328,7 @@ void show_counts(const World& world, Reply& reply) {
     count("cells", world.space->cells());
 }
 
-void show_columns(const World& world, Reply& reply) {
+void show_columns(World& world, Reply& reply) {
     world.need_space();
     const Boundary& b = *world.boundary;
     const Trapezoids& t = b.trapezoids;
@@ -344,7 +344,7 @@ void show_columns(const World& world, Reply& reply) {
     reply.add("xy", c.places().xy), reply.add("theta", c.places().theta);
     const Surfaces& s = world.space->surfaces;
     reply.add("parent", s.parent), reply.add("free_inside", s.free_inside);
-    const Turns turns = turns_of(c);
+    const Turns& turns = world.found_turns();
     reply.add("turns", turns.turns), reply.add("lift", turns.lift);
     reply.add("cell_of", world.space->cell_of), reply.add("depth", world.space->depth);
 }
@@ -427,13 +427,13 @@ void show_cell(World& world, Index cell, Reply& reply) {
     if (cell < 0 || cell >= world.space->cells()) throw std::invalid_argument("no such cell");
     const auto k = static_cast<std::size_t>(cell);
     if (world.volumes.empty()) world.volumes = volumes(*world.space).values;
-    if (!world.turns) world.turns = turns_of(*world.cells);
+    const std::vector<Index>& turns_of_component = world.found_turns().turns;
     reply.add("volume", world.volumes[k]);
     reply.add("caged", caged(*world.space, world.features.obstacles.polygon)[k] ? 1.0 : 0.0);
     reply.add("bounded", cell == world.space->outside ? 0.0 : 1.0);
     Index turns = 0;
     for (std::size_t of = 0; of < world.space->cell_of.size(); ++of)
-        if (world.space->cell_of[of] == cell) turns = std::gcd(turns, world.turns->turns[of]);
+        if (world.space->cell_of[of] == cell) turns = std::gcd(turns, turns_of_component[of]);
     reply.add("turns", cell == world.space->outside ? 1.0 : static_cast<double>(turns));
 }
 

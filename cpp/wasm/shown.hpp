@@ -10,7 +10,7 @@ void show_scene(const World& world, Reply& reply);
 void show_robot(const Rounds& rounds, const std::string& prefix, Reply& reply);
 void show_counts(const World& world, Reply& reply);
 // All columns of boundary and cells, as they are.
-void show_columns(const World& world, Reply& reply);
+void show_columns(World& world, Reply& reply);
 // Mesh of one error, or a larger one with about `most` triangles. Vertices are those of single patches, with normals of these.
 void show_mesh(const World& world, double error, double most, Reply& reply);
 // A closed surface of a scene, angles as heights times a length.

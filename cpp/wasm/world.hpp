@@ -54,6 +54,10 @@ public:
 
     void need_boundary() const;
     void need_space() const;
+    const Turns& found_turns() {
+        if (!turns) turns = turns_of(*cells);
+        return *turns;
+    }
     // False if there are polygons in place of round shapes.
     bool is_exact() const { return !near || near->inexact.empty(); }
     // The user's number of an obstacle among the polygons of the last proof.

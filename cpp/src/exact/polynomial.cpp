@@ -197,9 +197,7 @@ static std::optional<int> clear_sign(const Coefficients<Ball>& p, const Ball& ta
 std::optional<int> sign_at(const Coefficients<Ball>& p, const Ball& tau) {
     if (tau.radius == 0 && std::abs(tau.hi) <= 1)
         if (const auto sign = clear_sign(p, tau)) return sign;
-    Ball r = p.c[p.count - 1];
-    for (int i = p.count - 1; i-- > 0;) r = r * tau + p.c[i];
-    return certain_sign(r);
+    return certain_sign(value_at(p, tau));
 }
 
 Int value_at(const Poly& p, const Dyadic& tau) {

@@ -128,25 +128,23 @@ void know(Junction& at, const Scene& scene, const CriticalAngle& angle) {
     else at.know(angle.name(scene));
 }
 
-// True if two angles are proved equal, without exact roots.
-static bool are_one(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
-    if (x.is_chart_end() || y.is_chart_end() || x.place != 0 || y.place != 0) return false;
-    const Predicates on_y(scene, y.on());
-    return Predicates(scene, x.on()).are_one({x.first, x.second, x.lo, x.hi}, on_y, {y.first, y.second, y.lo, y.hi});
-}
-
-// Sign of x - y if their brackets are apart, else 0.
-static int order_of_brackets(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
+// Order of two angles as balls prove it, without exact roots.
+static std::optional<int> order_by_balls(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
+    const auto is_root = [](const CriticalAngle& a) { return !a.is_chart_end() && a.place == 0; };
+    if (is_root(x) && is_root(y)) {
+        const Predicates on_y(scene, y.on());
+        if (Predicates(scene, x.on()).are_one({x.first, x.second, x.lo, x.hi}, on_y, {y.first, y.second, y.lo, y.hi})) return 0;
+    }
     const auto &p = x.bracket(scene), &q = y.bracket(scene);
-    if (!p || !q) return 0;
-    return is_below((*p)[1], (*q)[0]) ? -1 : is_below((*q)[1], (*p)[0]) ? 1 : 0;
+    if (p && q && is_below((*p)[1], (*q)[0])) return -1;
+    if (p && q && is_below((*q)[1], (*p)[0])) return 1;
+    return {};
 }
 
 int CriticalAngle::narrowing_order(const Scene& scene, CriticalAngle& other) {
     if (hi < other.lo) return -1;
     if (lo > other.hi) return 1;
-    if (cfree::are_one(scene, *this, other)) return 0;
-    if (const int o = order_of_brackets(scene, *this, other)) return o;
+    if (const auto known = order_by_balls(scene, *this, other)) return *known;
     if (scene.is_round) return compare(exact_among_grown(scene), other.exact_among_grown(scene));
     exact(scene), other.exact(scene);
     return compare(*root, *other.root);
@@ -156,8 +154,7 @@ int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
     if (const auto name = x.short_name(scene); name == y.short_name(scene) && CriticalAngle::are_one(scene, name, {x, y})) return 0;
-    if (are_one(scene, x, y)) return 0;
-    if (const int o = order_of_brackets(scene, x, y)) return o;
+    if (const auto known = order_by_balls(scene, x, y)) return *known;
     if (scene.is_round) return compare(x.exact_among_grown(scene), y.exact_among_grown(scene));
     RealRoot p = x.exact(scene), q = y.exact(scene);
     return compare(p, q);

@@ -254,16 +254,11 @@ static std::optional<Predicates::Bracket> steep_bracket(const Event& x, const Co
     }
     const double change = 2 * (0x1p-47 * size + slip + bend * width), share = change / std::abs(slope);
     if (!(share < 0.25)) return {};
-    const auto value_at = [&](const Ball& at) {
-        Ball v = p.c[p.count - 1];
-        for (int i = p.count - 1; i-- > 0;) v = v * at + p.c[i];
-        return v;
-    };
-    const Ball first = value_at(t);
+    const Ball first = value_at(p, t);
     const double step = -first.hi / slope;
     const auto [s, e] = two_sum(t, step);
     if (!(x.lo < s && s < x.hi)) return {};
-    const Ball near(s, e, 0), rest = value_at(near);
+    const Ball near(s, e, 0), rest = value_at(p, near);
     const double last = -rest.hi / slope;
     const double error = 2 * ((share + 4 * u) * std::abs(last) + (rest.radius + std::abs(rest.lo)) / std::abs(slope)) + 0x1p-102;
     const Ball root = near + Ball(last);
@@ -302,18 +297,12 @@ std::optional<Predicates::Bracket> Predicates::bracket_of(const Event& x, const 
 }
 
 bool Predicates::are_one(const Event& x, const Predicates& other, const Event& y) const {
-    const auto are_equal = [&]<class T>() -> std::optional<bool> {
-        const auto p = coefficients<T>(x.first, x.second), q = other.coefficients<T>(y.first, y.second);
-        if constexpr (std::is_same_v<T, Ball>) {
-            const auto t = as_few_digits(x, p);
-            if (t && t == as_few_digits(y, q)) return true;
-        }
-        // opposite signs around both: one of a quadratic's two roots is there
-        const bool is_alone = !scene.is_round && p.count == 3 && changes_sign(x, std::min(x.lo, y.lo), std::max(x.hi, y.hi));
-        return is_alone ? are_proportional(p, q) : false;
-    };
-    const auto by_balls = are_equal.template operator()<Ball>();
-    return by_balls ? *by_balls : *are_equal.template operator()<Int>();
+    const auto p = coefficients<Ball>(x.first, x.second), q = other.coefficients<Ball>(y.first, y.second);
+    if (const auto t = as_few_digits(x, p); t && t == as_few_digits(y, q)) return true;
+    // opposite signs around both: one of a quadratic's two roots is there
+    if (scene.is_round || p.count != 3 || !changes_sign(x, std::min(x.lo, y.lo), std::max(x.hi, y.hi))) return false;
+    if (const auto known = are_proportional(p, q)) return *known;
+    return *are_proportional(coefficients<Int>(x.first, x.second), other.coefficients<Int>(y.first, y.second));
 }
 
 std::optional<double> Predicates::as_few_digits(const Event& x, const Coefficients<Ball>& p) {

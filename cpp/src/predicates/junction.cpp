@@ -77,8 +77,6 @@ const Ball* Junction::dyadic() const {
     return few_digits && few_digits->radius == 0 ? &*few_digits : nullptr;
 }
 
-Ball Junction::value_at(const Coefficients<Ball>& p, const Ball& tau) { return p.c[0] + tau * (p.c[1] + tau * p.c[2]); }
-
 // Range of f times 1 + tau^2: between its Bernstein coefficients, each within err.
 Interval Junction::range(const Filtered& f) const {
     const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);

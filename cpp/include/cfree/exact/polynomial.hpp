@@ -27,6 +27,11 @@ struct Coefficients {
     T c[7];
     int count;
 };
+inline Ball value_at(const Coefficients<Ball>& p, const Ball& tau) {
+    Ball r = p.c[p.count - 1];
+    for (int i = p.count - 1; i-- > 0;) r = r * tau + p.c[i];
+    return r;
+}
 std::optional<int> sign_at(const Coefficients<Ball>& p, const Ball& tau);
 
 // Coefficients from the constant up; no leading zeros; degree at most 6; empty is zero.

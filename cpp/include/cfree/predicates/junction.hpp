@@ -78,7 +78,6 @@ private:
     const Ball* narrow() const;
     template <class Question>
     std::optional<int> by_balls(const Question& question) const;
-    static Ball value_at(const Coefficients<Ball>& p, const Ball& tau);
     int order_exactly(const Feature& line, const Spot& p, const Spot& q);
     std::array<Code, 2> helices(const Feature& f) const;  // both ends of a surface, or the helix itself
     bool meets(const Feature& surface, Code helix) const;
