@@ -86,6 +86,7 @@ private:
 
     const Scene& scene;
     std::vector<Index> near;
+    std::vector<Octagon> around_robot;     // around the robot's pieces
     std::vector<Octagon> placed;           // around the near pieces as they are, relative to the vertex
     Side obstacles, within_reach, robot;   // the near pieces, their parts that the robot can touch, and the robot's
     Standing at_obstacle;                  // fixed with the edge from the obstacle vertex
