@@ -278,46 +278,54 @@ void cancel(std::span<Poly> parts) {
 
 Sturm::Sturm(const Poly& p) {
     chain.push_back(p);
-    if (p.size() < 2) return;
-    chain.push_back(derivative(p));
+    if (p.size() > 1) chain.push_back(derivative(p));
     while (chain.back().size() > 1) {
         Poly r = remainder(chain[chain.size() - 2], chain.back());
         if (r.empty()) break;
         for (Int& c : r) c = -c;
         chain.push_back(r);
     }
+    for (const Poly& f : chain) {
+        int size = 0;
+        for (const Int& c : f) size = std::max(size, c.is_zero() ? 0 : static_cast<int>(msb(abs(c))));
+        in_balls.push_back({{}, f.size()});
+        for (int i = 0; i < f.size(); ++i) in_balls.back().c[i] = ball(f[i], size);
+    }
 }
 
 int Sturm::variations(const Dyadic& tau) const {
+    heed_stop();
+    const Ball at = ball(tau.n, static_cast<int>(tau.k));
     int count = 0, last = 0;
-    for (const Poly& p : chain) {
-        const int s = sign_at(p, tau);
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+        const auto by_balls = in_balls[k].count > 0 ? sign_at(in_balls[k], at) : std::nullopt;
+        const int s = by_balls ? *by_balls : sign_at(chain[k], tau);
         if (s != 0 && last != 0 && s != last) ++count;
         if (s != 0) last = s;
     }
     return count;
 }
 
-int Sturm::roots_in(const Dyadic& lo, const Dyadic& hi) const {
-    heed_stop();
-    return variations(lo) - variations(hi);
+// The numbers of variations at both ends are known.
+static void isolate(const Sturm& sturm, const Dyadic& lo, int at_lo, const Dyadic& hi, int at_hi, unsigned bits,
+                    std::vector<std::array<Dyadic, 2>>& found) {
+    if (at_lo == at_hi) return;
+    const unsigned k = lo.k > hi.k ? lo.k : hi.k;
+    const Int width = (hi.n << (k - hi.k)) - (lo.n << (k - lo.k));  // over 2^k
+    const bool narrow = k >= bits ? width <= (Int(1) << (k - bits)) : false;
+    if (at_lo - at_hi == 1 && narrow) {
+        found.push_back({lo, hi});
+        return;
+    }
+    const Dyadic mid = Dyadic::middle(lo, hi);
+    const int at_mid = sturm.variations(mid);
+    isolate(sturm, lo, at_lo, mid, at_mid, bits, found);
+    isolate(sturm, mid, at_mid, hi, at_hi, bits, found);
 }
 
 std::vector<std::array<Dyadic, 2>> isolate(const Sturm& sturm, const Dyadic& lo, const Dyadic& hi, unsigned bits) {
     std::vector<std::array<Dyadic, 2>> found;
-    const int count = sturm.roots_in(lo, hi);
-    if (count == 0) return found;
-    const unsigned k = lo.k > hi.k ? lo.k : hi.k;
-    const Int width = (hi.n << (k - hi.k)) - (lo.n << (k - lo.k));  // over 2^k
-    const bool narrow = k >= bits ? width <= (Int(1) << (k - bits)) : false;
-    if (count == 1 && narrow) {
-        found.push_back({lo, hi});
-        return found;
-    }
-    const Dyadic mid = Dyadic::middle(lo, hi);
-    found = isolate(sturm, lo, mid, bits);
-    const auto right = isolate(sturm, mid, hi, bits);
-    found.insert(found.end(), right.begin(), right.end());
+    isolate(sturm, lo, sturm.variations(lo), hi, sturm.variations(hi), bits, found);
     return found;
 }
 

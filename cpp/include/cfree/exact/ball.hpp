@@ -55,28 +55,34 @@ inline Ball operator+(const Ball& x, const Ball& y) {
 }
 inline Ball operator-(const Ball& x, const Ball& y) { return x + -y; }
 
-// Two numbers of more than 53 digits each have an inexact product: every rounding loses at most u times its result.
 inline Ball operator*(const Ball& x, const Ball& y) {
     if (x.lo == 0 && y.lo != 0) return y * x;
-    double lost = 0, hi, lo;
-    if (y.lo != 0) {
-        const double p = x.hi * y.hi, rest = std::fma(x.hi, y.hi, -p);
-        const double a = x.lo * y.lo, b = std::fma(x.hi, y.lo, a), c = std::fma(x.lo, y.hi, b), d = rest + c;
-        hi = p + d, lo = d - (hi - p);
-        lost = 0x1p-53 * (std::abs(a) + std::abs(b) + std::abs(c) + std::abs(d)) + least_radius;
-    } else {
-        const auto product = two_product(x.hi, y.hi, lost);
-        hi = product.s, lo = product.e;
-        if (x.lo != 0) {
-            const auto [r, g] = two_product(x.lo, y.hi, lost);
-            const auto [b, d] = two_sum(lo, r);
-            const auto [n, k1] = two_sum(g, d);
-            const auto [p, l] = two_sum(hi, b);
-            const auto [m, k2] = two_sum(l, n);
-            lost += std::abs(k1) + std::abs(k2);
-            const auto [s, e] = two_sum(p, m);
-            hi = s, lo = e;
-        }
+    double lost = 0;
+    auto [hi, lo] = two_product(x.hi, y.hi, lost);
+    if (x.lo != 0 && y.lo == 0) {
+        const auto [r, g] = two_product(x.lo, y.hi, lost);
+        const auto [b, d] = two_sum(lo, r);
+        const auto [n, k1] = two_sum(g, d);
+        const auto [p, l] = two_sum(hi, b);
+        const auto [m, k2] = two_sum(l, n);
+        lost += std::abs(k1) + std::abs(k2);
+        const auto [s, e] = two_sum(p, m);
+        hi = s, lo = e;
+    } else if (x.lo != 0) {
+        const auto [q, f] = two_product(x.hi, y.lo, lost);
+        const auto [r, g] = two_product(x.lo, y.hi, lost);
+        const auto [z, h] = two_product(x.lo, y.lo, lost);
+        const auto [a, d1] = two_sum(q, r);  // order of magnitude 2^-53
+        const auto [b, d2] = two_sum(lo, a);
+        const auto [v, k1] = two_sum(f, g);  // order of magnitude 2^-106
+        const auto [w, k2] = two_sum(v, z);
+        const auto [d, k3] = two_sum(d1, d2);
+        const auto [n, k4] = two_sum(w, d);
+        const auto [p, l] = two_sum(hi, b);
+        const auto [m, k5] = two_sum(l, n);
+        lost += std::abs(h) + std::abs(k1) + std::abs(k2) + std::abs(k3) + std::abs(k4) + std::abs(k5);
+        const auto [s, e] = two_sum(p, m);
+        hi = s, lo = e;
     }
     if (x.radius != 0 || y.radius != 0)
         lost += std::abs(x.hi) * y.radius + std::abs(y.hi) * x.radius + x.radius * y.radius + least_radius;

@@ -86,12 +86,14 @@ void cancel(std::span<Poly> parts);
 class Sturm {
 public:
     explicit Sturm(const Poly& squarefree);
-    int roots_in(const Dyadic& lo, const Dyadic& hi) const;  // in (lo, hi]
+    // Number of sign changes along the chain: it falls by one at each root.
+    int variations(const Dyadic& tau) const;
+    int roots_in(const Dyadic& lo, const Dyadic& hi) const { return variations(lo) - variations(hi); }  // in (lo, hi]
     const Poly& polynomial() const { return chain[0]; }
 
 private:
-    int variations(const Dyadic& tau) const;
     std::vector<Poly> chain;
+    std::vector<Coefficients<Ball>> in_balls;  // the same, each scaled
 };
 
 // Isolating intervals (lo, hi] of the roots in (lo, hi], in order, each narrower than 2^-bits.
