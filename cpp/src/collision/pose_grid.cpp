@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "cfree/support/elementary.hpp"
 #include "collision/placed_robot.hpp"
@@ -81,12 +81,15 @@ void PoseChecker::fill(Grid& g, const Fineness& fineness) const {
             }
     }
     std::erase_if(found, [&](const Near& near) { return blocked[near.cell]; });
-    std::sort(found.begin(), found.end(), [](const Near& p, const Near& q) {  // most likely overlaps come first
-        return std::tie(p.cell, p.distance, p.piece) < std::tie(q.cell, q.distance, q.piece);
-    });
     g.start.assign(blocked.size() + 1, 0);
-    for (const Near& near : found) ++g.start[near.cell + 1], g.member.push_back(near.piece);
+    for (const Near& near : found) ++g.start[near.cell + 1];
     std::partial_sum(g.start.begin(), g.start.end(), g.start.begin());
+    std::vector<std::pair<double, Index>> by_cell(found.size());  // distances and pieces
+    std::vector<Index> next = g.start;
+    for (const Near& near : found) by_cell[next[near.cell]++] = {near.distance, near.piece};
+    for (std::size_t c = 0; c < blocked.size(); ++c)  // most likely overlaps come first
+        std::sort(by_cell.begin() + g.start[c], by_cell.begin() + g.start[c + 1]);
+    for (const auto& [distance, piece] : by_cell) g.member.push_back(piece);
     Placed turned(robot);
     for (std::size_t k = 0; k < sectors; ++k) {
         turned.place({0, 0, cosine(middle_of(k)), sine(middle_of(k))});
@@ -94,9 +97,11 @@ void PoseChecker::fill(Grid& g, const Fineness& fineness) const {
         for (const Ranges& at : turned.box) g.around.push_back({at.x0 - r, at.y0 - r, at.x1 + r, at.y1 + r});
     }
     g.known = std::vector<std::atomic<State>>(blocked.size() * sectors);
-    for (std::size_t c = 0; c < blocked.size(); ++c)
-        if (blocked[c] || g.start[c] == g.start[c + 1])
-            std::fill_n(&g.known[c * sectors], sectors, blocked[c] ? State::forbidden : State::free);
+    for (std::size_t c = 0; c < blocked.size(); ++c) {
+        if (!blocked[c] && g.start[c] != g.start[c + 1]) continue;
+        for (std::size_t k = 0; k < sectors; ++k)
+            g.known[c * sectors + k].store(blocked[c] ? State::forbidden : State::free, std::memory_order_relaxed);
+    }
 }
 
 PoseChecker::Grid& PoseChecker::near(std::size_t poses) const {
