@@ -1,7 +1,7 @@
 """Boundary and cells of a scene of which one obstacle has moved: with `reuse=`, beside the same computed anew.
 
 Obstacles and motions are those of `families.moves`. Processor time of one thread, of a new scene each time; that of a
-boundary includes its features, that of cells is what they take beside it.
+boundary includes its features, that of cells is what they take beside it; both together are the whole.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import cfree
 
 CASES = (*REAL, "flats 36")
 AT_MOST = {"benchmr_warehouse": 0.2, "street_Berlin": 0.35}
-PARTS = ("boundary", "cells")
+PARTS = ("boundary", "cells", "both")
 
 
 def run(quick: bool) -> Report:
@@ -60,12 +60,12 @@ class Change:
     kept: int = 0
 
     def times(self, rounds: int) -> tuple[list[float], list[float]]:
-        """Return the least processor times of boundary and cells in some rounds: anew, and with reuse."""
+        """Return the least processor times of boundary, cells and both in some rounds: anew, and with reuse."""
         both = [(self._seconds(False), self._seconds(True)) for _ in range(rounds)]
         anew, reused = ([min(part) for part in zip(*side, strict=True)] for side in zip(*both, strict=True))
         return anew, reused
 
-    def _seconds(self, is_reused: bool) -> tuple[float, float]:
+    def _seconds(self, is_reused: bool) -> tuple[float, float, float]:
         old = self.old if is_reused else None
         scene = self.old.boundary.scene.moved(self.obstacle, self.pose)
         start = time.process_time()
@@ -74,4 +74,4 @@ class Change:
         cfree.free_space(boundary, threads=1, reuse=old)
         end = time.process_time()
         self.kept = boundary.kept_patches if is_reused else self.kept
-        return between - start, end - between
+        return between - start, end - between, end - start

@@ -231,10 +231,7 @@ private:
     bool is_inner(Index f) const { return kept.is_inner[f] != 0; }
     Index first_before(Index f) const { return before.first[kept.before[f]]; }
     // Half-edge of a face that is kept, by its number in the other complex.
-    Index now(Index h) const {
-        const Index f = kept.now[before.face[h]];
-        return result.first[f] + h - first_before(f);
-    }
+    Index now(Index h) const { return h + shift[before.face[h]]; }
     void make_faces();
     bool match_parts();
     bool match(Index f);
@@ -245,6 +242,7 @@ private:
     const KeptFaces& kept;
     const Loops& glued;
     std::vector<Index> place;    // of each face among those glued
+    std::vector<Index> shift;    // by which half-edges of each face of the other complex that is kept have moved
     std::vector<char> has_other; // true for each edge glued at which a face is not kept
     std::vector<Index> of_part;  // half-edge of each part glued, -1 for those that faces do not need
     std::vector<Index> part_of;  // part of each half-edge that a face that is kept shares with another one
@@ -252,13 +250,16 @@ private:
 };
 
 void Merging::make_faces() {
-    result.first.assign(1, 0);
-    for (Index f = 0; f < static_cast<Index>(kept.is_inner.size()); ++f) {
-        const Index count = is_inner(f) ? before.first[kept.before[f] + 1] - first_before(f)
-                                        : glued.first[place[f] + 1] - glued.first[place[f]];
-        result.first.push_back(result.first.back() + count);
-        result.face.insert(result.face.end(), static_cast<std::size_t>(count), f);
+    const auto count = static_cast<Index>(kept.is_inner.size());
+    result.first.reserve(kept.is_inner.size() + 1), result.first.assign(1, 0);
+    shift.assign(kept.now.size(), 0);
+    for (Index f = 0; f < count; ++f) {
+        if (is_inner(f)) shift[kept.before[f]] = result.first[f] - first_before(f);
+        result.first.push_back(result.first[f] + (is_inner(f) ? before.first[kept.before[f] + 1] - first_before(f)
+                                                              : glued.first[place[f] + 1] - glued.first[place[f]]));
     }
+    result.face.resize(static_cast<std::size_t>(result.first.back()));
+    for (Index f = 0; f < count; ++f) std::fill(result.face.begin() + result.first[f], result.face.begin() + result.first[f + 1], f);
     result.twin.assign(result.face.size(), -1), result.edge.assign(result.face.size(), -1), result.side.assign(result.face.size(), 0);
     result.edges = before.edges + glued.edges;
 }
@@ -287,6 +288,13 @@ bool Merging::match(Index f) {
 }
 
 bool Merging::copy(Index f) {
+    if (place[f] < 0) {  // it meets only faces that are kept
+        const Index begin = first_before(f), end = before.first[kept.before[f] + 1], to = result.first[f];
+        std::copy(before.side.begin() + begin, before.side.begin() + end, result.side.begin() + to);
+        std::copy(before.edge.begin() + begin, before.edge.begin() + end, result.edge.begin() + to);
+        for (Index h = begin; h < end; ++h) result.twin[to + h - begin] = now(before.twin[h]);
+        return true;
+    }
     for (Index h = first_before(f); h < before.first[kept.before[f] + 1]; ++h) {
         const Index x = now(h), p = part_of[x];
         result.side[x] = before.side[h];

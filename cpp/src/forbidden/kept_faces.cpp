@@ -1,6 +1,8 @@
 // Match the trapezoids of two boundaries by the patches that hold in both; theory, "Closed surfaces".
 #include "forbidden/kept_faces.hpp"
 
+#include <algorithm>
+
 #include "forbidden/kept_patches.hpp"
 #include "forbidden/patch_trimming.hpp"
 
@@ -41,23 +43,28 @@ bool match_rows(KeptFaces& faces, const Boundary& other, const Boundary& boundar
 std::optional<KeptFaces> kept_faces(const CellComplex& other, const Boundary& boundary) {
     KeptFaces faces;
     if (!match_rows(faces, *other.boundary, boundary)) return {};
-    const std::size_t half_edges = other.face.size();
-    std::vector<char> has_changed(static_cast<std::size_t>(other.edges), 0);
-    for (std::size_t h = 0; h < half_edges; ++h) has_changed[other.edge[h]] |= faces.now[other.face[h]] < 0;
-    std::vector<char> is_inner_before(other.component.size());
-    for (std::size_t f = 0; f < is_inner_before.size(); ++f) is_inner_before[f] = faces.now[f] >= 0;
-    for (std::size_t h = 0; h < half_edges; ++h)
-        if (has_changed[other.edge[h]]) is_inner_before[other.face[h]] = 0;
+    const std::size_t count = boundary.trapezoids.size(), count_before = faces.now.size();
+    const auto any_edge = [&](std::size_t f, auto&& holds) {
+        return std::any_of(other.edge.begin() + other.first[f], other.edge.begin() + other.first[f + 1], holds);
+    };
+    const auto mark_edges = [&](std::size_t f, std::vector<char>& marked) {
+        for (Index h = other.first[f]; h < other.first[f + 1]; ++h) marked[other.edge[h]] = 1;
+    };
+    std::vector<char> has_changed(static_cast<std::size_t>(other.edges), 0), is_inner_before(count_before, 0);
+    for (std::size_t f = 0; f < count_before; ++f)
+        if (faces.now[f] < 0) mark_edges(f, has_changed);
+    for (std::size_t f = 0; f < count_before; ++f)
+        is_inner_before[f] = faces.now[f] >= 0 && !any_edge(f, [&](Index e) { return has_changed[e]; });
     faces.is_border_edge.assign(has_changed.size(), 0);
-    for (std::size_t h = 0; h < half_edges; ++h)
-        if (!is_inner_before[other.face[h]] && faces.now[other.face[h]] >= 0) faces.is_border_edge[other.edge[h]] = 1;
-    const std::size_t count = boundary.trapezoids.size();
+    for (std::size_t f = 0; f < count_before; ++f)
+        if (!is_inner_before[f] && faces.now[f] >= 0) mark_edges(f, faces.is_border_edge);
     std::vector<char> is_chosen(count, 1);
     faces.is_inner.assign(count, 0);
-    for (std::size_t f = 0; f < count; ++f)
-        if (faces.before[f] >= 0) faces.is_inner[f] = is_inner_before[faces.before[f]], is_chosen[f] = !faces.is_inner[f];
-    for (std::size_t h = 0; h < half_edges; ++h)
-        if (faces.is_border_edge[other.edge[h]] && is_inner_before[other.face[h]]) is_chosen[faces.now[other.face[h]]] = 1;
+    for (std::size_t f = 0; f < count_before; ++f)
+        if (is_inner_before[f]) {
+            faces.is_inner[faces.now[f]] = 1;
+            is_chosen[faces.now[f]] = any_edge(f, [&](Index e) { return faces.is_border_edge[e]; });
+        }
     for (std::size_t f = 0; f < count; ++f)
         if (is_chosen[f]) faces.chosen.push_back(static_cast<Index>(f));
     return faces;
