@@ -103,16 +103,7 @@ private:
     }
 
     bool is_free_between(RoundJunction& at, const Event& e, const RoundSpot& low, const RoundSpot& high) {
-        RoundSpot place{pair, {}, 0, false, false, false, Ratio{}};
-        Int d = 1;
-        for (Int first = 0, last = 1;;) {  // over d
-            const Int n = first + last;
-            d *= 2, first *= 2, last *= 2;
-            place.given = Ratio{n, d};
-            const bool is_above = at.order(pair, low, place) < 0;
-            if (is_above && at.order(pair, place, high) < 0) break;
-            (is_above ? last : first) = n;
-        }
+        const RoundSpot place = at.between(pair, low, high);
         RoundJunction quick(scene, quadrant.on.chart, e.lo, e.hi, [&] { return decide.long_root_of(e); });
         quick.ask_doubles_only();
         const auto is_covered = [&](RoundJunction& here) {

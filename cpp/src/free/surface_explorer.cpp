@@ -290,7 +290,7 @@ GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     for (auto& [k, visit] : g.visits) visit.seen = Growth::Seen::no;
     for (const Index k : part.faces) g.visits[chosen[k]].seen = Growth::Seen::explored;
     g.queue = {};
-    g.explored = g.surely = static_cast<Index>(surely), g.trust = std::max(Growth::least_trust, (has_leaked ? 2 : 8) * g.surely);
+    g.explored = g.surely = static_cast<Index>(surely), g.trust = std::max(Growth::least_trust, (has_leaked ? 2 : 16) * g.surely);
     std::unordered_set<Index> is_missing;
     for (const Index k : part.missing) is_missing.insert(chosen[k]);
     for (const Index k : part.faces) {

@@ -329,18 +329,21 @@ int RoundJunction::order(const Feature& surface, const Spot& p, const Spot& q) {
     return sign_at(difference, here()) * sign_at(x.c, here()) * sign_at(y.c, here());
 }
 
-int RoundJunction::across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after) {
-    const bool upwards = order(x, p, q) < 0;
-    const Spot &first = upwards ? p : q, &last = upwards ? q : p;
+RoundSpot RoundJunction::between(const Feature& x, const Spot& low, const Spot& high) {
     Spot at{x, {}, 0, false, false, false, Ratio{}};
     Int n, d = 1;
-    for (Int low = 0, high = 1;;) {  // over d
-        n = low + high, d *= 2, low *= 2, high *= 2;
+    for (Int first = 0, last = 1;;) {  // over d
+        n = first + last, d *= 2, first *= 2, last *= 2;
         at.given = Ratio{n, d};
-        const bool above = order(x, first, at) < 0, below = order(x, at, last) < 0;
-        if (above && below) break;
-        (above ? high : low) = n;
+        const bool is_above = order(x, low, at) < 0;
+        if (is_above && order(x, at, high) < 0) return at;
+        (is_above ? last : first) = n;
     }
+}
+
+int RoundJunction::across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after) {
+    const bool upwards = order(x, p, q) < 0;
+    const auto [n, d] = *between(x, upwards ? p : q, upwards ? q : p).given;
     // left of y's line, times |U| of x and d
     const RoundSurfaces<RootSum> of(scene);
     const RootSum length = of.length(x), shift = of.rho(x) * RootSum(d);

@@ -50,6 +50,8 @@ public:
     Interval range(const Feature& surface, const Spot& p) const;
     // Order along a line, or counter-clockwise on a circle, of two places that are on this surface or on one equal to it here.
     int order(const Feature& surface, const Spot& p, const Spot& q);
+    // A place between two others in this order, by halving.
+    Spot between(const Feature& surface, const Spot& low, const Spot& high);
     // True if two circles, or quadrants of them, are equal here.
     bool are_one_circle(const Feature& x, const Feature& y);
 
