@@ -236,3 +236,17 @@ def test_slides_keep_no_vertex_of_the_robot_on_the_bounds() -> None:
     for start, goal in permutations([Pose(-3, 3, "270deg") @ posed.inverse(), Pose(5, 1) @ posed.inverse()]):
         answer = plan(scene, start, goal, improve=0)
         assert isinstance(answer, Path) and cfree.verify.answer(scene, answer).verified
+
+
+@pytest.mark.parametrize("frame", TURNS)
+@pytest.mark.parametrize("quarters", range(4))
+def test_bounds_that_an_obstacle_only_touches_are_gone_along(quarters: int, frame: Fraction) -> None:
+    """At one orientation, at which no trapezoid of the bound ends, unless charts do."""
+    turn, own = Pose(0, 0, f"{90 * quarters}deg"), Pose(0, 0, {"tau": frame})
+    half = F(1, 2)
+    obstacle = turn.apply_exact([(-3 * half, 3), (-3, 3 * half), (-5 * half, half)])
+    (x0, y0), (x1, y1) = turn.apply_exact([(-4, 3 * half), (3 * half, 5 * half)])
+    robot = own.apply_exact([(-half, 0), (-1, 0), (-1, -half)])
+    scene = Scene(robot, [obstacle], bounds=(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)))
+    start, goal = (turn @ at @ own.inverse() for at in (Pose(-4, 5 * half), Pose(3 * half, 5 * half, {"tau": F(4, 3)})))
+    assert answered(scene, start, goal) == "path"

@@ -16,6 +16,7 @@ namespace cfree {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
+constexpr unsigned few_digits = 256;  // of ends of faces, beside which a pose may be
 
 // Walker with each closed surface as a cell of its own: it joins any two poses on one along it.
 std::unique_ptr<const BoundaryWalker> walker_on_slits(const BoundaryWalker& walker, std::shared_ptr<const CellComplex> cells) {
@@ -47,6 +48,21 @@ double largest(const CellComplex& cells) {
 }
 
 void append(Poses& found, const Poses& more) { found.insert(found.end(), more.begin(), more.end()); }
+
+// Orientation at which a helix only touches a surface, without crossing it; it is rational. There the vector between the points of
+// the shape that turns against the surface's edge is at a right angle to it, and as long as the others are apart from its line.
+std::optional<HalfAngle> touch(const Scene& scene, const Feature& contact, const Feature& helix) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const auto a = difference<Int>(A, helix.robot, on_edge ? contact.robot : A.v[contact.robot]);
+    const auto b = difference<Int>(O, helix.obstacle, on_edge ? O.v[contact.obstacle] : contact.obstacle);
+    const auto E = on_edge ? edge<Int>(O, contact.obstacle) : edge<Int>(A, contact.robot);
+    const Int height = cross(E, on_edge ? b : a), square = height * height;  // times |E|
+    const Vec<Int>& turning = on_edge ? a : b;
+    if (square.is_zero() || square != dot(E, E) * dot(turning, turning)) return {};
+    const Vec<Int> upright{-height * E.y, height * E.x}, from = on_edge ? a : upright, to = on_edge ? upright : b;
+    return HalfAngle::along(square + dot(from, to), cross(from, to));
+}
 
 std::vector<Index> sorted(const std::set<Index>& numbers) { return {numbers.begin(), numbers.end()}; }
 
@@ -113,6 +129,7 @@ Poses MeetingPlaces::candidates() const {
     };
     for (const Encounter& encounter : encounters()) add_corners(encounter.faces);
     at_edges(*walker, found);
+    at_touches(*walker, found);
     for (const ThinPart& part : parts) {
         at_part(part, found);
         add_corners(faces_near(part));
@@ -132,6 +149,7 @@ void MeetingPlaces::on_surfaces(Poses& found) const {
         append(found, corners(*slits, face));
     }
     at_edges(*slits, found);
+    at_touches(*slits, found);
 }
 
 // --- at vertices ---
@@ -231,6 +249,32 @@ void MeetingPlaces::at_edges(const BoundaryWalker& on, Poses& found) const {
         const Ratio tau = common_tau(all);
         const auto [lower, upper] = sheets[0].limits(tau);
         found.push_back(sheets[0].pose(side == Side::upper ? upper : lower, tau));
+    }
+}
+
+// --- within edges ---
+
+// Add poses within the curves of faces at which a pillar beside them only touches their surface: there it parts no faces.
+void MeetingPlaces::at_touches(const BoundaryWalker& on, Poses& found) const {
+    const Boundary& boundary = *on.space->boundary;
+    const Scene& scene = *boundary.scene;
+    const Trapezoids& table = boundary.trapezoids;
+    for (Index face = 0; !scene.is_round && face < static_cast<Index>(table.size()); ++face) {
+        heed_stop();
+        const Feature contact = boundary.patches.contact(table.patch[face]);
+        for (const bool upper : {false, true}) {
+            const Feature curve = unpacked((upper ? table.upper : table.lower)[face]);
+            for (int end = 0; curve.kind != Kind::vertex_vertex && end < 2; ++end) {
+                const auto half = touch(scene, contact, end_helix(scene, curve, end));
+                if (!half || half->chart() != table.chart[face]) continue;
+                const Ratio tau = half->tau();
+                Sheet sheet = on.sheet(face);
+                if (!(sheet.low < tau && tau < sheet.high)) sheet.refine(few_digits);
+                if (!(sheet.low < tau && tau < sheet.high)) continue;
+                const auto limits = sheet.limits(tau);
+                found.push_back(sheet.pose(upper ? limits.second : limits.first, tau));
+            }
+        }
     }
 }
 

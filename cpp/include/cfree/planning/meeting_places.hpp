@@ -54,6 +54,7 @@ private:
     std::vector<Index> faces_beside(Index vertex, const std::set<Index>& cells) const;
     static Poses corners(const BoundaryWalker& walker, Index face);
     void at_edges(const BoundaryWalker& walker, Poses& found) const;
+    void at_touches(const BoundaryWalker& walker, Poses& found) const;
     void at_part(const ThinPart& part, Poses& found) const;
     void on_surfaces(Poses& found) const;
     std::vector<Index> faces_near(const ThinPart& part) const;
