@@ -49,8 +49,9 @@ double largest(const CellComplex& cells) {
 
 void append(Poses& found, const Poses& more) { found.insert(found.end(), more.begin(), more.end()); }
 
-// Orientation at which a helix only touches a surface, without crossing it; it is rational. There the vector between the points of
-// the shape that turns against the surface's edge is at a right angle to it, and as long as the others are apart from its line.
+// Orientation at which a helix only touches a surface, without crossing it; it is rational. Let the robot turn against an obstacle's
+// edge. The vector between its two vertices is then at a right angle to the edge, and as long as the obstacle's vertex is far from
+// the edge's line. The other case is alike.
 std::optional<HalfAngle> touch(const Scene& scene, const Feature& contact, const Feature& helix) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const bool on_edge = contact.kind == Kind::vertex_edge;
