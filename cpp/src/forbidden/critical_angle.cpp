@@ -136,8 +136,9 @@ static std::optional<int> order_by_balls(const Scene& scene, const CriticalAngle
         if (Predicates(scene, x.on()).are_one({x.first, x.second, x.lo, x.hi}, on_y, {y.first, y.second, y.lo, y.hi})) return 0;
     }
     const auto &p = x.bracket(scene), &q = y.bracket(scene);
-    if (p && q && is_below((*p)[1], (*q)[0])) return -1;
-    if (p && q && is_below((*q)[1], (*p)[0])) return 1;
+    if (!p || !q) return {};
+    if (is_below((*p)[1], (*q)[0])) return -1;
+    if (is_below((*q)[1], (*p)[0])) return 1;
     return {};
 }
 

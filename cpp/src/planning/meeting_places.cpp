@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "cfree/forbidden/critical_angle.hpp"
 #include "cfree/planning/clusters.hpp"
 #include "cfree/support/elementary.hpp"
 #include "cfree/support/lookout.hpp"
@@ -16,7 +17,6 @@ namespace cfree {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr unsigned few_digits = 256;  // of ends of faces, beside which a pose may be
 
 // Walker with each closed surface as a cell of its own: it joins any two poses on one along it.
 std::unique_ptr<const BoundaryWalker> walker_on_slits(const BoundaryWalker& walker, std::shared_ptr<const CellComplex> cells) {
@@ -49,20 +49,18 @@ double largest(const CellComplex& cells) {
 
 void append(Poses& found, const Poses& more) { found.insert(found.end(), more.begin(), more.end()); }
 
-// Orientation at which a helix only touches a surface, without crossing it; it is rational. Let the robot turn against an obstacle's
-// edge. The vector between its two vertices is then at a right angle to the edge, and as long as the obstacle's vertex is far from
-// the edge's line. The other case is alike.
-std::optional<HalfAngle> touch(const Scene& scene, const Feature& contact, const Feature& helix) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const bool on_edge = contact.kind == Kind::vertex_edge;
-    const auto a = difference<Int>(A, helix.robot, on_edge ? contact.robot : A.v[contact.robot]);
-    const auto b = difference<Int>(O, helix.obstacle, on_edge ? O.v[contact.obstacle] : contact.obstacle);
-    const auto E = on_edge ? edge<Int>(O, contact.obstacle) : edge<Int>(A, contact.robot);
-    const Int height = cross(E, on_edge ? b : a), square = height * height;  // times |E|
-    const Vec<Int>& turning = on_edge ? a : b;
-    if (square.is_zero() || square != dot(E, E) * dot(turning, turning)) return {};
-    const Vec<Int> upright{-height * E.y, height * E.x}, from = on_edge ? a : upright, to = on_edge ? upright : b;
-    return HalfAngle::along(square + dot(from, to), cross(from, to));
+// Orientations within a face at which an end of a curve's edge only touches the surface: double roots of quadratics, so rational.
+std::vector<Ratio> touches(const Boundary& boundary, Index face, const Feature& curve) {
+    std::vector<Ratio> found;
+    if (curve.kind == Kind::vertex_vertex) return found;
+    const Scene& scene = *boundary.scene;
+    const Trapezoids& table = boundary.trapezoids;
+    Predicates on(scene, surface_of(boundary.patches, table, face));
+    const Event from = angle_from(boundary.patches, table, face).event(on), to = angle_to(boundary.patches, table, face).event(on);
+    for (const int end : {0, 1})
+        for (const Event& x : on.event_roots(end_helix(scene, curve, end), {}, from, to).at)
+            if (x.is_touch) found.push_back(*rational_value(on.root_of(x)));
+    return found;
 }
 
 std::vector<Index> sorted(const std::set<Index>& numbers) { return {numbers.begin(), numbers.end()}; }
@@ -258,24 +256,15 @@ void MeetingPlaces::at_edges(const BoundaryWalker& on, Poses& found) const {
 // Add poses within the curves of faces at which a pillar beside them only touches their surface: there it parts no faces.
 void MeetingPlaces::at_touches(const BoundaryWalker& on, Poses& found) const {
     const Boundary& boundary = *on.space->boundary;
-    const Scene& scene = *boundary.scene;
     const Trapezoids& table = boundary.trapezoids;
-    for (Index face = 0; !scene.is_round && face < static_cast<Index>(table.size()); ++face) {
+    for (Index face = 0; !boundary.scene->is_round && face < static_cast<Index>(table.size()); ++face) {
         heed_stop();
-        const Feature contact = boundary.patches.contact(table.patch[face]);
-        for (const bool upper : {false, true}) {
-            const Feature curve = unpacked((upper ? table.upper : table.lower)[face]);
-            for (int end = 0; curve.kind != Kind::vertex_vertex && end < 2; ++end) {
-                const auto half = touch(scene, contact, end_helix(scene, curve, end));
-                if (!half || half->chart() != table.chart[face]) continue;
-                const Ratio tau = half->tau();
-                Sheet sheet = on.sheet(face);
-                if (!(sheet.low < tau && tau < sheet.high)) sheet.refine(few_digits);
-                if (!(sheet.low < tau && tau < sheet.high)) continue;
+        for (const bool upper : {false, true})
+            for (const Ratio& tau : touches(boundary, face, unpacked((upper ? table.upper : table.lower)[face]))) {
+                const Sheet sheet = on.sheet(face);
                 const auto limits = sheet.limits(tau);
                 found.push_back(sheet.pose(upper ? limits.second : limits.first, tau));
             }
-        }
     }
 }
 
