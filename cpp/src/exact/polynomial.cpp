@@ -276,20 +276,23 @@ void cancel(std::span<Poly> parts) {
         for (Int& c : f) c /= rest;
 }
 
+Coefficients<Ball> scaled(const Poly& p) {
+    int size = 0;
+    for (const Int& c : p) size = std::max(size, c.is_zero() ? 0 : static_cast<int>(msb(abs(c))));
+    Coefficients<Ball> result{{}, p.size()};
+    for (int i = 0; i < p.size(); ++i) result.c[i] = ball(p[i], size);
+    return result;
+}
+
 Sturm::Sturm(const Poly& p) {
-    chain.push_back(p);
-    if (p.size() > 1) chain.push_back(derivative(p));
-    while (chain.back().size() > 1) {
-        Poly r = remainder(chain[chain.size() - 2], chain.back());
+    const auto add = [this](const Poly& f) { chain.push_back({f, scaled(f)}); };
+    add(p);
+    if (p.size() > 1) add(derivative(p));
+    while (chain.back().exact.size() > 1) {
+        Poly r = remainder(chain[chain.size() - 2].exact, chain.back().exact);
         if (r.empty()) break;
         for (Int& c : r) c = -c;
-        chain.push_back(r);
-    }
-    for (const Poly& f : chain) {
-        int size = 0;
-        for (const Int& c : f) size = std::max(size, c.is_zero() ? 0 : static_cast<int>(msb(abs(c))));
-        in_balls.push_back({{}, f.size()});
-        for (int i = 0; i < f.size(); ++i) in_balls.back().c[i] = ball(f[i], size);
+        add(r);
     }
 }
 
@@ -297,9 +300,9 @@ int Sturm::variations(const Dyadic& tau) const {
     heed_stop();
     const Ball at = ball(tau.n, static_cast<int>(tau.k));
     int count = 0, last = 0;
-    for (std::size_t k = 0; k < chain.size(); ++k) {
-        const auto by_balls = in_balls[k].count > 0 ? sign_at(in_balls[k], at) : std::nullopt;
-        const int s = by_balls ? *by_balls : sign_at(chain[k], tau);
+    for (const Link& f : chain) {
+        const auto by_balls = f.exact.empty() ? std::nullopt : sign_at(f.scaled, at);
+        const int s = by_balls ? *by_balls : sign_at(f.exact, tau);
         if (s != 0 && last != 0 && s != last) ++count;
         if (s != 0) last = s;
     }

@@ -337,9 +337,9 @@ bool Shadows::covers_helix(Overlap& pieces, Index a, const Vec<double>& at, int 
     // `at`, are within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The other
     // case is alike.
     const double m = robot_size, M = obstacles.size, margin = 0x1p-43 * (m + M) * (m + M) + 0x1p-900;
-    const Octagon &around_ring = placed[pieces.place], &around_piece = around_robot[pieces.p];
-    const Vec<double> low = Vec<double>{around_piece.low[0], around_piece.low[1]} - place_of(A, a);
-    const Vec<double> high = Vec<double>{around_piece.high[0], around_piece.high[1]} - place_of(A, a);
+    const auto is_in_box = [](const Octagon& around, const Vec<double>& p) {
+        return around.low[0] < p.x && p.x < around.high[0] && around.low[1] < p.y && p.y < around.high[1];
+    };
     const auto is_within = [&](const auto& vertex, Index size, Index step, const Vec<double>& p) {  // every so many vertices
         Vec<double> v = vertex(0);
         for (Index k = step; size > 2; k += step) {
@@ -360,11 +360,10 @@ bool Shadows::covers_helix(Overlap& pieces, Index a, const Vec<double>& at, int 
             return std::all_of(rotations, rotations + 3, [&](const Vec<double>& R) {
                 if (k < robot_count) {
                     const Vec<double> d = of_robot(k), p{R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y};
-                    return around_ring.low[0] < p.x && p.x < around_ring.high[0] && around_ring.low[1] < p.y &&
-                           p.y < around_ring.high[1] && is_inside(of_ring, ring_count, p);
+                    return is_in_box(placed[pieces.place], p) && is_inside(of_ring, ring_count, p);
                 }
                 const Vec<double> d = of_ring(k - robot_count) - at, p{R.x * d.x + R.y * d.y, R.x * d.y - R.y * d.x};
-                return low.x < p.x && p.x < high.x && low.y < p.y && p.y < high.y && is_inside(of_robot, robot_count, p);
+                return is_in_box(around_robot[pieces.p], {p.x + place_of(A, a).x, p.y + place_of(A, a).y}) && is_inside(of_robot, robot_count, p);
             });
         };
         const Index most = anew || s > from ? count : 1;

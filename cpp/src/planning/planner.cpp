@@ -37,6 +37,8 @@ constexpr double most_longer = 1.25;   // times the cost of such a path, around 
 constexpr int most_mended = 8;         // times for one query
 constexpr int most_off_contacts = 64;  // the same where a path along contacts of a smaller robot is in the way
 constexpr std::size_t checks_each = 4, most_checks = 600;  // motions checked to straighten such a path, for each of its own
+constexpr Index inner_steps = 16;  // times as many trapezoids of the polygon inside the robot
+constexpr std::size_t little_room = 3;  // parts of the configuration space that a search reaches
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
 bool is_before(const RationalPose& a, const RationalPose& b) {
@@ -196,6 +198,7 @@ void Planner::take(Planner& other) {
     const std::lock_guard guard(other.working);
     scene->take(*other.scene);
     if (other.smaller) insets().take(*other.smaller);
+    if (other.gates && other.gates->has_results()) narrow_gates().take(*other.gates);
     const std::lock_guard ways_guard(other.remembering);
     for (const Poses& way : other.ways) former.push_back(straightened(way));
     for (const Poses& way : other.former)
@@ -230,8 +233,8 @@ int Planner::most_guesses() const {
 class Planner::Turns {
 public:
     Turns(const Planner& planner, const End& from, const End& until, const Listener& to)
-        : listener(to), deadline(to), searcher(planner.scene, std::array{from.place, until.place}, {planner.angle_scale}),
-          start(from), goal(until), search(searcher.search(start, goal)) {
+        : start(from), goal(until), listener(to), deadline(to),
+          searcher(planner.scene, std::array{from.place, until.place}, {planner.angle_scale}), search(searcher.search(start, goal)) {
         const std::int64_t patches = planner.scene->patches();
         later_each = static_cast<int>(std::clamp<std::int64_t>(patches / scene_patches_each, least_each, most_each));
         left = static_cast<int>(std::clamp<std::int64_t>(patches / patches_each, search_guesses, all_guesses));
@@ -258,6 +261,30 @@ public:
         });
     }
 
+    // The same without the search. Surfaces of a polygon inside the robot, if any, grow faster, as their patches cost less.
+    void decide_alone(Connecting& joined, Connecting* inner) {
+        const auto grows = [&](Connecting& by, Index most) {
+            const std::size_t before = by.around->trimmed_patches();
+            by.run(most);
+            deadline.heed();
+            heed_stop();
+            if (listener.spend) listener.spend(static_cast<std::int64_t>(by.around->trimmed_patches() - before));
+            return by.found().verdict == Connection::Verdict::open;
+        };
+        joined.compare_cells(search.reached());
+        if (inner) inner->compare_cells(search.reached());
+        Index inner_most = Connecting::first_step;
+        for (Index most = inner_most; most < Connecting::last_step / inner_steps; most *= 2) {
+            for (; inner && inner_most <= inner_steps * most; inner_most *= 2)
+                if (!grows(*inner, inner_most)) return;
+            if (!grows(joined, most)) return;
+        }
+    }
+
+    // True if both poses have been found to have some room.
+    bool have_room() const { return std::min(search.reached()[0], search.reached()[1]) > little_room; }
+
+    const End start, goal;
     std::optional<Poses> way;  // the search's
 
 private:
@@ -287,7 +314,6 @@ private:
     const Listener& listener;
     const Deadline deadline;
     const Searcher searcher;
-    const End start, goal;
     RrtConnect search;
     std::optional<RrtConnect> others;
     std::uint64_t seed = 0;
@@ -303,11 +329,25 @@ std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal,
     const Phase phase(listener, "surfaces around the two poses");
     if (const auto inner = insets().scene(insets().first())) {
         Connecting joined = inner->connecting(start.pose, goal.pose);
+        if (auto proof = by_narrow_gates(inner, joined, turns)) return std::move(*proof);
         if (auto answer = by_smaller_robot(inner, joined, turns)) return answer;
         if (static_cast<double>(joined.around->met_patches()) > most_few * static_cast<double>(scene->patches())) return {};
     }
     Connecting joined = scene->connecting(start.pose, goal.pose);
     return by_robot_itself(joined, turns);
+}
+
+// Prove by surfaces alone that there is no path, if gates are too narrow: trees would not get through. The surface around a pose
+// without room is small; around the polygon inside the robot it may be large.
+std::optional<Separation> Planner::by_narrow_gates(const std::shared_ptr<KnownScene>& smaller_scene, Connecting& joined, Turns& turns) {
+    if (scene->scene().is_round || scene->round || !narrow_gates().part(turns.start.place, turns.goal.place)) return {};
+    std::optional<Connecting> inner;
+    if (turns.have_room() && gates->inner()) inner.emplace(gates->inner()->connecting(turns.start.pose, turns.goal.pose));
+    turns.decide_alone(joined, inner ? &*inner : nullptr);
+    const auto is_proof = [](const Connecting& by) { return by.found().verdict == Connection::Verdict::apart; };
+    if (is_proof(joined)) return Separation{barrier_of(*joined.found().surface), smaller_scene, true};
+    if (inner && is_proof(*inner)) return Separation{barrier_of(*inner->found().surface), gates->inner(), true};
+    return {};
 }
 
 // The surfaces of a smaller robot prove that there is no path. A way along them mostly is a path a little off them.
@@ -401,6 +441,11 @@ Passages& Planner::passages(const Listener& listener) {
 Insets& Planner::insets() {
     if (!smaller) smaller = std::make_unique<Insets>(scene->shapes());
     return *smaller;
+}
+
+NarrowGates& Planner::narrow_gates() {
+    if (!gates) gates = std::make_unique<NarrowGates>(*scene, power_of_two(insets().size + insets().first()));
+    return *gates;
 }
 
 }  // namespace cfree

@@ -13,7 +13,6 @@ namespace cfree {
 
 namespace {
 
-constexpr Index first_step = 64, last_step = 1 << 29;  // trapezoids around each of the two poses
 constexpr Index alike = 128;       // steps up to this are the same around both: small surfaces cost little
 constexpr double most_slower = 4;  // the pose that reaches more may be in the smaller cell all the same
 constexpr int most_attempts = 48;  // places near a pose, closer and closer, from which rays are tried

@@ -97,10 +97,8 @@ struct Balls {
     int degree;
 
     explicit Balls(const Coefficients<Ball>& c) : p(c), degree(c.count - 1) {}
-    explicit Balls(const Poly& exact) : p{{}, exact.size() <= 3 ? 3 : exact.size() <= 5 ? 5 : 7}, degree(p.count - 1) {
-        int most = 0;
-        for (const Int& c : exact) most = std::max(most, c.is_zero() ? 0 : static_cast<int>(msb(abs(c))));
-        for (int i = 0; i < exact.size(); ++i) p.c[i] = ball(exact[i], most);
+    explicit Balls(const Poly& exact) : p(scaled(exact)), degree(exact.size() <= 3 ? 2 : exact.size() <= 5 ? 4 : 6) {
+        p.count = degree + 1;
     }
     bool may_touch() const { return false; }
     int sign(double t) const { return sign_at(p, t).value_or(0); }

@@ -83,11 +83,11 @@ double RrtConnect::distance(const Place& a, const Place& b) const {
 // Nearest node: in rings of squares around the place's own, as far as they have nodes, as long as they may have a nearer one.
 Index RrtConnect::nearest(const Tree& tree, const Place& q) const {
     Index best = 0;
-    double least = HUGE_VAL;
+    double shortest = HUGE_VAL;
     const auto look = [&](const Place& at, Index k) {
         const double dx = at.x - q.x, dy = at.y - q.y, by = std::abs(at.theta - q.theta);
         const double turning = weight * std::min(by, 2 * pi - by), square = dx * dx + dy * dy + turning * turning;
-        if (square < least || (square == least && k < best)) least = square, best = k;
+        if (square < shortest || (square == shortest && k < best)) shortest = square, best = k;
     };
     if (tree.size() <= few) {
         for (Index k = 0; k < tree.size(); ++k) look(tree.at(k), k);
@@ -105,13 +105,13 @@ Index RrtConnect::nearest(const Tree& tree, const Place& q) const {
             const double dx = gap(x, i);
             for (int j = std::max(first_row, rows[0]); j <= std::min(last_row, rows[1]); ++j) {
                 const double dy = gap(y, j);
-                if (dx * dx + dy * dy > least) continue;
+                if (dx * dx + dy * dy > shortest) continue;
                 for (const auto& [at, k] : tree.near[i * squares + j]) look(at, k);
             }
         }
     };
     for (int r = std::max({0, columns[0] - column, column - columns[1], rows[0] - row, row - rows[1]}); r < squares; ++r) {
-        if (r > 0 && (r - 1) * side * ((r - 1) * side) > least) break;
+        if (r > 0 && (r - 1) * side * ((r - 1) * side) > shortest) break;
         look_in(column - r, column + r, row - r, row - r);
         if (r == 0) continue;
         look_in(column - r, column + r, row + r, row + r);

@@ -52,7 +52,6 @@ def _unnamed(columns: Columns) -> list[tuple[int, bool, bool, bool]]:
     """Ends of sides that no equal name cancels: piece, if at its stop, if of its upper curve, and if along that."""
     names, t = Names(columns), columns.table
     left: dict[Any, tuple[int, bool, bool, bool]] = {}
-    pieces = np.flatnonzero(columns.named).tolist()
     contact, chart, codes = columns.contact.tolist(), t.chart.tolist(), (t.lower.tolist(), t.upper.tolist())
     angles, numbers = columns.angles, numbered(columns.angles)
     pairs = [
@@ -60,18 +59,19 @@ def _unnamed(columns: Columns) -> list[tuple[int, bool, bool, bool]]:
         for one, other, meet in zip(angles.first.tolist(), angles.second.tolist(), angles.meet.tolist(), strict=True)
     ]
     ends = columns.start.tolist(), columns.stop.tolist()
-    for k in pieces:
-        its, both = contact[k], [(is_stop, ends[is_stop][k]) for is_stop in (False, True)]
+    once: dict[tuple[int, int, int], tuple[int, bool, bool]] = {}  # two ends of one curve of a contact at one angle cancel
+    for k in np.flatnonzero(columns.named).tolist():
         for is_upper in (False, True):
-            code = codes[is_upper][k]
-            curve = chart[k], names.curve(its, code)
-            for is_stop, end in both:
-                number = numbers[end]
-                line, place = (curve, number), (names.place(its, code, *pairs[end]), number)
-                if left.pop(line, None) is None:
-                    left[line] = k, is_stop, is_upper, True
-                if left.pop(place, None) is None:
-                    left[place] = k, is_stop, is_upper, False
+            for is_stop in (False, True):
+                same = contact[k], codes[is_upper][k], ends[is_stop][k]
+                if once.pop(same, None) is None:
+                    once[same] = k, is_stop, is_upper
+    for (its, code, end), (k, is_stop, is_upper) in once.items():
+        number = numbers[end]
+        line, place = (chart[k], names.curve(its, code), number), (names.place(its, code, *pairs[end]), number)
+        for name, is_curve in ((line, True), (place, False)):
+            if left.pop(name, None) is None:
+                left[name] = k, is_stop, is_upper, is_curve
     return list(left.values())
 
 

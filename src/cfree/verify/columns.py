@@ -249,7 +249,7 @@ class Angles:
         """Narrow the intervals of some angles, by Newton's method: where the sign still changes the root is."""
         one, by = 1 << BITS, 1 << BITS - NARROW
         rows = self.rows[some]
-        places = np.array([int(Fraction(x) * one) for x in ((self.lo[some] + self.hi[some]) / 2).tolist()], object)
+        places = np.array([n * one // d for n, d in _ratios((self.lo[some] + self.hi[some]) / 2)], object)
         for _ in range(STEPS):
             value, slope, power = rows[:, -1], 0 * places, 1
             for column in rows.T[-2::-1]:
@@ -257,12 +257,13 @@ class Angles:
                 value, slope = value * places + column * power, slope * places + value
             slope[slope == 0] = 1
             places = places - value // slope
-        below, above = (
-            np.array([Fraction(x, one) for x in ends.tolist()], object) for ends in (places - by, places + by)
-        )
-        inside = (self.below[some] <= below) & (above <= self.above[some])
-        inside[inside] = signs_at(rows[inside], below[inside]) * signs_at(rows[inside], above[inside]) < 0
-        self.below[some[inside]], self.above[some[inside]] = below[inside], above[inside]
+        below, above = places - by, places + by  # over `one`
+        within = [(n * one <= b * d, a * e <= m * one) for (n, d), b, a, (m, e) in
+                  zip(_ratios(self.below[some]), below.tolist(), above.tolist(), _ratios(self.above[some]), strict=True)]
+        inside = np.all(within, axis=1)
+        inside[inside] = _signs_over(rows[inside], below[inside], one) * _signs_over(rows[inside], above[inside], one) < 0
+        for its, ends in ((self.below, below), (self.above, above)):
+            its[some[inside]] = [Fraction(x, one) for x in ends[inside].tolist()]
 
     def is_root(self, poly: Rows, angles: Ints) -> Mask:
         """True if primitive polynomials vanish at angles, for certain."""
@@ -375,8 +376,18 @@ def values_at(poly: Rows, tau: int) -> Rows:
 
 def signs_at(poly: Rows, tau: Rows) -> Ints:
     """Exact signs at doubles or fractions."""
-    fractions = [value.as_integer_ratio() for value in tau.tolist()]
+    fractions = _ratios(tau)
     p, q = (np.array(column, object) for column in zip(*fractions, strict=True)) if fractions else (tau, tau)
+    return _signs_over(poly, p, q)
+
+
+def _ratios(numbers: Rows) -> list[tuple[int, int]]:
+    """Numerators and denominators of doubles or fractions."""
+    return [value.as_integer_ratio() for value in numbers.tolist()]
+
+
+def _signs_over(poly: Rows, p: Rows, q: Any) -> Ints:
+    """Exact signs at p / q, q > 0."""
     value, power = poly[:, -1], q
     for column in poly.T[-2::-1]:
         value, power = value * p + column * power, power * q

@@ -75,6 +75,7 @@ Poly difference(const Poly& p, const Poly& q);
 Poly derivative(const Poly& p);
 Int value_at(const Poly& p, const Dyadic& tau);  // times 2^(k d), d the degree
 int sign_at(const Poly& p, const Dyadic& tau);
+Coefficients<Ball> scaled(const Poly& p);  // in balls, times a power of two
 int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi);  // sign on the whole closed interval, 0 if not certain
 Poly greatest_common_divisor(Poly p, Poly q);
 Poly squarefree(const Poly& p);
@@ -89,11 +90,14 @@ public:
     // Number of sign changes along the chain: it falls by one at each root.
     int variations(const Dyadic& tau) const;
     int roots_in(const Dyadic& lo, const Dyadic& hi) const { return variations(lo) - variations(hi); }  // in (lo, hi]
-    const Poly& polynomial() const { return chain[0]; }
+    const Poly& polynomial() const { return chain[0].exact; }
 
 private:
-    std::vector<Poly> chain;
-    std::vector<Coefficients<Ball>> in_balls;  // the same, each scaled
+    struct Link {
+        Poly exact;
+        Coefficients<Ball> scaled;
+    };
+    std::vector<Link> chain;
 };
 
 // Isolating intervals (lo, hi] of the roots in (lo, hi], in order, each narrower than 2^-bits.

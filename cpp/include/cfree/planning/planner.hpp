@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "cfree/planning/insets.hpp"
+#include "cfree/planning/narrow_gates.hpp"
 #include "cfree/planning/passages.hpp"
 #include "cfree/planning/searcher.hpp"
 
@@ -44,8 +45,10 @@ private:
     class Turns;
     // Motions that a search may guess about: these take about as long as the free space does.
     int most_guesses() const;
-    // Decide by few surfaces: search alone, then in turns with the surfaces of a smaller robot, then with the robot's own.
+    // Decide by few surfaces: search alone, then by narrow gates, then in turns with the surfaces of a smaller robot, then with the
+    // robot's own.
     std::optional<Found> by_few(const End& start, const End& goal, const Listener& listener);
+    std::optional<Separation> by_narrow_gates(const std::shared_ptr<KnownScene>& smaller_scene, Connecting& joined, Turns& turns);
     std::optional<Found> by_smaller_robot(const std::shared_ptr<KnownScene>& smaller_scene, Connecting& joined, Turns& turns) const;
     std::optional<Found> by_robot_itself(Connecting& joined, Turns& turns) const;
     std::optional<Poses> way_along(const Connecting& joined, const std::shared_ptr<FoundSlides>& slides_on_it) const;
@@ -61,11 +64,13 @@ private:
     const std::shared_ptr<const BoundaryWalker>& walker(const Listener& listener);
     Passages& passages(const Listener& listener);
     Insets& insets();
+    NarrowGates& narrow_gates();
 
     std::mutex working;  // one thread at a time does more than a search
     std::shared_ptr<const BoundaryWalker> walks;
     std::unique_ptr<Passages> fits;
     std::unique_ptr<Insets> smaller;
+    std::unique_ptr<NarrowGates> gates;
     std::mutex remembering;
     std::deque<Poses> ways;    // the last answers, the last first
     std::deque<Poses> former;  // those of planners of other scenes

@@ -95,6 +95,7 @@ struct Connection {
 // Decides the connection from both poses at once.
 class Connecting {
 public:
+    static constexpr Index first_step = 64, last_step = 1 << 29;  // trapezoids around each of the two poses
     Connecting(std::shared_ptr<Surroundings> around, const RationalPose& start, const RationalPose& goal);
     // Take how much of its cell each pose is known to reach. The surface of the smaller cell is closed sooner, so it grows faster.
     void compare_cells(const std::array<std::size_t, 2>& reached);

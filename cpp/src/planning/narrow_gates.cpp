@@ -1,0 +1,185 @@
+// Look for a closed way over obstacles and narrow gates around one place; theory, "One surface alone".
+#include "cfree/planning/narrow_gates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cfree/support/elementary.hpp"
+#include "collision/box_tree.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr double certainly = 1 - 0x1p-16;  // share of the polygon's width that narrow gates have at most
+
+using Ring = std::vector<Vec<double>>;
+
+const Vec<double>& after(const Ring& ring, std::size_t k) { return ring[k + 1 < ring.size() ? k + 1 : 0]; }
+
+Vec<double> middle_of(const Ring& ring) {
+    Vec<double> sum{0, 0};
+    for (const auto& [x, y] : ring) sum.x += x, sum.y += y;
+    const auto count = static_cast<double>(ring.size());
+    return {sum.x / count, sum.y / count};
+}
+
+// Common part of two convex rings.
+Ring common(Ring ring, const Ring& other) {
+    for (std::size_t k = 0; k < other.size() && !ring.empty(); ++k) {
+        const Vec<double>&p = other[k], e = after(other, k) - p;
+        Ring rest;
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const Vec<double> &a = ring[n], &b = after(ring, n);
+            const double from = cross(e, a - p), to = cross(e, b - p);
+            if (from >= 0) rest.push_back(a);
+            if ((from < 0) != (to < 0) && from != to) {
+                const double t = from / (from - to);
+                rest.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+            }
+        }
+        ring = std::move(rest);
+    }
+    return ring;
+}
+
+// Vertex of one of two rings and point of an edge of the other that are nearest, on the first and on the second.
+std::array<Vec<double>, 2> nearest_points(const Ring& first, const Ring& second) {
+    std::array<Vec<double>, 2> found{};
+    double least = HUGE_VAL;
+    const auto compare = [&](const Ring& ring, const Ring& points, bool is_first) {
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const Vec<double>&a = ring[k], e = after(ring, k) - a;
+            const double square = dot(e, e);
+            for (const Vec<double>& p : points) {
+                const double t = std::clamp(dot(p - a, e) / square, 0.0, 1.0);
+                const Vec<double> q{a.x + t * e.x, a.y + t * e.y}, d = p - q;
+                if (!(dot(d, d) < least)) continue;
+                least = dot(d, d);
+                found = is_first ? std::array{q, p} : std::array{p, q};
+            }
+        }
+    };
+    compare(first, second, true), compare(second, first, false);
+    return found;
+}
+
+// Points of two convex rings, nearer to each other than a width or the same, if there are any.
+std::optional<std::array<Vec<double>, 2>> near_points(const Ring& first, const Ring& second, double width) {
+    const auto [p, q] = nearest_points(first, second);
+    if (dot(q - p, q - p) < width * width) return {{p, q}};
+    const Ring both = common(first, second);  // the edges of large ones may cross far from all vertices
+    if (both.empty()) return {};
+    return {{middle_of(both), middle_of(both)}};
+}
+
+Box box_of(const Ring& ring) {
+    Box box;
+    for (const auto& [x, y] : ring) box.add(x, y);
+    return box;
+}
+
+// True if the way crosses the line from s to g an odd number of times.
+bool crosses(const std::array<Vec<double>, 4>& way, const Vec<double>& s, const Vec<double>& g) {
+    bool is_odd = false;
+    for (std::size_t k = 1; k < way.size(); ++k) {
+        const Vec<double> &p = way[k - 1], &q = way[k];
+        const auto is_left = [](const Vec<double>& a, const Vec<double>& b, const Vec<double>& c) { return cross(b - a, c - a) > 0; };
+        is_odd ^= is_left(s, g, p) != is_left(s, g, q) && is_left(p, q, s) != is_left(p, q, g);
+    }
+    return is_odd;
+}
+
+// Rings in the user's units of all that the robot's body must not meet.
+std::vector<Ring> rings_of(const Scene& scene) {
+    const Shape& O = scene.obstacles;
+    const double unit = scene.unit();
+    std::vector<Ring> rings;
+    for (Index k = 0; k < O.pieces(); ++k) {
+        if (O.piece_layer[k] != body_layer || O.piece[k + 1] - O.piece[k] < 3) continue;
+        Ring& ring = rings.emplace_back();
+        for (Index n = O.piece[k]; n < O.piece[k + 1]; ++n) ring.push_back({O.x[O.piece_vertex[n]] * unit, O.y[O.piece_vertex[n]] * unit});
+    }
+    return rings;
+}
+
+}  // namespace
+
+NarrowGates::NarrowGates(const KnownScene& scene, const Ratio& by) : within(inscribed(scene.shapes().robot, by)), shapes(scene.shapes()) {
+    Index vertices = 0;
+    for (const auto& part : shapes.robot) vertices += part->vertices.size();
+    shapes.robot.clear();
+    if (!within) return;
+    find_gates(scene);
+    if (within->polygon->vertices.size() < vertices) shapes.robot = {within->polygon};
+    if (!shapes.bounds) return;
+    auto& [x0, y0, x1, y1] = *shapes.bounds;
+    x0 = x0 - by, y0 = y0 - by, x1 = x1 + by, y1 = y1 + by;
+}
+
+const std::shared_ptr<KnownScene>& NarrowGates::inner() {
+    if (!smaller && !shapes.robot.empty()) smaller = KnownScene::of(shapes);
+    return smaller;
+}
+
+void NarrowGates::take(const NarrowGates& other) {
+    if (inner()) smaller->take(*other.smaller);
+}
+
+void NarrowGates::find_gates(const KnownScene& scene) {
+    std::vector<Ring> rings = rings_of(scene.scene());
+    const double width = certainly * within->width;
+    if (scene.shapes().bounds) {  // a gate beside them is half as wide: the middle stays as far from them as from the reference point
+        const double far = norm(within->middle.x, within->middle.y) + width / 2;
+        const auto bound = [&](std::size_t k) { return nearest((*scene.shapes().bounds)[k].n, (*scene.shapes().bounds)[k].d); };
+        const double x0 = bound(0) - far, y0 = bound(1) - far, x1 = bound(2) + far, y1 = bound(3) + far;
+        const auto add = [&](double l, double b, double r, double t) { rings.push_back({{l, b}, {r, b}, {r, t}, {l, t}}); };
+        add(x0 - far, y0 - far, x0, y1 + far), add(x1, y0 - far, x1 + far, y1 + far);
+        add(x0 - far, y0 - far, x1 + far, y0), add(x0 - far, y1, x1 + far, y1 + far);
+    }
+    pieces = static_cast<Index>(rings.size());
+    std::vector<Box> boxes;
+    for (const Ring& ring : rings) boxes.push_back(box_of(ring));
+    const BoxTree tree(boxes);
+    for (Index k = 0; k < pieces; ++k)
+        tree.query(grown(boxes[k], width), [&](Index other) {
+            if (other <= k) return;
+            if (const auto near = near_points(rings[k], rings[other], width))
+                gates.push_back({k, other, {middle_of(rings[k]), (*near)[0], (*near)[1], middle_of(rings[other])}});
+        });
+}
+
+// Pieces in one set are joined by gates. A closed way over them that crosses the line from start to goal an odd number of times has
+// one of the two inside. Of each piece it is known whether the way to the first of its set does.
+bool NarrowGates::part(const Place& start, const Place& goal) const {
+    if (gates.empty()) return false;
+    const auto middle_at = [&](const Place& at) {
+        const auto [c, s] = cosine_sine(at.theta);
+        const auto& [x, y] = within->middle;
+        return Vec<double>{at.x + c * x - s * y, at.y + s * x + c * y};
+    };
+    const Vec<double> first = middle_at(start), last = middle_at(goal);
+    std::vector<Index> parent(static_cast<std::size_t>(pieces));
+    std::iota(parent.begin(), parent.end(), 0);
+    std::vector<char> is_odd(parent.size(), 0);  // of the way to the parent
+    const auto root_of = [&](Index k) {
+        bool odd = false;
+        for (; parent[k] != k; k = parent[k]) {
+            is_odd[k] ^= is_odd[parent[k]], parent[k] = parent[parent[k]];
+            odd ^= is_odd[k] != 0;
+        }
+        return std::pair(k, odd);
+    };
+    for (const Gate& gate : gates) {
+        const bool odd = crosses(gate.way, first, last);
+        const auto [p, odd_p] = root_of(gate.first);
+        const auto [q, odd_q] = root_of(gate.second);
+        const bool around = odd != (odd_p != odd_q);
+        if (p == q && around) return true;
+        if (p != q) parent[p] = q, is_odd[p] = around;
+    }
+    return false;
+}
+
+}  // namespace cfree

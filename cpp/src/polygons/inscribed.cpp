@@ -1,0 +1,181 @@
+// Cut a polygon by a half-plane for each edge, which keeps the widest disc; theory, "One surface alone".
+#include "cfree/polygons/inscribed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "cfree/polygons/inset.hpp"
+#include "cfree/support/elementary.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr double precision = 0x1p-6;  // share of its radius by which a disc may be smaller than the widest
+constexpr double most_rows = 64;      // of squares, at first
+constexpr std::size_t most_squares = 4096;
+constexpr double kept = 1 - 0x1p-18;  // share of the width that is left when vertices are removed
+constexpr int digits = 26;            // of coordinates, relative to the size of the polygon
+
+using Ring = std::vector<Vec<double>>;
+
+struct Disc {
+    Vec<double> centre;
+    double radius;
+};
+
+const Vec<double>& after(const Ring& ring, std::size_t k) { return ring[k + 1 < ring.size() ? k + 1 : 0]; }
+
+// Share of an edge, from a to b, before its point nearest to p.
+double share_before(const Vec<double>& a, const Vec<double>& b, const Vec<double>& p) {
+    return std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+}
+
+Vec<double> point_at(const Vec<double>& a, const Vec<double>& b, double share) {
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+}
+
+// Distance from the nearest edge, negative outside.
+double depth_at(const std::vector<Ring>& rings, const Vec<double>& p) {
+    double square = HUGE_VAL;
+    bool is_inside = false;
+    for (const Ring& ring : rings)
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const Vec<double> &a = ring[k], &b = after(ring, k), d = point_at(a, b, share_before(a, b, p)) - p;
+            square = std::min(square, dot(d, d));
+            if ((a.y > p.y) != (b.y > p.y) && (cross(b - a, p - a) > 0) == (b.y > a.y)) is_inside = !is_inside;
+        }
+    return is_inside ? std::sqrt(square) : -std::sqrt(square);
+}
+
+// Disc in the rings that is nearly as large as any: squares that may hold the centre of a larger one are quartered.
+Disc widest_disc(const std::vector<Ring>& rings) {
+    struct Square {
+        Vec<double> middle;
+        double half, depth;
+        double most() const { return depth + half * 1.5; }  // beyond its corners
+        bool operator<(const Square& other) const { return most() < other.most(); }
+    };
+    Vec<double> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+    for (const auto& [x, y] : rings.front())
+        low = {std::min(low.x, x), std::min(low.y, y)}, high = {std::max(high.x, x), std::max(high.y, y)};
+    const double wide = high.x - low.x, tall = high.y - low.y, side = std::max(std::min(wide, tall), std::max(wide, tall) / most_rows);
+    std::priority_queue<Square> squares;
+    Disc best{rings.front().front(), 0};
+    const auto add = [&](const Vec<double>& middle, double half) {
+        const double depth = depth_at(rings, middle);
+        if (depth > best.radius) best = {middle, depth};
+        squares.push({middle, half, depth});
+    };
+    for (int i = 0; i == 0 || i * side < wide; ++i)
+        for (int j = 0; j == 0 || j * side < tall; ++j) add({low.x + (i + 0.5) * side, low.y + (j + 0.5) * side}, side / 2);
+    while (squares.top().most() > best.radius * (1 + precision) && squares.size() < most_squares) {
+        const auto [middle, half, _] = squares.top();
+        squares.pop();
+        const double h = half / 2;
+        for (const double x : {middle.x - h, middle.x + h})
+            for (const double y : {middle.y - h, middle.y + h}) add({x, y}, h);
+    }
+    return best;
+}
+
+// Part of a convex ring on the side of a line through p, with normal n to the other side.
+Ring cut(const Ring& ring, const Vec<double>& p, const Vec<double>& n) {
+    Ring rest;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Vec<double> &a = ring[k], &b = after(ring, k);
+        const double from = dot(a - p, n), to = dot(b - p, n);
+        if (from <= 0) rest.push_back(a);
+        if ((from < 0 && to > 0) || (from > 0 && to < 0)) rest.push_back(point_at(a, b, from / (from - to)));
+    }
+    return rest;
+}
+
+// Convex polygon around a disc in the rings: of each edge, the line through its point nearest to the centre bounds it.
+Ring around(const Disc& disc, const std::vector<Ring>& rings, double size) {
+    const auto [x, y] = disc.centre;
+    Ring found{{x - size, y - size}, {x + size, y - size}, {x + size, y + size}, {x - size, y + size}};
+    for (const Ring& ring : rings)
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const Vec<double> &a = ring[k], &b = after(ring, k), e = b - a;
+            const double share = share_before(a, b, disc.centre);
+            const Vec<double> p = point_at(a, b, share);
+            const bool is_beside = 0 < share && share < 1, is_left = cross(e, disc.centre - a) > 0;
+            found = cut(found, p, !is_beside ? p - disc.centre : is_left ? Vec<double>{e.y, -e.x} : Vec<double>{-e.y, e.x});
+        }
+    return found;
+}
+
+double width_of(const Ring& ring) {
+    double least = HUGE_VAL;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Vec<double> &a = ring[k], e = after(ring, k) - a;
+        const double length = norm(e.x, e.y);
+        if (length == 0) continue;
+        double most = 0;
+        for (const Vec<double>& p : ring) most = std::max(most, cross(e, p - a) / length);
+        least = std::min(least, most);
+    }
+    return least;
+}
+
+// Without vertices that its width does not need.
+Ring simplified(Ring ring) {
+    const double least = kept * width_of(ring);
+    for (std::size_t k = 0; k < ring.size() && ring.size() > 3;) {
+        Ring rest = ring;
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+        if (width_of(rest) >= least) ring = std::move(rest);
+        else ++k;
+    }
+    return ring;
+}
+
+// Rings relative to the first vertex, which may be far away.
+std::vector<Ring> rings_of(const Polygon& polygon) {
+    const auto& v = polygon.vertices;
+    std::vector<Ring> rings;
+    for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
+        Ring& ring = rings.emplace_back();
+        for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k)
+            ring.push_back({nearest(v.X(k) - v.X(0), polygon.denominator), nearest(v.Y(k) - v.Y(0), polygon.denominator)});
+    }
+    return rings;
+}
+
+}  // namespace
+
+std::optional<Inscribed> inscribed(const std::vector<std::shared_ptr<const Polygon>>& polygons, const Ratio& by) {
+    const Polygon* outer = nullptr;
+    Disc disc{{}, 0};
+    std::vector<Ring> rings;
+    for (const auto& polygon : polygons) {
+        if (polygon->is_thin()) continue;
+        auto its = rings_of(*polygon);
+        const Disc widest = widest_disc(its);
+        if (widest.radius > disc.radius) disc = widest, outer = polygon.get(), rings = std::move(its);
+    }
+    if (!outer) return {};  // too thin for doubles
+    double size = 0;
+    for (const auto& [x, y] : rings.front()) size = std::max({size, std::abs(x - disc.centre.x), std::abs(y - disc.centre.y)});
+    const Ring ring = simplified(around(disc, rings, size));
+    if (ring.size() < 3) return {};
+    const int finest = std::ilogb(size) - digits;
+    const auto exact = [&](const Int& origin, double c) {
+        return reduced(origin, outer->denominator) + power_of_two(finest) * ratio_of(std::nearbyint(std::ldexp(c, -finest)));
+    };
+    const auto& v = outer->vertices;
+    RatioRing points;
+    for (const auto& [x, y] : ring) points.push_back({exact(v.X(0), x), exact(v.Y(0), y)});
+    try {
+        auto found = inset(Polygon({points}), by);
+        if (!found || !is_inside(*found, *outer)) return {};
+        const Vec<double> middle{disc.centre.x + nearest(v.X(0), outer->denominator), disc.centre.y + nearest(v.Y(0), outer->denominator)};
+        return Inscribed{std::move(found), middle, width_of(ring)};
+    } catch (const InvalidPolygon&) {  // too thin for the grid
+        return {};
+    }
+}
+
+}  // namespace cfree
