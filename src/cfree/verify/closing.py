@@ -59,7 +59,7 @@ def _unnamed(columns: Columns) -> list[tuple[int, bool, bool, bool]]:
         for one, other, meet in zip(angles.first.tolist(), angles.second.tolist(), angles.meet.tolist(), strict=True)
     ]
     ends = columns.start.tolist(), columns.stop.tolist()
-    once: dict[tuple[int, int, int], tuple[int, bool, bool]] = {}  # two ends of one curve of a contact at one angle cancel
+    once: dict[tuple[int, int, int], tuple[int, bool, bool]] = {}  # ends of one curve of a contact at one angle cancel
     for k in np.flatnonzero(columns.named).tolist():
         for is_upper in (False, True):
             for is_stop in (False, True):

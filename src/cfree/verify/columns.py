@@ -258,10 +258,11 @@ class Angles:
             slope[slope == 0] = 1
             places = places - value // slope
         below, above = places - by, places + by  # over `one`
-        within = [(n * one <= b * d, a * e <= m * one) for (n, d), b, a, (m, e) in
-                  zip(_ratios(self.below[some]), below.tolist(), above.tolist(), _ratios(self.above[some]), strict=True)]
-        inside = np.all(within, axis=1)
-        inside[inside] = _signs_over(rows[inside], below[inside], one) * _signs_over(rows[inside], above[inside], one) < 0
+        is_above = [n * one <= x * d for (n, d), x in zip(_ratios(self.below[some]), below.tolist(), strict=True)]
+        is_below = [x * d <= n * one for (n, d), x in zip(_ratios(self.above[some]), above.tolist(), strict=True)]
+        inside: Mask = np.array(is_above, bool) & np.array(is_below, bool)
+        first, last = (_signs_over(rows[inside], ends[inside], one) for ends in (below, above))
+        inside[inside] = first * last < 0
         for its, ends in ((self.below, below), (self.above, above)):
             its[some[inside]] = [Fraction(x, one) for x in ends[inside].tolist()]
 
