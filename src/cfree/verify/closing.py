@@ -42,9 +42,7 @@ def odd_ends(columns: Columns, trapezoid: Callable[[int], Trapezoid]) -> int:
             for end in both:
                 odd ^= {(line, end)}
     for k, is_stop, is_upper, is_curve in _unnamed(columns):
-        piece = trapezoid(k)
-        curve, angle = piece.upper if is_upper else piece.lower, piece.stop if is_stop else piece.start
-        odd ^= {(curve.digest, angle) if is_curve else piece.place(curve, angle)}
+        odd ^= {columns.reader.end(k, is_stop=is_stop, is_upper=is_upper, is_curve=is_curve)}
     return len(odd)
 
 

@@ -50,17 +50,17 @@ def tile(pieces: Iterable[Ring], rings: Iterable[Ring]) -> bool:
     is the rings' winding number. An edge and its reverse cancel. A sum of other directed segments of one line vanishes
     if their ends cancel.
     """
-    left: Counter[tuple[Vector, Vector]] = Counter()
+    left: dict[tuple[Vector, Vector], int] = {}
     for shapes, times in ((pieces, 1), (rings, -1)):
         for ring in shapes:
             if times == 1 and not _turns_left(ring):
                 return False
             for p, q in zip(ring, ring[1:] + ring[:1], strict=True):
                 edge, reverse = ((p, q), (q, p))[::times]
-                if left[reverse]:
-                    left[reverse] -= 1
+                if times_left := left.get(reverse):
+                    left[reverse] = times_left - 1
                 else:
-                    left[edge] += 1
+                    left[edge] = left.get(edge, 0) + 1
     ends: Counter[tuple[Vector, int, Vector]] = Counter()
     for (p, q), times in left.items():
         if times:

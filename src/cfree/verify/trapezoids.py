@@ -5,7 +5,7 @@ A trapezoid is {lower(theta) <= t <= upper(theta), start <= theta <= stop} on a 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -71,14 +71,23 @@ class Reader:
     def _curve(self, patch: int, chart: int, code: int) -> Curve:
         return Curve(self.moving(patch, chart), self.world.curve(self.surface(patch), name_of(code)))
 
-    def place(self, curve: Curve, axis: int, angle: Root) -> Exact:
-        """Return `Curve.place`, cached: trapezoids around the end of a curve need the same."""
+    def place(self, moving: Moving, curve: Curve, angle: Root) -> tuple[bytes, Exact]:
+        """Line of a surface at an angle, and the position of a curve on it; trapezoids around it need the same."""
+        axis, line = moving.line(angle)
         key = curve.key, axis, angle
         if (place := self._places.get(key)) is None:
             if len(self._places) > MOST:
                 self._places.clear()
             place = self._places[key] = curve.place(axis, angle.value)
-        return place
+        return line, place
+
+    def end(self, k: int, *, is_stop: bool, is_upper: bool, is_curve: bool) -> Hashable:
+        """End of a curve of trapezoid k, on that curve or on the line at one of its angles, both known to be sound."""
+        t = self.table
+        patch, chart = int(t.patch[k]), int(t.chart[k])
+        angle = self.angle(t, k, "to" if is_stop else "from", patch)
+        curve = self.curve(patch, chart, int((t.upper if is_upper else t.lower)[k]))
+        return (curve.digest, angle) if is_curve else self.place(self.moving(patch, chart), curve, angle)
 
     def trapezoid(self, k: int) -> Trapezoid:
         """Trapezoid k, its names resolved and its angles checked. Raises Fault."""
@@ -260,8 +269,7 @@ class Trapezoid:
 
     def place(self, curve: Curve, angle: Root) -> tuple[bytes, Exact]:
         """Line at one of its ends, and the position of a curve on it."""
-        axis, line = self._moving.line(angle)
-        return line, self._place(curve, axis, angle)
+        return self._place(self._moving, curve, angle)
 
     def _upright(self, angle: Root, first: Curve, last: Curve) -> Side | None:
         (line, begin), (_, end) = (self.place(curve, angle) for curve in (first, last))
