@@ -1,24 +1,33 @@
-"""Robots of many vertices among 40 convex obstacles: the boundary, one thread, by the number of the robot's vertices.
+"""Robots of many vertices: boundaries among 40 convex obstacles, and first paths among many vertices.
 
-Convex robots have vertices on a circle, stars every other one nearer to the middle, at somewhat random angles.
+Of boundaries, convex robots have vertices on a circle, stars every other one nearer to the middle, at somewhat random
+angles. First paths are those of a star of 68 vertices among 8,400 (`families.crowd`), beside OMPL's RRTConnect.
 """
 
 from __future__ import annotations
 
 import math
+import statistics
 import time
 
 import numpy as np
-from families import Floats, convex
+from bench_plan import spent
+from families import Floats, convex, crowd
 from measure import Report
+from ompl_rival import rival
 
 import cfree
 
 COUNTS, ROUNDS = (4, 8, 16, 32, 64, 128), 5
+CROWDS, CAP, RUNS = 5, 20.0, 3  # questions; seconds and runs of OMPL
 RADIUS = 2.0
 
 
-def run(quick: bool) -> Report:
+def run(quick: bool) -> list[Report]:
+    return [boundaries(quick), first_paths(quick)]
+
+
+def boundaries(quick: bool) -> Report:
     report = Report(
         "Robots of many vertices",
         ("robot", "vertices", "trapezoids", "ms", "µs/trapezoid"),
@@ -42,6 +51,37 @@ def run(quick: bool) -> Report:
         else:
             exponent = math.log(high / low) / math.log(last / first)
             report.figure("growth of time, exponent in the vertices", span, exponent, "<=", 1.3)
+    return report
+
+
+def first_paths(quick: bool) -> Report:
+    report = Report(
+        "A robot of 68 vertices among 8,400",
+        ("scene", "answer", "first ms", "boundary ms", "RRTConnect ms", "solved", "first / RRT"),
+        notes=["ms of the processor, medians of 3; boundary: one run on one thread"],
+    )
+    ratios, boundaries = dict[str, float](), dict[str, float]()
+    for seed in range(1 if quick else CROWDS):
+        name, scene = f"crowd {seed}", crowd(seed)
+
+        def fresh(scene: cfree.Scene = scene) -> cfree.Scene:
+            return cfree.Scene(
+                scene.robot, scene.obstacles, workspace=scene.workspace, start=scene.start, goal=scene.goal
+            )
+
+        answer = cfree.plan(scene, improve=0)
+        first = statistics.median(spent(lambda s: cfree.plan(s, improve=0), fresh()) for _ in range(3))
+        boundaries[name] = spent(lambda s: cfree.boundary(s, threads=1, max_seconds=math.inf), fresh())
+        runs = rival(fresh, CAP, 1 if quick else RUNS)
+        theirs = statistics.median(runs.seconds)
+        if isinstance(answer, cfree.Path):
+            ratios[name] = first / theirs
+        times = (f"{1e3 * seconds:.0f}" for seconds in (first, boundaries[name], theirs))
+        solved = f"{runs.solved}/{len(runs.seconds)}"
+        report.rows.append((name, type(answer).__name__, *times, solved, f"{first / theirs:.2f}"))
+    worst, slowest = max(ratios, key=ratios.__getitem__), max(boundaries, key=boundaries.__getitem__)
+    report.figure("first path of many vertices, in RRTConnect's time", f"the worst: {worst}", ratios[worst], "<=", 3)
+    report.figure("boundary of many vertices, seconds", f"the worst: {slowest}", boundaries[slowest], "<=", 10)
     return report
 
 

@@ -22,6 +22,10 @@ Questions, ten seeds each, none chosen by its answer:
     throat     two furnished rooms and a throat that is wider by 10 % to 0.001 %; a rounded rectangle
     large      a star of 10 to 100 vertices among convex obstacles
 
+Questions of another kind, for any seed:
+
+    crowd      a narrow wavy part of 68 vertices among 140 round ones of 60, which touch nothing: 8,400 vertices
+
 Changes, of scenes before:
 
     moves      some obstacles of any scene, with motions of three kinds
@@ -383,6 +387,22 @@ def large(seed: int) -> cfree.Scene:
     side = (40 * cell) ** 0.5
     return _asked(rng, robot, convex(40, seed + 300, cell).rings(), (0, 0, side / 4, side / 4),
                   (0.75 * side, 0.75 * side, side, side), bounds=(0, 0, side, side))  # fmt: skip
+
+
+def crowd(seed: int) -> cfree.Scene:
+    """A narrow robot of many vertices across rows of obstacles of as many."""
+    rng = np.random.default_rng([8, seed])
+    pitch, rows = rng.uniform(3.8, 4.4), 12
+
+    def part(count: int) -> Floats:
+        angles = 2 * np.pi * np.arange(count) / count
+        waves = 1 + 0.2 * np.cos(int(rng.integers(2, 5)) * angles + rng.uniform(0, 6)) + rng.uniform(0, 0.01, count)
+        return 1.25 * waves[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+
+    obstacles = [part(60) + pitch * np.array(divmod(k, rows)) + rng.uniform(-0.3, 0.3, 2) for k in range(140)]
+    far = pitch * (rows - 1)
+    return _asked(rng, part(68) * (1.3, 0.35), obstacles, (-3, -3, 1, 1), (far - 1, far - 1, far + 3, far + 3),
+                  workspace=_rectangle(-3.5, -3.5, far + 7, far + 7))  # fmt: skip
 
 
 QUESTIONS: dict[str, Callable[[int], cfree.Scene]] = {
