@@ -50,6 +50,32 @@ static void far_away_and_thin_shapes_do_no_harm() {
     CHECK(!inscribed({thin}, by));
 }
 
+static SceneShapes rooms_of_dust() {
+    SceneShapes shapes;
+    shapes.robot = {box(0, 0, 40, 40)};
+    for (int x = 0; x < 40; ++x)
+        for (int y = 0; y < 40; ++y) shapes.obstacles.push_back(box(2 * x, 2 * y, 2 * x + 1, 2 * y + 1));
+    return shapes;
+}
+
+static void of_many_vertices_few_are_left() {
+    std::vector<std::pair<int, int>> ring;  // two half circles of 500 vertices, and straight sides
+    for (int k = 0; k < 1000; ++k) {
+        const double angle = (k + 0.5) * 3.14159265358979 / 500;
+        ring.push_back({static_cast<int>(1e6 * std::cos(angle)) + (k < 250 || k >= 750 ? 4'000'000 : 0), static_cast<int>(1e6 * std::sin(angle))});
+    }
+    const auto stadium = polygon({ring});
+    const auto found = inscribed({stadium}, power_of_two(-2));
+    CHECK(found && is_inside(*found->polygon, *stadium) && found->polygon->vertices.size() <= 64);
+    CHECK(found->width > 1.99e6);
+}
+
+static void a_robot_far_larger_than_what_is_around_it_is_left_alone() {
+    SceneShapes shapes = rooms_of_dust();
+    const auto scene = KnownScene::of(shapes);
+    CHECK(!NarrowGates(*scene, by).part({-9, -9, 0}, {50, 50, 0}));
+}
+
 // Two rooms, with a wall between them that has a gate of height `high` sixteenths; bounds or a workspace around.
 static SceneShapes rooms(int high, bool has_bounds) {
     SceneShapes shapes;
@@ -82,6 +108,8 @@ static void a_wall_that_ends_in_free_space_parts_nothing() {
 int main() {
     an_inscribed_polygon_is_inside_and_as_wide();
     far_away_and_thin_shapes_do_no_harm();
+    of_many_vertices_few_are_left();
+    a_robot_far_larger_than_what_is_around_it_is_left_alone();
     gates_part_places_if_they_are_narrower();
     a_wall_that_ends_in_free_space_parts_nothing();
     return failures > 0;

@@ -7,18 +7,16 @@
 
 #include "cfree/support/elementary.hpp"
 #include "collision/box_tree.hpp"
+#include "polygons/convex_rings.hpp"
 
 namespace cfree {
 
 namespace {
 
 constexpr double certainly = 1 - 0x1p-16;  // share of the polygon's width that narrow gates have at most
+constexpr std::size_t pairs_each = 64;      // pairs for each piece: if there are more, the robot is far larger than what is around it
 
-using Ring = std::vector<Vec<double>>;
-
-const Vec<double>& after(const Ring& ring, std::size_t k) { return ring[k + 1 < ring.size() ? k + 1 : 0]; }
-
-Vec<double> middle_of(const Ring& ring) {
+Vec<double> middle_of(const DoubleRing& ring) {
     Vec<double> sum{0, 0};
     for (const auto& [x, y] : ring) sum.x += x, sum.y += y;
     const auto count = static_cast<double>(ring.size());
@@ -26,35 +24,23 @@ Vec<double> middle_of(const Ring& ring) {
 }
 
 // Common part of two convex rings.
-Ring common(Ring ring, const Ring& other) {
+DoubleRing common(DoubleRing ring, const DoubleRing& other) {
     for (std::size_t k = 0; k < other.size() && !ring.empty(); ++k) {
-        const Vec<double>&p = other[k], e = after(other, k) - p;
-        Ring rest;
-        for (std::size_t n = 0; n < ring.size(); ++n) {
-            const Vec<double> &a = ring[n], &b = after(ring, n);
-            const double from = cross(e, a - p), to = cross(e, b - p);
-            if (from >= 0) rest.push_back(a);
-            if ((from < 0) != (to < 0) && from != to) {
-                const double t = from / (from - to);
-                rest.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
-            }
-        }
-        ring = std::move(rest);
+        const Vec<double>&p = other[k], e = vertex_after(other, k) - p;
+        ring = cut_off(ring, p, {e.y, -e.x});
     }
     return ring;
 }
 
 // Vertex of one of two rings and point of an edge of the other that are nearest, on the first and on the second.
-std::array<Vec<double>, 2> nearest_points(const Ring& first, const Ring& second) {
+std::array<Vec<double>, 2> nearest_points(const DoubleRing& first, const DoubleRing& second) {
     std::array<Vec<double>, 2> found{};
     double least = HUGE_VAL;
-    const auto compare = [&](const Ring& ring, const Ring& points, bool is_first) {
+    const auto compare = [&](const DoubleRing& ring, const DoubleRing& points, bool is_first) {
         for (std::size_t k = 0; k < ring.size(); ++k) {
-            const Vec<double>&a = ring[k], e = after(ring, k) - a;
-            const double square = dot(e, e);
+            const Vec<double> &a = ring[k], &b = vertex_after(ring, k);
             for (const Vec<double>& p : points) {
-                const double t = std::clamp(dot(p - a, e) / square, 0.0, 1.0);
-                const Vec<double> q{a.x + t * e.x, a.y + t * e.y}, d = p - q;
+                const Vec<double> q = point_at(a, b, share_before(a, b, p)), d = p - q;
                 if (!(dot(d, d) < least)) continue;
                 least = dot(d, d);
                 found = is_first ? std::array{q, p} : std::array{p, q};
@@ -66,15 +52,15 @@ std::array<Vec<double>, 2> nearest_points(const Ring& first, const Ring& second)
 }
 
 // Points of two convex rings, nearer to each other than a width or the same, if there are any.
-std::optional<std::array<Vec<double>, 2>> near_points(const Ring& first, const Ring& second, double width) {
+std::optional<std::array<Vec<double>, 2>> near_points(const DoubleRing& first, const DoubleRing& second, double width) {
     const auto [p, q] = nearest_points(first, second);
     if (dot(q - p, q - p) < width * width) return {{p, q}};
-    const Ring both = common(first, second);  // the edges of large ones may cross far from all vertices
+    const DoubleRing both = common(first, second);  // the edges of large ones may cross far from all vertices
     if (both.empty()) return {};
     return {{middle_of(both), middle_of(both)}};
 }
 
-Box box_of(const Ring& ring) {
+Box box_of(const DoubleRing& ring) {
     Box box;
     for (const auto& [x, y] : ring) box.add(x, y);
     return box;
@@ -92,13 +78,13 @@ bool crosses(const std::array<Vec<double>, 4>& way, const Vec<double>& s, const 
 }
 
 // Rings in the user's units of all that the robot's body must not meet.
-std::vector<Ring> rings_of(const Scene& scene) {
+std::vector<DoubleRing> rings_of(const Scene& scene) {
     const Shape& O = scene.obstacles;
     const double unit = scene.unit();
-    std::vector<Ring> rings;
+    std::vector<DoubleRing> rings;
     for (Index k = 0; k < O.pieces(); ++k) {
         if (O.piece_layer[k] != body_layer || O.piece[k + 1] - O.piece[k] < 3) continue;
-        Ring& ring = rings.emplace_back();
+        DoubleRing& ring = rings.emplace_back();
         for (Index n = O.piece[k]; n < O.piece[k + 1]; ++n) ring.push_back({O.x[O.piece_vertex[n]] * unit, O.y[O.piece_vertex[n]] * unit});
     }
     return rings;
@@ -128,7 +114,7 @@ void NarrowGates::take(const NarrowGates& other) {
 }
 
 void NarrowGates::find_gates(const KnownScene& scene) {
-    std::vector<Ring> rings = rings_of(scene.scene());
+    std::vector<DoubleRing> rings = rings_of(scene.scene());
     const double width = certainly * within->width;
     if (scene.shapes().bounds) {  // a gate beside them is half as wide: the middle stays as far from them as from the reference point
         const double far = norm(within->middle.x, within->middle.y) + width / 2;
@@ -140,14 +126,19 @@ void NarrowGates::find_gates(const KnownScene& scene) {
     }
     pieces = static_cast<Index>(rings.size());
     std::vector<Box> boxes;
-    for (const Ring& ring : rings) boxes.push_back(box_of(ring));
+    for (const DoubleRing& ring : rings) boxes.push_back(box_of(ring));
     const BoxTree tree(boxes);
-    for (Index k = 0; k < pieces; ++k)
+    std::size_t pairs = 0;
+    for (Index k = 0; k < pieces; ++k) {
+        heed_stop();
         tree.query(grown(boxes[k], width), [&](Index other) {
             if (other <= k) return;
+            ++pairs;
             if (const auto near = near_points(rings[k], rings[other], width))
                 gates.push_back({k, other, {middle_of(rings[k]), (*near)[0], (*near)[1], middle_of(rings[other])}});
         });
+        if (pairs > pairs_each * rings.size()) return gates.clear();
+    }
 }
 
 // Pieces in one set are joined by gates. A closed way over them that crosses the line from start to goal an odd number of times has

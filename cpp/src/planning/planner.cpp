@@ -37,7 +37,7 @@ constexpr double most_longer = 1.25;   // times the cost of such a path, around 
 constexpr int most_mended = 8;         // times for one query
 constexpr int most_off_contacts = 64;  // the same where a path along contacts of a smaller robot is in the way
 constexpr std::size_t checks_each = 4, most_checks = 600;  // motions checked to straighten such a path, for each of its own
-constexpr Index inner_steps = 16;  // times as many trapezoids of the polygon inside the robot
+constexpr Index inner_steps = 16;       // times as many trapezoids of the polygon inside the robot
 constexpr std::size_t little_room = 3;  // parts of the configuration space that a search reaches
 constexpr double most_few = 0.75;      // greatest share of all patches in the phase with few patches
 
@@ -198,7 +198,7 @@ void Planner::take(Planner& other) {
     const std::lock_guard guard(other.working);
     scene->take(*other.scene);
     if (other.smaller) insets().take(*other.smaller);
-    if (other.gates && other.gates->has_results()) narrow_gates().take(*other.gates);
+    if (other.gates && other.gates->has_results() && !scene->scene().is_round) narrow_gates().take(*other.gates);
     const std::lock_guard ways_guard(other.remembering);
     for (const Poses& way : other.ways) former.push_back(straightened(way));
     for (const Poses& way : other.former)

@@ -7,6 +7,7 @@
 
 #include "cfree/polygons/inset.hpp"
 #include "cfree/support/elementary.hpp"
+#include "polygons/convex_rings.hpp"
 
 namespace cfree {
 
@@ -17,32 +18,20 @@ constexpr double most_rows = 64;      // of squares, at first
 constexpr std::size_t most_squares = 4096;
 constexpr double kept = 1 - 0x1p-18;  // share of the width that is left when vertices are removed
 constexpr int digits = 26;            // of coordinates, relative to the size of the polygon
-
-using Ring = std::vector<Vec<double>>;
+constexpr std::size_t most_vertices = 64;
 
 struct Disc {
     Vec<double> centre;
     double radius;
 };
 
-const Vec<double>& after(const Ring& ring, std::size_t k) { return ring[k + 1 < ring.size() ? k + 1 : 0]; }
-
-// Share of an edge, from a to b, before its point nearest to p.
-double share_before(const Vec<double>& a, const Vec<double>& b, const Vec<double>& p) {
-    return std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
-}
-
-Vec<double> point_at(const Vec<double>& a, const Vec<double>& b, double share) {
-    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
-}
-
 // Distance from the nearest edge, negative outside.
-double depth_at(const std::vector<Ring>& rings, const Vec<double>& p) {
+double depth_at(const std::vector<DoubleRing>& rings, const Vec<double>& p) {
     double square = HUGE_VAL;
     bool is_inside = false;
-    for (const Ring& ring : rings)
+    for (const DoubleRing& ring : rings)
         for (std::size_t k = 0; k < ring.size(); ++k) {
-            const Vec<double> &a = ring[k], &b = after(ring, k), d = point_at(a, b, share_before(a, b, p)) - p;
+            const Vec<double> &a = ring[k], &b = vertex_after(ring, k), d = point_at(a, b, share_before(a, b, p)) - p;
             square = std::min(square, dot(d, d));
             if ((a.y > p.y) != (b.y > p.y) && (cross(b - a, p - a) > 0) == (b.y > a.y)) is_inside = !is_inside;
         }
@@ -50,7 +39,7 @@ double depth_at(const std::vector<Ring>& rings, const Vec<double>& p) {
 }
 
 // Disc in the rings that is nearly as large as any: squares that may hold the centre of a larger one are quartered.
-Disc widest_disc(const std::vector<Ring>& rings) {
+Disc widest_disc(const std::vector<DoubleRing>& rings) {
     struct Square {
         Vec<double> middle;
         double half, depth;
@@ -80,37 +69,25 @@ Disc widest_disc(const std::vector<Ring>& rings) {
     return best;
 }
 
-// Part of a convex ring on the side of a line through p, with normal n to the other side.
-Ring cut(const Ring& ring, const Vec<double>& p, const Vec<double>& n) {
-    Ring rest;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Vec<double> &a = ring[k], &b = after(ring, k);
-        const double from = dot(a - p, n), to = dot(b - p, n);
-        if (from <= 0) rest.push_back(a);
-        if ((from < 0 && to > 0) || (from > 0 && to < 0)) rest.push_back(point_at(a, b, from / (from - to)));
-    }
-    return rest;
-}
-
 // Convex polygon around a disc in the rings: of each edge, the line through its point nearest to the centre bounds it.
-Ring around(const Disc& disc, const std::vector<Ring>& rings, double size) {
+DoubleRing around(const Disc& disc, const std::vector<DoubleRing>& rings, double size) {
     const auto [x, y] = disc.centre;
-    Ring found{{x - size, y - size}, {x + size, y - size}, {x + size, y + size}, {x - size, y + size}};
-    for (const Ring& ring : rings)
+    DoubleRing found{{x - size, y - size}, {x + size, y - size}, {x + size, y + size}, {x - size, y + size}};
+    for (const DoubleRing& ring : rings)
         for (std::size_t k = 0; k < ring.size(); ++k) {
-            const Vec<double> &a = ring[k], &b = after(ring, k), e = b - a;
+            const Vec<double> &a = ring[k], &b = vertex_after(ring, k), e = b - a;
             const double share = share_before(a, b, disc.centre);
             const Vec<double> p = point_at(a, b, share);
             const bool is_beside = 0 < share && share < 1, is_left = cross(e, disc.centre - a) > 0;
-            found = cut(found, p, !is_beside ? p - disc.centre : is_left ? Vec<double>{e.y, -e.x} : Vec<double>{-e.y, e.x});
+            found = cut_off(found, p, !is_beside ? p - disc.centre : is_left ? Vec<double>{e.y, -e.x} : Vec<double>{-e.y, e.x});
         }
     return found;
 }
 
-double width_of(const Ring& ring) {
+double width_of(const DoubleRing& ring) {
     double least = HUGE_VAL;
     for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Vec<double> &a = ring[k], e = after(ring, k) - a;
+        const Vec<double> &a = ring[k], e = vertex_after(ring, k) - a;
         const double length = norm(e.x, e.y);
         if (length == 0) continue;
         double most = 0;
@@ -120,11 +97,26 @@ double width_of(const Ring& ring) {
     return least;
 }
 
+// With few vertices: those go first that cut off least, and never two neighbours at once.
+DoubleRing thinned(DoubleRing ring, double size) {
+    for (double least = size * size * 0x1p-40; ring.size() > most_vertices; least *= 4) {
+        DoubleRing rest;
+        bool is_gone = false;  // the vertex before
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const Vec<double>&a = ring[k ? k - 1 : ring.size() - 1], &b = ring[k], &c = vertex_after(ring, k);
+            is_gone = !is_gone && cross(b - a, c - b) < least;
+            if (!is_gone) rest.push_back(b);
+        }
+        ring = std::move(rest);
+    }
+    return ring;
+}
+
 // Without vertices that its width does not need.
-Ring simplified(Ring ring) {
+DoubleRing simplified(DoubleRing ring) {
     const double least = kept * width_of(ring);
     for (std::size_t k = 0; k < ring.size() && ring.size() > 3;) {
-        Ring rest = ring;
+        DoubleRing rest = ring;
         rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
         if (width_of(rest) >= least) ring = std::move(rest);
         else ++k;
@@ -133,11 +125,11 @@ Ring simplified(Ring ring) {
 }
 
 // Rings relative to the first vertex, which may be far away.
-std::vector<Ring> rings_of(const Polygon& polygon) {
+std::vector<DoubleRing> rings_of(const Polygon& polygon) {
     const auto& v = polygon.vertices;
-    std::vector<Ring> rings;
+    std::vector<DoubleRing> rings;
     for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
-        Ring& ring = rings.emplace_back();
+        DoubleRing& ring = rings.emplace_back();
         for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k)
             ring.push_back({nearest(v.X(k) - v.X(0), polygon.denominator), nearest(v.Y(k) - v.Y(0), polygon.denominator)});
     }
@@ -149,7 +141,7 @@ std::vector<Ring> rings_of(const Polygon& polygon) {
 std::optional<Inscribed> inscribed(const std::vector<std::shared_ptr<const Polygon>>& polygons, const Ratio& by) {
     const Polygon* outer = nullptr;
     Disc disc{{}, 0};
-    std::vector<Ring> rings;
+    std::vector<DoubleRing> rings;
     for (const auto& polygon : polygons) {
         if (polygon->is_thin()) continue;
         auto its = rings_of(*polygon);
@@ -159,7 +151,7 @@ std::optional<Inscribed> inscribed(const std::vector<std::shared_ptr<const Polyg
     if (!outer) return {};  // too thin for doubles
     double size = 0;
     for (const auto& [x, y] : rings.front()) size = std::max({size, std::abs(x - disc.centre.x), std::abs(y - disc.centre.y)});
-    const Ring ring = simplified(around(disc, rings, size));
+    const DoubleRing ring = simplified(thinned(around(disc, rings, size), size));
     if (ring.size() < 3) return {};
     const int finest = std::ilogb(size) - digits;
     const auto exact = [&](const Int& origin, double c) {
