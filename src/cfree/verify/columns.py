@@ -87,9 +87,12 @@ class Columns:
         others = [_surface(world.surface, code) for code in names.tolist()]
         known = zip((*contacts.tolist(), *names.tolist()), (*surfaces, *others), strict=True)
         self.names = {code for code, surface in known if surface is not NOWHERE}
-        forms = meeting(_in_columns(surfaces, on), _in_columns(others, by))
-        self._forms = [np.stack(form, axis=1) for form in forms]
-        for k in np.flatnonzero(names[by] >> np.uint64(61) == HELIX).tolist():
+        is_helix = names[by] >> np.uint64(61) == HELIX
+        self._forms = [np.zeros((len(pairs), 3), object) for _ in range(2)]
+        forms = meeting(_in_columns(surfaces, on[~is_helix]), _in_columns(others, by[~is_helix]))
+        for form, values in zip(self._forms, forms, strict=True):
+            form[~is_helix] = np.stack(values, axis=1)
+        for k in np.flatnonzero(is_helix).tolist():
             try:
                 both = helix(surfaces[on[k]], *world.vertices(name_of(int(names[by[k]]))))
             except (Fault, IndexError):
@@ -139,7 +142,8 @@ class Columns:
         inside = [n, room, times(m, d) - times(n, e), *limits]
         low, high, order, *of_limits = self._signs_of_all(inside, some, inside=True)
         for poly, its, expected in ((n, low, sign), (room, high, other)):
-            result &= (its * expected > 0) | ~poly.any(axis=1)
+            other_signs = np.flatnonzero(its * expected <= 0)
+            result[other_signs] &= ~poly[other_signs].any(axis=1)
         result &= order * sign * other > 0
         for its in of_limits:
             result &= its < 0
@@ -169,7 +173,8 @@ class Columns:
         if len(wide):
             of_parts = np.array([part.signs(poly[wide]) for part in span.some(wide).parts()])
             signs[wide] = np.where((of_parts == of_parts[0]).all(axis=0), of_parts[0], 0)
-        some = np.flatnonzero((signs == 0) & poly.any(axis=1))
+        some = np.flatnonzero(signs == 0)
+        some = some[poly[some].any(axis=1)]
         if not len(some):
             return signs
         poly, span, start, stop = poly[some], span.some(some), start[some], stop[some]
