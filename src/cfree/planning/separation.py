@@ -140,8 +140,9 @@ class Separated(Shown, Answer):
     obstacles : tuple of int
         The blocking obstacles, whose contacts form it; -1 is the bounds, -2 the workspace.
     robot : tuple of Polygon
-        If closed, the robot whose contacts form the surface; it is strictly inside the scene's robot. For a clearance,
-        each part of it is instead within that distance of one of `cores`.
+        If closed, the robot whose contacts form the surface; it is strictly inside the scene's robot: a little smaller,
+        or one convex polygon where gates are narrower than the robot. For a clearance, each part of it is instead
+        within that distance of one of `cores`.
     bounds : four numbers, optional
         If closed, and the scene has bounds: larger bounds, with the scene's strictly inside.
     units, frame : str
