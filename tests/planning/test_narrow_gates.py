@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from fractions import Fraction
 from typing import Any
@@ -71,3 +72,12 @@ def test_an_updated_planner_takes_such_a_proof() -> None:
     answer = planner.updated(moved).plan((3, 6, 1), (21, 6, 2))
     assert isinstance(answer, cfree.Separated)
     assert cfree.verify.answer(moved, answer).verified
+
+
+@pytest.mark.parametrize("power", [-161, -158, -156, -149, 0, 100])
+def test_sizes_at_the_ends_of_doubles_do_no_harm(power: int) -> None:
+    unit = 10.0**power
+    disc = [(unit * math.cos(math.tau * k / 100), unit * math.sin(math.tau * k / 100)) for k in range(100)]
+    box, room = ([(-c, -c), (c, -c), (c, c), (-c, c)] for c in (3 * unit, 2 * unit))
+    answer = cfree.plan(cfree.Scene(disc, [cfree.Polygon(box, [room])]), (0, 0, 0), (50 * unit, 0, 0), improve=0)
+    assert isinstance(answer, cfree.Separated)

@@ -14,7 +14,7 @@ namespace cfree {
 namespace {
 
 constexpr double precision = 0x1p-6;  // share of its radius by which a disc may be smaller than the widest
-constexpr double most_rows = 64;      // of squares, at first
+constexpr int most_rows = 64;         // of squares, at first
 constexpr std::size_t most_squares = 4096;
 constexpr double kept = 1 - 0x1p-18;  // share of the width that is left when vertices are removed
 constexpr int digits = 26;            // of coordinates, relative to the size of the polygon
@@ -57,8 +57,8 @@ Disc widest_disc(const std::vector<DoubleRing>& rings) {
         if (depth > best.radius) best = {middle, depth};
         squares.push({middle, half, depth});
     };
-    for (int i = 0; i == 0 || i * side < wide; ++i)
-        for (int j = 0; j == 0 || j * side < tall; ++j) add({low.x + (i + 0.5) * side, low.y + (j + 0.5) * side}, side / 2);
+    for (int i = 0; i == 0 || (i < most_rows && i * side < wide); ++i)
+        for (int j = 0; j == 0 || (j < most_rows && j * side < tall); ++j) add({low.x + (i + 0.5) * side, low.y + (j + 0.5) * side}, side / 2);
     while (squares.top().most() > best.radius * (1 + precision) && squares.size() < most_squares) {
         const auto [middle, half, _] = squares.top();
         squares.pop();
@@ -99,7 +99,7 @@ double width_of(const DoubleRing& ring) {
 
 // With few vertices: those go first that cut off least, and never two neighbours at once.
 DoubleRing thinned(DoubleRing ring, double size) {
-    for (double least = size * size * 0x1p-40; ring.size() > most_vertices; least *= 4) {
+    for (double least = std::max(size * size * 0x1p-40, 0x1p-1000); ring.size() > most_vertices; least *= 4) {
         DoubleRing rest;
         bool is_gone = false;  // the vertex before
         for (std::size_t k = 0; k < ring.size(); ++k) {
