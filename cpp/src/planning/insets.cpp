@@ -46,6 +46,12 @@ std::vector<int> powers_of(const SceneShapes& shapes) {
 
 }  // namespace
 
+void enlarge_bounds(SceneShapes& shapes, const Ratio& by) {
+    if (!shapes.bounds) return;
+    auto& [x0, y0, x1, y1] = *shapes.bounds;
+    x0 = x0 - by, y0 = y0 - by, x1 = x1 + by, y1 = y1 + by;
+}
+
 Insets::Insets(const SceneShapes& scene) : powers(powers_of(scene)), size(size_of(scene)), shapes(scene) {}
 
 const Insets::Inner& Insets::at(int power) {
@@ -58,10 +64,7 @@ const Insets::Inner& Insets::at(int power) {
     for (const auto& part : shapes.robot)
         if (auto found = inset(*part, by)) smaller.robot.push_back(std::move(found));
     inner.is_whole = smaller.robot.size() == shapes.robot.size();
-    if (smaller.bounds) {
-        auto& [x0, y0, x1, y1] = *smaller.bounds;
-        x0 = x0 - by, y0 = y0 - by, x1 = x1 + by, y1 = y1 + by;
-    }
+    enlarge_bounds(smaller, by);
     if (!smaller.robot.empty() && !range_fault(smaller)) inner.scene = KnownScene::of(std::move(smaller));
     return inner;
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "cfree/support/elementary.hpp"
 #include "collision/box_tree.hpp"
 #include "polygons/convex_rings.hpp"
+#include "support/union_find.hpp"
 
 namespace cfree {
 
@@ -99,9 +99,7 @@ NarrowGates::NarrowGates(const KnownScene& scene, const Ratio& by) : within(insc
     if (!within) return;
     find_gates(scene);
     if (within->polygon->vertices.size() < vertices) shapes.robot = {within->polygon};
-    if (!shapes.bounds) return;
-    auto& [x0, y0, x1, y1] = *shapes.bounds;
-    x0 = x0 - by, y0 = y0 - by, x1 = x1 + by, y1 = y1 + by;
+    enlarge_bounds(shapes, by);
 }
 
 const std::shared_ptr<KnownScene>& NarrowGates::inner() {
@@ -141,8 +139,8 @@ void NarrowGates::find_gates(const KnownScene& scene) {
     }
 }
 
-// Pieces in one set are joined by gates. A closed way over them that crosses the line from start to goal an odd number of times has
-// one of the two inside. Of each piece it is known whether the way to the first of its set does.
+// A closed way over pieces and gates that crosses the line from start to goal an odd number of times has one of the two inside.
+// Each piece is there twice, reached after an even and an odd number of crossings: on such a way these two are joined.
 bool NarrowGates::part(const Place& start, const Place& goal) const {
     if (gates.empty()) return false;
     const auto middle_at = [&](const Place& at) {
@@ -151,24 +149,11 @@ bool NarrowGates::part(const Place& start, const Place& goal) const {
         return Vec<double>{at.x + c * x - s * y, at.y + s * x + c * y};
     };
     const Vec<double> first = middle_at(start), last = middle_at(goal);
-    std::vector<Index> parent(static_cast<std::size_t>(pieces));
-    std::iota(parent.begin(), parent.end(), 0);
-    std::vector<char> is_odd(parent.size(), 0);  // of the way to the parent
-    const auto root_of = [&](Index k) {
-        bool odd = false;
-        for (; parent[k] != k; k = parent[k]) {
-            is_odd[k] ^= is_odd[parent[k]], parent[k] = parent[parent[k]];
-            odd ^= is_odd[k] != 0;
-        }
-        return std::pair(k, odd);
-    };
-    for (const Gate& gate : gates) {
-        const bool odd = crosses(gate.way, first, last);
-        const auto [p, odd_p] = root_of(gate.first);
-        const auto [q, odd_q] = root_of(gate.second);
-        const bool around = odd != (odd_p != odd_q);
-        if (p == q && around) return true;
-        if (p != q) parent[p] = q, is_odd[p] = around;
+    UnionFind reached(2 * static_cast<std::size_t>(pieces));
+    for (const auto& [p, q, way] : gates) {
+        const Index odd = crosses(way, first, last) ? 1 : 0;
+        reached.unite(2 * p, 2 * q + odd), reached.unite(2 * p + 1, 2 * q + 1 - odd);
+        if (reached.find(2 * p) == reached.find(2 * p + 1)) return true;
     }
     return false;
 }

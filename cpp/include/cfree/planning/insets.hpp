@@ -16,6 +16,9 @@ struct Separation {
     bool is_closed;
 };
 
+// Enlarge bounds, if there are any, on all sides.
+void enlarge_bounds(SceneShapes& shapes, const Ratio& by);
+
 class Insets {
 public:
     explicit Insets(const SceneShapes& scene);
