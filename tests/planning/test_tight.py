@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import permutations
+from itertools import combinations, permutations
 from typing import Any
 
 import pytest
@@ -195,6 +195,17 @@ def test_a_slit_goes_on_over_a_wall_at_an_irrational_orientation() -> None:
     for start, goal in permutations([Pose(2, 0, "270deg"), Pose(5, 0, 0)]):
         answer = plan(scene, start, goal, improve=0)
         assert isinstance(answer, Path) and cfree.verify.answer(scene, answer).verified
+
+
+@pytest.mark.parametrize("wedge", [((1, 1), (1, -1)), ((5, 3), (3, -5)), ((1, 3), (1, -3)), ((3, 1), (3, -1))])
+def test_slits_along_the_bounds_meet_in_their_corners(wedge: Ring) -> None:
+    """An obstacle fills the bounds: the reference point goes around it on the rim, and the robot turns about each corner.
+
+    For a right-angled wedge both slits end there at one irrational orientation. For a wider one a curve lies between them.
+    """
+    scene = Scene([(0, 0), *wedge], [[(-1, 0), (0, 0), (0, 1), (-1, 1)]], bounds=(-1, 0, 0, 1))
+    sides = [Pose(0, "1/2", 0), Pose("-1/2", 1, "90deg"), Pose(-1, "1/2", "180deg"), Pose("-1/2", 0, "270deg")]
+    assert {answered(scene, *ends) for ends in combinations(sides, 2)} == {"path"}
 
 
 @pytest.mark.parametrize("at", [0, 10**9])

@@ -156,9 +156,24 @@ Frame<Approx, N> on(const Frame<double, N>& f, double lo, double hi) {
     return {convert(f.C), convert(f.S), convert(f.X), convert(f.Y), convert(f.W)};
 }
 
+// True if a polynomial certainly has no root strictly between 0 and 1 after which it is positive: by Descartes' rule, for the
+// signs of its Bernstein coefficients there do not change, or once from positive to negative.
+bool never_becomes_positive(const Poly& f) {
+    Poly b;
+    for (int k = f.size(); k-- > 0;) b.push_back(f[k]);
+    for (int first = 0; first + 1 < b.size(); ++first)
+        for (int j = b.size() - 1; j-- > first;) b[j] += b[j + 1];
+    bool is_negative = false;
+    for (int j = b.size(); j-- > 0;) {  // from 0 towards 1
+        if (is_negative && b[j].sign() > 0) return false;
+        if (b[j].sign() < 0) is_negative = true;
+    }
+    return true;
+}
+
 // First root between another and 1 after which a polynomial is positive.
 std::optional<RealRoot> crossing(const Poly& f, RealRoot& after) {
-    if (f.size() < 2) return {};
+    if (f.size() < 2 || never_becomes_positive(f)) return {};
     if (f.size() == 3 && f[1] * f[1] <= 4 * f[0] * f[2]) return {};  // no root, or a double one
     const Sturm sturm(f.size() > 3 ? squarefree(f) : f);
     for (const auto& [from, to] : isolate(sturm, {0, 0}, {1, 0}, 0)) {

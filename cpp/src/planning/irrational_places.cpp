@@ -36,7 +36,7 @@ struct Tail {
 
 // True if an angle of a member of the encounter is rational, and there.
 bool is_rational(const MeetingPlaces& places, const Encounter& encounter) {
-    const Boundary& boundary = *places.walker->space->boundary;
+    const Boundary& boundary = *places.on_faces().space->boundary;
     for (const Index face : encounter.faces)
         for (const bool last : {false, true}) {
             const auto tau = rational_angle(boundary, face, last);
@@ -66,7 +66,7 @@ std::vector<Tail> tails(const MeetingPlaces& places, const Encounter& encounter)
     };
     for (const Index k : encounter.parts)
         if (places.parts[k].is_curve) add(places.parts[k].sheet, {Holder::Of::part, k});
-    for (const Index face : encounter.faces) add(places.walker->sheet(face), {Holder::Of::cell, places.walker->cell_at(face)});
+    for (const Index face : encounter.faces) add(places.on_faces().sheet(face), places.holder_of(face));
     return found;
 }
 

@@ -69,8 +69,8 @@ std::vector<Index> sorted(const std::set<Index>& numbers) { return {numbers.begi
 
 MeetingPlaces::MeetingPlaces(std::shared_ptr<const BoundaryWalker> of, std::shared_ptr<const CellComplex> with_slits)
     : walker(std::move(of)), slits(walker_on_slits(*walker, std::move(with_slits))),
-      parts(thin_parts(slits ? *slits->space->boundary : *walker->space->boundary)), size(largest(*walker->cells)) {
-    const CellComplex& cells = *walker->cells;
+      parts(thin_parts(*on_faces().space->boundary)), size(largest(*walker->cells)) {
+    const CellComplex& cells = *on_faces().cells;
     first_at.assign(static_cast<std::size_t>(cells.vertices) + 1, 0);
     for (const Index v : cells.vertex) ++first_at[v + 1];
     for (Index v = 0; v < cells.vertices; ++v) first_at[v + 1] += first_at[v];
@@ -124,7 +124,7 @@ Poses MeetingPlaces::candidates() const {
     std::set<Index> seen;
     const auto add_corners = [&](const std::vector<Index>& faces) {
         for (const Index face : faces)
-            if (seen.insert(face).second) append(found, corners(*walker, face));
+            if (seen.insert(face).second) append(found, corners(on_faces(), face));
     };
     for (const Encounter& encounter : encounters()) add_corners(encounter.faces);
     at_edges(*walker, found);
@@ -154,7 +154,7 @@ void MeetingPlaces::on_surfaces(Poses& found) const {
 // --- at vertices ---
 
 std::vector<Encounter> MeetingPlaces::find_encounters() const {
-    const CellComplex& cells = *walker->cells;
+    const CellComplex& cells = *on_faces().cells;
     std::vector<std::array<double, 4>> points;
     std::vector<double> thetas;
     const auto add = [&](double x, double y, double theta) {
@@ -168,7 +168,7 @@ std::vector<Encounter> MeetingPlaces::find_encounters() const {
     }
     for (const ThinPart& part : parts)
         for (const Place& end : part.rounded) add(end.x, end.y, end.theta);
-    const bool has_several = walker->space->cells() > 1;
+    const bool has_several = on_faces().space->cells() > 1;
     std::vector<Encounter> found;
     for (const auto& group : clusters(points, not_told_apart)) {
         std::set<Index> of_cells, of_parts, faces;
@@ -177,11 +177,11 @@ std::vector<Encounter> MeetingPlaces::find_encounters() const {
                 of_parts.insert((k - cells.vertices) / 2);
                 continue;
             }
-            of_cells.insert(walker->cell_at(face_at[first_at[k]]));
+            of_cells.insert(on_faces().cell_at(face_at[first_at[k]]));
             faces.insert(face_at.begin() + first_at[k], face_at.begin() + first_at[k + 1]);
         }
         if (has_several && group.front() < cells.vertices)
-            for (const Index face : faces_beside(group.front(), of_cells)) of_cells.insert(walker->cell_at(face)), faces.insert(face);
+            for (const Index face : faces_beside(group.front(), of_cells)) of_cells.insert(on_faces().cell_at(face)), faces.insert(face);
         if (of_cells.size() + of_parts.size() > 1) found.push_back({sorted(faces), sorted(of_parts), thetas[group.front()]});
     }
     return found;
@@ -189,20 +189,20 @@ std::vector<Encounter> MeetingPlaces::find_encounters() const {
 
 // Faces of other cells that contain a vertex.
 std::vector<Index> MeetingPlaces::faces_beside(Index vertex, const std::set<Index>& of_cells) const {
-    const Boundary& boundary = *walker->space->boundary;
+    const Boundary& boundary = *on_faces().space->boundary;
     const Scene& scene = *boundary.scene;
     const Trapezoids& table = boundary.trapezoids;
-    const auto [x, y] = position(*walker->cells, vertex);
-    const double theta = walker->cells->places().theta[vertex];
+    const auto [x, y] = position(*on_faces().cells, vertex);
+    const double theta = on_faces().cells->places().theta[vertex];
     const Limits limits(boundary);
     std::vector<Index> found;
     for (const int chart : {0, 1}) {
         const double tau = tangent(std::remainder(theta - chart * std::numbers::pi, turn) / 2);
         if (std::abs(tau) > 1 + not_told_apart) continue;
         const auto pose = ExactPose::from(x, y, chart, std::clamp(tau, -1.0, 1.0), scene.scale);
-        for (const Index face : walker->space->points().at_height_of(pose)) {
+        for (const Index face : on_faces().space->points().at_height_of(pose)) {
             const double from = table.tau_from(face), to = table.tau_to(face);
-            if (tau < from - not_told_apart || tau > to + not_told_apart || of_cells.contains(walker->cell_at(face))) continue;
+            if (tau < from - not_told_apart || tau > to + not_told_apart || of_cells.contains(on_faces().cell_at(face))) continue;
             const Feature contact = boundary.patches.contact(table.patch[face]);
             const auto [low, high] = limits.of(face, tau);
             const Place first = position_on(scene, contact, low, theta), last = position_on(scene, contact, high, theta);
@@ -285,7 +285,7 @@ std::vector<Index> MeetingPlaces::faces_near(const ThinPart& part) const {
     const double low = part.rounded[0].theta - not_told_apart, high = part.rounded[1].theta + not_told_apart;
     std::set<Index> faces;
     vertices->query(part.box(not_told_apart * size), [&](Index v) {
-        const double after = walker->cells->places().theta[v] - low;
+        const double after = on_faces().cells->places().theta[v] - low;
         if (after - turn * std::floor(after / turn) <= high - low)
             faces.insert(face_at.begin() + first_at[v], face_at.begin() + first_at[v + 1]);
     });
