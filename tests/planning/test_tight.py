@@ -199,9 +199,9 @@ def test_a_slit_goes_on_over_a_wall_at_an_irrational_orientation() -> None:
 
 @pytest.mark.parametrize("wedge", [((1, 1), (1, -1)), ((5, 3), (3, -5)), ((1, 3), (1, -3)), ((3, 1), (3, -1))])
 def test_slits_along_the_bounds_meet_in_their_corners(wedge: Ring) -> None:
-    """An obstacle fills the bounds: the reference point goes around it on the rim, and the robot turns about each corner.
+    """An obstacle fills the bounds: the reference point goes around it, and the robot turns about each corner.
 
-    For a right-angled wedge both slits end there at one irrational orientation. For a wider one a curve lies between them.
+    A right-angled wedge leaves both slits there at one irrational orientation, a wider one turns along a curve between.
     """
     scene = Scene([(0, 0), *wedge], [[(-1, 0), (0, 0), (0, 1), (-1, 1)]], bounds=(-1, 0, 0, 1))
     sides = [Pose(0, "1/2", 0), Pose("-1/2", 1, "90deg"), Pose(-1, "1/2", "180deg"), Pose("-1/2", 0, "270deg")]
