@@ -98,10 +98,13 @@ def numbered(angles: Angles) -> list[int]:
     one, other = one[near], other[near]
     span = Span(lo[one], np.maximum(hi[one], hi[other]))
     monotone = (span.signs(rows[one], 1) != 0) & (span.signs(rows[other], 1) != 0)
+    divisors: dict[Any, fmpz_poly] = {}
     for i, j in zip(one[monotone].tolist(), other[monotone].tolist(), strict=True):
-        if number[i] != number[j]:
-            divisor = fmpz_poly(rows[i].tolist()).gcd(fmpz_poly(rows[j].tolist()))
-            common = [int(c) for c in divisor.coeffs()]
+        both = poly[i], poly[j]
+        if both not in divisors:
+            divisors[both] = fmpz_poly(rows[i].tolist()).gcd(fmpz_poly(rows[j].tolist()))
+        if number[i] != number[j] and divisors[both].degree() > 0:
+            common = [int(c) for c in divisors[both].coeffs()]
             if sign(common, Fraction(lo[i])) * sign(common, Fraction(max(hi[i], hi[j]))) < 0:
                 number[number == number[j]] = number[i]
     result: list[int] = np.where(ends != 0, -1 - (chart == (ends < 0)), number).tolist()  # the charts share their ends

@@ -178,16 +178,29 @@ class Columns:
         if not len(some):
             return signs
         poly, span, start, stop = poly[some], span.some(some), start[some], stop[some]
-        first, last = signs_at(poly, angles.below[start]), signs_at(poly, angles.above[stop])
-        slope, bend = (span.signs_of([term[some] for term in taylor], order) for order in (1, 2))
+        terms = [term[some] for term in taylor]
+        slope, bend = (span.signs_of(terms, order) for order in (1, 2))
+        first, last = (
+            self._signs_at_ends(poly, span, terms, at, ends, inside=inside)
+            for at, ends in ((start, angles.below), (stop, angles.above))
+        )
         if inside:
-            rows = primitive(poly)
-            first[angles.is_root(rows, start)] = last[angles.is_root(rows, stop)] = 0
             of_monotone = np.where(first == 0, last, np.where((last == 0) | (last == first), first, 0))
             is_beyond = (bend * first <= 0) & (bend * last <= 0)
         else:
             of_monotone, is_beyond = np.where(first == last, first, 0), (bend * first < 0) & (bend * last < 0)
         signs[some] = np.where(slope != 0, of_monotone, np.where(is_beyond, -bend, 0))
+        return signs
+
+    def _signs_at_ends(
+        self, poly: Rows, span: Span, taylor: Sequence[Floats], angles: Ints, ends: Rows, *, inside: bool
+    ) -> Ints:
+        """Signs at the outer ends of angles; 0 of those with a root at the angle, if only what is inside counts."""
+        signs = span.signs_near(taylor, ends[angles])
+        doubtful = np.flatnonzero(signs == 0)
+        if inside:
+            doubtful = doubtful[~self.angles.is_root(poly[doubtful], angles[doubtful])]
+        signs[doubtful] = signs_at(poly[doubtful], ends[angles[doubtful]])
         return signs
 
 
@@ -272,10 +285,13 @@ class Angles:
             its[some[inside]] = [Fraction(x, one) for x in ends[inside].tolist()]
 
     def is_root(self, poly: Rows, angles: Ints) -> Mask:
-        """True if primitive polynomials vanish at angles, for certain."""
-        ends = self.ends[angles]
+        """True if polynomials other than 0 vanish at angles, for certain: they are multiples of those of the angles."""
+        ends, rows = self.ends[angles], self.rows[angles]
         at_end = np.where(ends == 1, values_at(poly, 1), values_at(poly, -1)) == 0
-        vanishes: Mask = np.where(ends != 0, at_end, (poly == self.rows[angles]).all(axis=1)).astype(bool)
+        top = DEGREE - (rows != 0)[:, ::-1].argmax(axis=1)
+        poly, each = without_factor(poly), np.arange(len(rows))
+        is_multiple = (poly * rows[each, top, None] == rows * poly[each, top, None]).all(axis=1) & rows.any(axis=1)
+        vanishes: Mask = np.where(ends != 0, at_end, is_multiple).astype(bool)
         return vanishes
 
 
@@ -317,6 +333,13 @@ class Span:
         for term in reversed(terms[1:]):
             rest = (rest + abs(term)) * self._radius
         return np.where(abs(terms[0]) > rest + ERROR, np.sign(terms[0]), 0).astype(np.int64)
+
+    def signs_near(self, taylor: Sequence[Floats], places: Rows) -> Ints:
+        """Signs at places in the intervals; 0 if it is not certain that there is one."""
+        offset, value = places.astype(float) - self._middle, np.zeros(len(places))
+        for term in reversed(taylor):
+            value = value * offset + term
+        return np.where(abs(value) > ERROR, np.sign(value), 0).astype(np.int64)
 
     def taylor(self, poly: Rows) -> list[Floats]:
         """Coefficients at the middle."""
@@ -360,11 +383,7 @@ def times(p: Rows, q: Rows) -> Rows:
 
 def primitive(poly: Rows) -> Rows:
     """Polynomials of degree 4 at most without common divisors, and without the factor 1 + tau^2."""
-    rows = np.zeros((len(poly), DEGREE + 1), object)
-    rows[:, : poly.shape[1]] = poly
-    a, b, c, d, e = rows.T
-    whole = (a + e == c) & (b == d)
-    rows[whole] = np.stack([a, b, e, 0 * a, 0 * a], axis=1)[whole]
+    rows = without_factor(poly)
     lead = np.zeros(len(rows), object)
     for column in rows.T:
         lead = np.where(column != 0, column, lead)
@@ -372,6 +391,16 @@ def primitive(poly: Rows) -> Rows:
     divisor[divisor == 0] = 1
     result: Rows = rows // divisor[:, None]
     return result
+
+
+def without_factor(poly: Rows) -> Rows:
+    """Polynomials of degree 4 at most without the factor 1 + tau^2, in five columns."""
+    rows = np.zeros((len(poly), DEGREE + 1), object)
+    rows[:, : poly.shape[1]] = poly
+    a, b, c, d, e = rows.T
+    whole = (a + e == c) & (b == d)
+    rows[whole] = np.stack([a, b, e, 0 * a, 0 * a], axis=1)[whole]
+    return rows
 
 
 def values_at(poly: Rows, tau: int) -> Rows:
