@@ -18,7 +18,7 @@ from answers import separations
 from cfree import FormatError, Scene, Separated
 from cfree.exact.algebraic import roots, sign
 from cfree.verify.closing import numbered
-from cfree.verify.columns import Columns, Span, primitive, signs_at
+from cfree.verify.columns import Angles, Columns, Span, primitive, signs_at
 from cfree.verify.polygons import Ring, tile
 from cfree.verify.separation import _reader, separation_findings
 from cfree.verify.trapezoids import Reader
@@ -95,6 +95,10 @@ def test_signs_on_intervals_are_exact() -> None:
         lo, hi = sorted(float(x) for x in rng.sample(near, 2))
         here = np.array([lo])
         assert signs_at(row, here) == sign(row[0].tolist(), Fraction(lo))
+        span = Span(here, np.array([hi]))
+        for place in (lo, hi, Fraction(lo) + Fraction(rng.randrange(9), 2**150)):
+            (claimed,) = span.signs_near(span.taylor(row), np.array([place], object)).tolist()
+            assert claimed in (0, sign(row[0].tolist(), Fraction(place)))
         for order in (0, 1, 2):
             (claimed,) = Span(here, np.array([hi])).signs(row, order).tolist()
             if claimed:
@@ -107,6 +111,16 @@ def test_primitive_polynomials_of_one_root_are_equal() -> None:
     rows = np.array([[2, 3, 3, 3, 1], [-4, -6, -2, 0, 0], [0, 0, 0, 0, 0]], object)
     assert primitive(rows).tolist() == [[2, 3, 1, 0, 0], [2, 3, 1, 0, 0], [0] * 5]
     assert primitive(rows[1:2, :3]).tolist() == [[2, 3, 1, 0, 0]]
+
+
+def test_multiples_of_the_polynomial_of_an_angle_vanish_there() -> None:
+    angles = Angles.__new__(Angles)
+    angles.rows = np.array([[2, 3, 1, 0, 0], [2, 3, 1, 0, 0], [-1, 1, 0, 0, 0], [0] * 5], object)
+    angles.ends = np.array([0, 0, 1, 0])
+    multiples = np.array([[2, 3, 3, 3, 1], [-4, -6, -2, 0, 0], [5, 0, -5, 0, 0], [1, 0, 0, 0, 0]], object)
+    assert angles.is_root(multiples, np.arange(4)).tolist() == [True, True, True, False]
+    others = np.array([[2, 3, 3, 3, 2], [2, 3, 2, 0, 0], [5, 0, 5, 0, 0], [0, 1, 0, 0, 0]], object)
+    assert not angles.is_root(others, np.arange(4)).any()
 
 
 def test_pieces_that_overlap_or_leave_something_out_do_not_tile() -> None:
