@@ -42,11 +42,12 @@ public:
     // Candidates for poses at which two or more holders meet.
     Poses candidates() const;
 
-    // Encounters at vertices that bound several cells, or are on faces of another, or near ends of isolated parts. With slits, the
-    // same of surfaces: every face is on one, and a path leads along it.
+    // Encounters at vertices that bound several cells, or are on faces of another, or near ends of isolated parts. If there are
+    // slits, surfaces take the place of cells: each face is on one.
     const std::vector<Encounter>& encounters() const { return met; }
-    // Walker on what meets: on cells, or on surfaces with slits if there are any; and the holder of a face there.
+    // Walker along the faces of encounters: on surfaces if there are slits, else on cells.
     const BoundaryWalker& on_faces() const { return slits ? *slits : *walker; }
+    // Cell or surface with a face of an encounter.
     Holder holder_of(Index face) const { return {slits ? Holder::Of::surface : Holder::Of::cell, on_faces().cell_at(face)}; }
 
     const std::shared_ptr<const BoundaryWalker> walker;
