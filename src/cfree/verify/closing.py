@@ -100,10 +100,12 @@ def numbered(angles: Angles) -> list[int]:
     monotone = (span.signs(rows[one], 1) != 0) & (span.signs(rows[other], 1) != 0)
     divisors: dict[Any, fmpz_poly] = {}
     for i, j in zip(one[monotone].tolist(), other[monotone].tolist(), strict=True):
+        if number[i] == number[j]:
+            continue
         both = poly[i], poly[j]
         if both not in divisors:
             divisors[both] = fmpz_poly(rows[i].tolist()).gcd(fmpz_poly(rows[j].tolist()))
-        if number[i] != number[j] and divisors[both].degree() > 0:
+        if divisors[both].degree() > 0:
             common = [int(c) for c in divisors[both].coeffs()]
             if sign(common, Fraction(lo[i])) * sign(common, Fraction(max(hi[i], hi[j]))) < 0:
                 number[number == number[j]] = number[i]
