@@ -28,6 +28,12 @@ struct Octagon {
             if (o.high[i] < low[i] || high[i] < o.low[i]) return false;
         return true;
     }
+    bool has_inside(double x, double y) const {
+        return low[0] < x && x < high[0] && low[1] < y && y < high[1] && low[2] < x + y && x + y < high[2] && low[3] < x - y && x - y < high[3];
+    }
+    Octagon shifted(double x, double y) const {
+        return {{low[0] + x, low[1] + y, low[2] + (x + y), low[3] + (x - y)}, {high[0] + x, high[1] + y, high[2] + (x + y), high[3] + (x - y)}};
+    }
     // A disc.
     void add(double x, double y, double radius) {
         constexpr double root_of_two = 1.4375;  // a little more than it

@@ -268,47 +268,70 @@ bool Shadows::recent_cover(const Feature& contact, int from, int to) {
     return false;
 }
 
-// Try the pieces whose boxes meet in the middle of the line at the middle of a slice: all that may cover it.
+// Try the pieces whose octagons meet at both ends of the line in the middle of a slice: all that may cover it. A vertex that
+// stays inside the other piece is then inside its octagon.
 bool Shadows::covers_slice(const Feature& contact, int s) {
     const Shape& A = scene.robot;
     const bool on_edge = contact.kind == Kind::vertex_edge;
-    const Index a = on_edge ? contact.robot : A.v[contact.robot];
+    const Index a = on_edge ? contact.robot : A.v[contact.robot], b = on_edge ? a : A.w[contact.robot];
     const double tau = (slices.at[s] + slices.at[s + 1]) / 2;
     const Vec<double> R = slices.corner(tau, tau);
+    const Arc arc = arc_of(s);
     const auto turned = [&](Index v) {
         const Vec<double> d = place_of(A, v) - place_of(A, a);
         return Vec<double>{R.x * d.x - R.y * d.y, R.x * d.y + R.y * d.x};
     };
-    const Vec<double> E = on_edge ? edge_of(scene.obstacles, contact.obstacle) : turned(A.w[contact.robot]);
-    const double x = (on_edge ? 0.5 : -0.5) * E.x, y = (on_edge ? 0.5 : -0.5) * E.y;
+    const Vec<double> e = on_edge ? edge_of(scene.obstacles, contact.obstacle) : Vec<double>{0, 0}, far = on_edge ? e : -turned(b);
+    const struct {
+        Index a;
+        Vec<double> at, shift;  // of the helix, and of the robot relative to the obstacles
+    } ends[] = {{a, {0, 0}, {0, 0}}, {b, e, far}};
     for (Index p = 0; p < A.pieces(); ++p) {
-        Octagon around;
+        Octagon around[2];
+        robot_turned.clear();
         for (Index n = A.piece[p]; n < A.piece[p + 1]; ++n) {
-            const Vec<double> v = turned(A.piece_vertex[n]);
-            around.add(v.x + x, v.y + y);
+            const Vec<double>& v = robot_turned.emplace_back(turned(A.piece_vertex[n]));
+            around[0].add(v.x, v.y);
         }
+        around[1] = around[0].shifted(far.x, far.y);
         for (Index place = 0; place < obstacles.count(); ++place) {
-            if (A.piece_layer[p] != scene.obstacles.piece_layer[near[place]] || !around.meets(placed[place])) continue;
-            if (covers_and_is_kept(contact, {p, place}, s, s + 1)) return true;
+            if (A.piece_layer[p] != scene.obstacles.piece_layer[near[place]]) continue;
+            if (!around[0].meets(placed[place]) || !around[1].meets(placed[place])) continue;
+            Overlap pieces{p, place};
+            const auto covers_end = [&](int end) {
+                pieces.witness = 0;
+                for (const Vec<double>& v : robot_turned) {
+                    if (placed[place].has_inside(v.x + ends[end].shift.x, v.y + ends[end].shift.y) && stays_inside(pieces, ends[end].a, ends[end].at, arc)) return true;
+                    ++pieces.witness;
+                }
+                for (Index k = obstacles.start[place]; k < obstacles.start[place + 1]; ++k, ++pieces.witness)
+                    if (around[end].has_inside(obstacles.seen[k].x, obstacles.seen[k].y) && stays_inside(pieces, ends[end].a, ends[end].at, arc)) return true;
+                return false;
+            };
+            if (!covers_end(0) || !covers_end(1)) continue;
+            keep(pieces);
+            return true;
         }
     }
     return false;
 }
 
-// True if a pillar certainly covers some slices of a patch; it is tried first for the next ones.
-bool Shadows::covers_and_is_kept(const Feature& contact, Overlap pieces, int from, int to) {
-    if (!covers(contact, pieces, from, to, true)) return false;
+// Try these pieces first for the next patches.
+void Shadows::keep(const Overlap& pieces) {
     if (recent.size() == most_recent) recent.pop_back();
     recent.insert(recent.begin(), pieces);
-    return true;
 }
 
 bool Shadows::cover_all(const Feature& contact) {
+    if (scene.robot.pieces() >= many_pieces) return false;  // see cover_at_once
     const double most = (1 - 0x1p-20) * slices.count * length;
     const bool on_edge = contact.kind == Kind::vertex_edge;
     for (const Pillar& x : pillars) {
         if (x.cover < most) return false;
-        if (covers_and_is_kept(contact, {x.p, on_edge ? x.still : x.turning}, 0, slices.count)) return true;
+        Overlap pieces{x.p, on_edge ? x.still : x.turning};
+        if (!covers(contact, pieces, 0, slices.count, true)) continue;
+        keep(pieces);
+        return true;
     }
     return false;
 }
@@ -325,21 +348,37 @@ bool Shadows::covers(const Feature& contact, Overlap& pieces, int from, int to, 
 }
 
 // True if the pieces overlap in some slices all the way along the helix of robot vertex a at a point of the obstacles, relative
-// to the patch's: in each slice a vertex of one stays inside the other. Its arc is in the triangle of its control points.
+// to the patch's: in each slice a vertex of one stays inside the other.
 bool Shadows::covers_helix(Overlap& pieces, Index a, const Vec<double>& at, int from, int to, bool anew) const {
+    const Shape& A = scene.robot;
+    const Index count = A.piece[pieces.p + 1] - A.piece[pieces.p] + obstacles.start[pieces.place + 1] - obstacles.start[pieces.place];
+    for (int s = from; s < to; ++s) {
+        const Arc arc = arc_of(s);
+        const Index most = anew || s > from ? count : 1;
+        Index tried = 0;
+        for (; tried < most && !stays_inside(pieces, a, at, arc); ++tried) pieces.witness = pieces.witness + 1 == count ? 0 : pieces.witness + 1;
+        if (tried == most) return false;
+    }
+    return true;
+}
+
+Shadows::Arc Shadows::arc_of(int s) const {
+    const double lo = slices.at[s], hi = slices.at[s + 1];
+    return {slices.corner(lo, hi), slices.corner(lo, lo), slices.corner(hi, hi)};
+}
+
+// True if the witness stays inside the other piece along the helix in a slice. Its arc is in the triangle of its control points.
+bool Shadows::stays_inside(const Overlap& pieces, Index a, const Vec<double>& at, const Arc& arc) const {
     const Shape& A = scene.robot;
     const Vec<double>* ring = obstacles.seen.data() + obstacles.start[pieces.place];
     const Index first = A.piece[pieces.p], robot_count = A.piece[pieces.p + 1] - first;
-    const Index ring_count = obstacles.start[pieces.place + 1] - obstacles.start[pieces.place], count = robot_count + ring_count;
+    const Index ring_count = obstacles.start[pieces.place + 1] - obstacles.start[pieces.place];
     const auto of_ring = [&](Index k) { return ring[k]; };
     const auto of_robot = [&](Index k) { return place_of(A, A.piece_vertex[first + k]) - place_of(A, a); };
     // Let relative coordinates of the robot be at most m, of obstacles at most M, as above: control points, at most 2.2 m from
     // `at`, are within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The other
     // case is alike.
     const double m = robot_size, M = obstacles.size, margin = 0x1p-43 * (m + M) * (m + M) + 0x1p-900;
-    const auto is_in_box = [](const Octagon& around, const Vec<double>& p) {
-        return around.low[0] < p.x && p.x < around.high[0] && around.low[1] < p.y && p.y < around.high[1];
-    };
     const auto is_within = [&](const auto& vertex, Index size, Index step, const Vec<double>& p) {  // every so many vertices
         Vec<double> v = vertex(0);
         for (Index k = step; size > 2; k += step) {
@@ -353,25 +392,14 @@ bool Shadows::covers_helix(Overlap& pieces, Index a, const Vec<double>& at, int 
     const auto is_inside = [&](const auto& vertex, Index size, const Vec<double>& p) {
         return (size > few && is_within(vertex, size, size / corners_tried, p)) || is_within(vertex, size, 1, p);
     };
-    for (int s = from; s < to; ++s) {
-        const double lo = slices.at[s], hi = slices.at[s + 1];
-        const Vec<double> rotations[] = {slices.corner(lo, hi), slices.corner(lo, lo), slices.corner(hi, hi)};
-        const auto stays = [&](Index k) {
-            return std::all_of(rotations, rotations + 3, [&](const Vec<double>& R) {
-                if (k < robot_count) {
-                    const Vec<double> d = of_robot(k), p{R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y};
-                    return is_in_box(placed[pieces.place], p) && is_inside(of_ring, ring_count, p);
-                }
-                const Vec<double> d = of_ring(k - robot_count) - at, p{R.x * d.x + R.y * d.y, R.x * d.y - R.y * d.x};
-                return is_in_box(around_robot[pieces.p], {p.x + place_of(A, a).x, p.y + place_of(A, a).y}) && is_inside(of_robot, robot_count, p);
-            });
-        };
-        const Index most = anew || s > from ? count : 1;
-        Index tried = 0;
-        for (; tried < most && !stays(pieces.witness); ++tried) pieces.witness = pieces.witness + 1 == count ? 0 : pieces.witness + 1;
-        if (tried == most) return false;
-    }
-    return true;
+    return std::all_of(arc.begin(), arc.end(), [&](const Vec<double>& R) {
+        if (pieces.witness < robot_count) {
+            const Vec<double> d = of_robot(pieces.witness), p{R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y};
+            return placed[pieces.place].has_inside(p.x, p.y) && is_inside(of_ring, ring_count, p);
+        }
+        const Vec<double> d = of_ring(pieces.witness - robot_count) - at, p{R.x * d.x + R.y * d.y, R.x * d.y - R.y * d.x};
+        return around_robot[pieces.p].has_inside(p.x + place_of(A, a).x, p.y + place_of(A, a).y) && is_inside(of_robot, robot_count, p);
+    });
 }
 
 Slices::Part Shadows::part(const Pillar& pillar) const {

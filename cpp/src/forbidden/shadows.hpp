@@ -69,6 +69,7 @@ private:
         Index p, place;
         Index witness = 0;
     };
+    using Arc = std::array<Vec<double>, 3>;  // control points of the rotations of a slice, the middle one first
     void look(const Shape& shape, Index origin, Index piece, Side& side) const;
     void look_at_robot(Index origin, Side& side) const;
     void stand(const Shape& shape, Index edge, bool of_robot, Standing& out) const;
@@ -76,9 +77,11 @@ private:
     void turn_to(double x, double y, double sign, std::vector<Octagon>& out) const;
     bool recent_cover(const Feature& contact, int from, int to);
     bool covers_slice(const Feature& contact, int slice);
-    bool covers_and_is_kept(const Feature& contact, Overlap pieces, int from, int to);
+    void keep(const Overlap& pieces);
     bool covers(const Feature& contact, Overlap& pieces, int from, int to, bool anew) const;
     bool covers_helix(Overlap& pieces, Index robot_vertex, const Vec<double>& at, int from, int to, bool anew) const;
+    Arc arc_of(int slice) const;
+    bool stays_inside(const Overlap& pieces, Index robot_vertex, const Vec<double>& at, const Arc& arc) const;
     bool may_pinch(Index turning_piece, Index still_piece, double slack) const;
     Range range_of(int slice, Index turning_piece, Index still_piece) const;
     void add_pillars(Index turning_piece, const Feature& contact, double slack);
@@ -94,6 +97,7 @@ private:
     const Side* turning = nullptr;         // turning side of the patch
     const Standing* still = nullptr;
     std::vector<double> along, across, radius;  // turning vertices
+    std::vector<Vec<double>> robot_turned;      // scratch: vertices of a piece in the middle of a slice
     std::vector<Octagon> turned;                // one per slice and piece, rounded outwards
     std::vector<Octagon> corners[2];            // scratch: octagons at the angles between two slices
     double rounded_size = 0;                    // twice the largest coordinate of the robot, if one of them is rounded
