@@ -99,17 +99,17 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
     const std::size_t before = out.size();
     for (int r = 0; r < range.count; ++r) {
         const Surface surface{contact, range.chart[r]};
-        const double lo = range.from[r].lo, hi = range.to[r].hi;
-        if (near.cover_at_once(surface, lo, hi)) {
+        Event from = range.from[r], to = range.to[r];
+        if (near.cover_at_once(surface, from, to)) {
             ++count.pairs;
             continue;
         }
-        const auto& pillars = near.on(surface, lo, hi);
+        const auto& pillars = near.on(surface, from.lo, to.hi);
         if (near.cover_all(contact)) {
             ++count.pairs;
             continue;
         }
-        Trimmer trimmer(scene, surface, range.from[r], range.to[r]);
+        Trimmer trimmer(scene, surface, from, to);
         for (const Feature& owner : before_it) {
             const Range shared = range_of(scene, owner, count.decisions);
             for (int s = 0; s < shared.count; ++s)

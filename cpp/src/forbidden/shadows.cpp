@@ -251,12 +251,18 @@ void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
     }
 }
 
-bool Shadows::cover_at_once(const Surface& surface, double lo, double hi) {
-    slices.cut(lo, hi, surface.chart);
+bool Shadows::cover_at_once(const Surface& surface, Event& from, Event& to) {
+    slices.cut(from.lo, to.hi, surface.chart);
     if (scene.robot.pieces() < many_pieces) return recent_cover(surface.contact, 0, slices.count);
-    for (int s = 0; s < slices.count; ++s)
-        if (!recent_cover(surface.contact, s, s + 1) && !covers_slice(surface.contact, s)) return false;
-    return true;
+    const auto is_covered = [&](int s) { return recent_cover(surface.contact, s, s + 1) || covers_slice(surface.contact, s); };
+    int first = 0, last = slices.count - 1;
+    while (first <= last && is_covered(first)) ++first;
+    if (first > last) return true;
+    while (last > first && is_covered(last)) --last;
+    const auto at = [&](int s) { return Event{{}, {}, slices.at[s], slices.at[s]}; };
+    if (first > 0) from = at(first);
+    if (last + 1 < slices.count) to = at(last + 1);
+    return false;
 }
 
 bool Shadows::recent_cover(const Feature& contact, int from, int to) {
@@ -323,7 +329,7 @@ void Shadows::keep(const Overlap& pieces) {
 }
 
 bool Shadows::cover_all(const Feature& contact) {
-    if (scene.robot.pieces() >= many_pieces) return false;  // see cover_at_once
+    if (scene.robot.pieces() >= many_pieces) return false;  // cover_at_once would have found it
     const double most = (1 - 0x1p-20) * slices.count * length;
     const bool on_edge = contact.kind == Kind::vertex_edge;
     for (const Pillar& x : pillars) {

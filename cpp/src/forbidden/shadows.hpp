@@ -32,8 +32,9 @@ public:
         double cover;          // approximate share of the patch
     };
     // True if pillars certainly cover all of a patch between two angles of a chart, its rim included, and this costs little to
-    // see: one that covered all of a patch not long ago, or, among many pieces of the robot, one for each slice.
-    bool cover_at_once(const Surface& surface, double lo, double hi);
+    // see: one that covered all of a patch not long ago, or, among many pieces of the robot, one for each slice. Else the
+    // first and the last slices that are covered so are cut off.
+    bool cover_at_once(const Surface& surface, Event& from, Event& to);
     // Pillars that may cover some of a patch between two angles of a chart, in the best order for subtraction.
     const std::vector<Pillar>& on(const Surface& surface, double lo, double hi);
     // Slices of that patch; Trimmer::left sets the live range in them.
