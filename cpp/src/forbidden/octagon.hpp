@@ -28,11 +28,17 @@ struct Octagon {
             if (o.high[i] < low[i] || high[i] < o.low[i]) return false;
         return true;
     }
-    bool has_inside(double x, double y) const {
-        return low[0] < x && x < high[0] && low[1] < y && y < high[1] && low[2] < x + y && x + y < high[2] && low[3] < x - y && x - y < high[3];
+    bool has_inside(const Vec<double>& p) const {
+        const double value[4] = {p.x, p.y, p.x + p.y, p.x - p.y};
+        for (int i = 0; i < 4; ++i)
+            if (!(low[i] < value[i] && value[i] < high[i])) return false;
+        return true;
     }
-    Octagon shifted(double x, double y) const {
-        return {{low[0] + x, low[1] + y, low[2] + (x + y), low[3] + (x - y)}, {high[0] + x, high[1] + y, high[2] + (x + y), high[3] + (x - y)}};
+    Octagon shifted(const Vec<double>& d) const {
+        const double value[4] = {d.x, d.y, d.x + d.y, d.x - d.y};
+        Octagon result;
+        for (int i = 0; i < 4; ++i) result.low[i] = low[i] + value[i], result.high[i] = high[i] + value[i];
+        return result;
     }
     // A disc.
     void add(double x, double y, double radius) {

@@ -105,10 +105,6 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
             continue;
         }
         const auto& pillars = near.on(surface, from.lo, to.hi);
-        if (near.cover_all(contact)) {
-            ++count.pairs;
-            continue;
-        }
         Trimmer trimmer(scene, surface, from, to);
         for (const Feature& owner : before_it) {
             const Range shared = range_of(scene, owner, count.decisions);

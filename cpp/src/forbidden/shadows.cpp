@@ -13,7 +13,6 @@ namespace cfree {
 namespace {
 
 constexpr std::size_t most_recent = 8;        // pillars that are tried again
-constexpr Index many_pieces = 8;              // of a robot for which it pays to look at one pose of each slice first
 constexpr Index few = 12, corners_tried = 8;  // vertices of a polygon; about so many of a larger one are tried first
 
 // Clip a convex polygon to |x|, |y| <= `reach`.
@@ -253,8 +252,8 @@ void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
 
 bool Shadows::cover_at_once(const Surface& surface, Event& from, Event& to) {
     slices.cut(from.lo, to.hi, surface.chart);
-    if (scene.robot.pieces() < many_pieces) return recent_cover(surface.contact, 0, slices.count);
-    const auto is_covered = [&](int s) { return recent_cover(surface.contact, s, s + 1) || covers_slice(surface.contact, s); };
+    const std::array<Helix, 2> ends = ends_of(surface.contact);
+    const auto is_covered = [&](int s) { return recent_cover(ends, s) || covers_slice(ends, s); };
     int first = 0, last = slices.count - 1;
     while (first <= last && is_covered(first)) ++first;
     if (first > last) return true;
@@ -265,107 +264,62 @@ bool Shadows::cover_at_once(const Surface& surface, Event& from, Event& to) {
     return false;
 }
 
-bool Shadows::recent_cover(const Feature& contact, int from, int to) {
-    for (auto it = recent.begin(); it != recent.end(); ++it) {
-        if (!covers(contact, *it, from, to, false)) continue;
-        std::rotate(recent.begin(), it, it + 1);
-        return true;
-    }
-    return false;
+std::array<Shadows::Helix, 2> Shadows::ends_of(const Feature& contact) const {
+    const Index i = contact.robot;
+    if (contact.kind == Kind::vertex_edge) return {{{i, {0, 0}}, {i, edge_of(scene.obstacles, contact.obstacle)}}};
+    return {{{scene.robot.v[i], {0, 0}}, {scene.robot.w[i], {0, 0}}}};
 }
 
-// Try the pieces whose octagons meet at both ends of the line in the middle of a slice: all that may cover it. A vertex that
-// stays inside the other piece is then inside its octagon.
-bool Shadows::covers_slice(const Feature& contact, int s) {
+bool Shadows::recent_cover(const std::array<Helix, 2>& ends, int s) {
+    const Arc arc = arc_of(s);
+    const auto covers = [&](const Overlap& x) { return stays_inside(x, x.witness[0], ends[0], arc) && stays_inside(x, x.witness[1], ends[1], arc); };
+    const auto found = std::find_if(recent.begin(), recent.end(), covers);
+    if (found == recent.end()) return false;
+    std::rotate(recent.begin(), found, found + 1);
+    return true;
+}
+
+// Try the pieces whose octagons meet at both ends of the line in the middle of a slice: all that may cover it. At each angle a
+// pillar is convex: it is enough that it covers both ends. A vertex that stays inside the other piece is in its octagon then.
+bool Shadows::covers_slice(const std::array<Helix, 2>& ends, int s) {
     const Shape& A = scene.robot;
-    const bool on_edge = contact.kind == Kind::vertex_edge;
-    const Index a = on_edge ? contact.robot : A.v[contact.robot], b = on_edge ? a : A.w[contact.robot];
+    const Arc arc = arc_of(s);
     const double tau = (slices.at[s] + slices.at[s + 1]) / 2;
     const Vec<double> R = slices.corner(tau, tau);
-    const Arc arc = arc_of(s);
     const auto turned = [&](Index v) {
-        const Vec<double> d = place_of(A, v) - place_of(A, a);
+        const Vec<double> d = place_of(A, v) - place_of(A, ends[0].a);
         return Vec<double>{R.x * d.x - R.y * d.y, R.x * d.y + R.y * d.x};
     };
-    const Vec<double> e = on_edge ? edge_of(scene.obstacles, contact.obstacle) : Vec<double>{0, 0}, far = on_edge ? e : -turned(b);
-    const struct {
-        Index a;
-        Vec<double> at, shift;  // of the helix, and of the robot relative to the obstacles
-    } ends[] = {{a, {0, 0}, {0, 0}}, {b, e, far}};
+    const Vec<double> shift[] = {{0, 0}, ends[1].at - turned(ends[1].a)};
     for (Index p = 0; p < A.pieces(); ++p) {
         Octagon around[2];
-        robot_turned.clear();
+        seen.clear();
         for (Index n = A.piece[p]; n < A.piece[p + 1]; ++n) {
-            const Vec<double>& v = robot_turned.emplace_back(turned(A.piece_vertex[n]));
-            around[0].add(v.x, v.y);
+            seen.push_back(turned(A.piece_vertex[n]));
+            around[0].add(seen.back().x, seen.back().y);
         }
-        around[1] = around[0].shifted(far.x, far.y);
+        around[1] = around[0].shifted(shift[1]);
         for (Index place = 0; place < obstacles.count(); ++place) {
             if (A.piece_layer[p] != scene.obstacles.piece_layer[near[place]]) continue;
             if (!around[0].meets(placed[place]) || !around[1].meets(placed[place])) continue;
             Overlap pieces{p, place};
-            const auto covers_end = [&](int end) {
-                pieces.witness = 0;
-                for (const Vec<double>& v : robot_turned) {
-                    if (placed[place].has_inside(v.x + ends[end].shift.x, v.y + ends[end].shift.y) && stays_inside(pieces, ends[end].a, ends[end].at, arc)) return true;
-                    ++pieces.witness;
+            const auto has_witness = [&](int end) {
+                Index& k = pieces.witness[end] = 0;
+                for (const Vec<double>& v : seen) {
+                    if (placed[place].has_inside(v + shift[end]) && stays_inside(pieces, k, ends[end], arc)) return true;
+                    ++k;
                 }
-                for (Index k = obstacles.start[place]; k < obstacles.start[place + 1]; ++k, ++pieces.witness)
-                    if (around[end].has_inside(obstacles.seen[k].x, obstacles.seen[k].y) && stays_inside(pieces, ends[end].a, ends[end].at, arc)) return true;
+                for (Index n = obstacles.start[place]; n < obstacles.start[place + 1]; ++n, ++k)
+                    if (around[end].has_inside(obstacles.seen[n]) && stays_inside(pieces, k, ends[end], arc)) return true;
                 return false;
             };
-            if (!covers_end(0) || !covers_end(1)) continue;
-            keep(pieces);
+            if (!has_witness(0) || !has_witness(1)) continue;
+            if (recent.size() == most_recent) recent.pop_back();
+            recent.insert(recent.begin(), pieces);
             return true;
         }
     }
     return false;
-}
-
-// Try these pieces first for the next patches.
-void Shadows::keep(const Overlap& pieces) {
-    if (recent.size() == most_recent) recent.pop_back();
-    recent.insert(recent.begin(), pieces);
-}
-
-bool Shadows::cover_all(const Feature& contact) {
-    if (scene.robot.pieces() >= many_pieces) return false;  // cover_at_once would have found it
-    const double most = (1 - 0x1p-20) * slices.count * length;
-    const bool on_edge = contact.kind == Kind::vertex_edge;
-    for (const Pillar& x : pillars) {
-        if (x.cover < most) return false;
-        Overlap pieces{x.p, on_edge ? x.still : x.turning};
-        if (!covers(contact, pieces, 0, slices.count, true)) continue;
-        keep(pieces);
-        return true;
-    }
-    return false;
-}
-
-// True if a pillar certainly covers some slices of a patch. At each angle it is convex: it is enough that it covers the helices
-// at both ends of the line. If `anew` is false, only the witness is tried in the first slice.
-bool Shadows::covers(const Feature& contact, Overlap& pieces, int from, int to, bool anew) const {
-    const Shape& A = scene.robot;
-    const bool on_edge = contact.kind == Kind::vertex_edge;
-    const Index i = contact.robot;
-    const Vec<double> end = on_edge ? edge_of(scene.obstacles, contact.obstacle) : Vec<double>{0, 0};
-    return covers_helix(pieces, on_edge ? i : A.v[i], {0, 0}, from, to, anew) &&
-           covers_helix(pieces, on_edge ? i : A.w[i], end, from, to, anew);
-}
-
-// True if the pieces overlap in some slices all the way along the helix of robot vertex a at a point of the obstacles, relative
-// to the patch's: in each slice a vertex of one stays inside the other.
-bool Shadows::covers_helix(Overlap& pieces, Index a, const Vec<double>& at, int from, int to, bool anew) const {
-    const Shape& A = scene.robot;
-    const Index count = A.piece[pieces.p + 1] - A.piece[pieces.p] + obstacles.start[pieces.place + 1] - obstacles.start[pieces.place];
-    for (int s = from; s < to; ++s) {
-        const Arc arc = arc_of(s);
-        const Index most = anew || s > from ? count : 1;
-        Index tried = 0;
-        for (; tried < most && !stays_inside(pieces, a, at, arc); ++tried) pieces.witness = pieces.witness + 1 == count ? 0 : pieces.witness + 1;
-        if (tried == most) return false;
-    }
-    return true;
 }
 
 Shadows::Arc Shadows::arc_of(int s) const {
@@ -373,17 +327,19 @@ Shadows::Arc Shadows::arc_of(int s) const {
     return {slices.corner(lo, hi), slices.corner(lo, lo), slices.corner(hi, hi)};
 }
 
-// True if the witness stays inside the other piece along the helix in a slice. Its arc is in the triangle of its control points.
-bool Shadows::stays_inside(const Overlap& pieces, Index a, const Vec<double>& at, const Arc& arc) const {
+// True if a vertex of one piece stays inside the other along a helix in a slice: its arc is in the triangle of its control
+// points.
+bool Shadows::stays_inside(const Overlap& pieces, Index witness, const Helix& helix, const Arc& arc) const {
     const Shape& A = scene.robot;
     const Vec<double>* ring = obstacles.seen.data() + obstacles.start[pieces.place];
+    const Vec<double> a = place_of(A, helix.a);
     const Index first = A.piece[pieces.p], robot_count = A.piece[pieces.p + 1] - first;
     const Index ring_count = obstacles.start[pieces.place + 1] - obstacles.start[pieces.place];
     const auto of_ring = [&](Index k) { return ring[k]; };
-    const auto of_robot = [&](Index k) { return place_of(A, A.piece_vertex[first + k]) - place_of(A, a); };
+    const auto of_robot = [&](Index k) { return place_of(A, A.piece_vertex[first + k]) - a; };
     // Let relative coordinates of the robot be at most m, of obstacles at most M, as above: control points, at most 2.2 m from
-    // `at`, are within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The other
-    // case is alike.
+    // the helix, are within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The
+    // other case is alike.
     const double m = robot_size, M = obstacles.size, margin = 0x1p-43 * (m + M) * (m + M) + 0x1p-900;
     const auto is_within = [&](const auto& vertex, Index size, Index step, const Vec<double>& p) {  // every so many vertices
         Vec<double> v = vertex(0);
@@ -399,12 +355,12 @@ bool Shadows::stays_inside(const Overlap& pieces, Index a, const Vec<double>& at
         return (size > few && is_within(vertex, size, size / corners_tried, p)) || is_within(vertex, size, 1, p);
     };
     return std::all_of(arc.begin(), arc.end(), [&](const Vec<double>& R) {
-        if (pieces.witness < robot_count) {
-            const Vec<double> d = of_robot(pieces.witness), p{R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y};
-            return placed[pieces.place].has_inside(p.x, p.y) && is_inside(of_ring, ring_count, p);
+        if (witness < robot_count) {
+            const Vec<double> d = of_robot(witness), p = Vec<double>{R.x * d.x - R.y * d.y, R.x * d.y + R.y * d.x} + helix.at;
+            return placed[pieces.place].has_inside(p) && is_inside(of_ring, ring_count, p);
         }
-        const Vec<double> d = of_ring(pieces.witness - robot_count) - at, p{R.x * d.x + R.y * d.y, R.x * d.y - R.y * d.x};
-        return around_robot[pieces.p].has_inside(p.x + place_of(A, a).x, p.y + place_of(A, a).y) && is_inside(of_robot, robot_count, p);
+        const Vec<double> d = of_ring(witness - robot_count) - helix.at, p{R.x * d.x + R.y * d.y, R.x * d.y - R.y * d.x};
+        return around_robot[pieces.p].has_inside(p + a) && is_inside(of_robot, robot_count, p);
     });
 }
 

@@ -7,6 +7,7 @@
 // the sum of a fixed piece and a turning one. Boxes of both, and boxes half-way between their axes, are computed once per
 // edge, and once per patch for every slice of its range; a pair costs comparisons.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -31,16 +32,13 @@ public:
         std::size_t ranges;    // each slice's range on the line
         double cover;          // approximate share of the patch
     };
-    // True if pillars certainly cover all of a patch between two angles of a chart, its rim included, and this costs little to
-    // see: one that covered all of a patch not long ago, or, among many pieces of the robot, one for each slice. Else the
-    // first and the last slices that are covered so are cut off.
+    // True if pillars certainly cover all of a patch between two angles of a chart, its rim included, one for each slice. Else
+    // the first and the last slices that are covered are cut off.
     bool cover_at_once(const Surface& surface, Event& from, Event& to);
     // Pillars that may cover some of a patch between two angles of a chart, in the best order for subtraction.
     const std::vector<Pillar>& on(const Surface& surface, double lo, double hi);
     // Slices of that patch; Trimmer::left sets the live range in them.
     Slices slices;
-    // True if one of them certainly covers all of the patch, its rim included.
-    bool cover_all(const Feature& contact);
     // Slices in which the pillar may cover something live.
     Slices::Part part(const Pillar& pillar) const;
 
@@ -65,10 +63,15 @@ private:
         std::vector<std::array<double, 2>> parallel;           // place across of its edges along the line; NaN: none
         bool is_known = false, any_parallel = false;
     };
-    // A robot piece and one of the near pieces, by its place, with a vertex of one that has been inside the other.
+    // A robot piece and one of the near pieces, by its place, with a vertex of one that has been inside the other at each end.
     struct Overlap {
         Index p, place;
-        Index witness = 0;
+        Index witness[2] = {0, 0};
+    };
+    // That of robot vertex a at a point of the obstacles, relative to the patch's vertex.
+    struct Helix {
+        Index a;
+        Vec<double> at;
     };
     using Arc = std::array<Vec<double>, 3>;  // control points of the rotations of a slice, the middle one first
     void look(const Shape& shape, Index origin, Index piece, Side& side) const;
@@ -76,13 +79,11 @@ private:
     void stand(const Shape& shape, Index edge, bool of_robot, Standing& out) const;
     void turn(double sign, double slack);
     void turn_to(double x, double y, double sign, std::vector<Octagon>& out) const;
-    bool recent_cover(const Feature& contact, int from, int to);
-    bool covers_slice(const Feature& contact, int slice);
-    void keep(const Overlap& pieces);
-    bool covers(const Feature& contact, Overlap& pieces, int from, int to, bool anew) const;
-    bool covers_helix(Overlap& pieces, Index robot_vertex, const Vec<double>& at, int from, int to, bool anew) const;
+    std::array<Helix, 2> ends_of(const Feature& contact) const;
+    bool recent_cover(const std::array<Helix, 2>& ends, int slice);
+    bool covers_slice(const std::array<Helix, 2>& ends, int slice);
     Arc arc_of(int slice) const;
-    bool stays_inside(const Overlap& pieces, Index robot_vertex, const Vec<double>& at, const Arc& arc) const;
+    bool stays_inside(const Overlap& pieces, Index witness, const Helix& helix, const Arc& arc) const;
     bool may_pinch(Index turning_piece, Index still_piece, double slack) const;
     Range range_of(int slice, Index turning_piece, Index still_piece) const;
     void add_pillars(Index turning_piece, const Feature& contact, double slack);
@@ -98,12 +99,12 @@ private:
     const Side* turning = nullptr;         // turning side of the patch
     const Standing* still = nullptr;
     std::vector<double> along, across, radius;  // turning vertices
-    std::vector<Vec<double>> robot_turned;      // scratch: vertices of a piece in the middle of a slice
+    std::vector<Vec<double>> seen;              // scratch: vertices of a robot piece in the middle of a slice
     std::vector<Octagon> turned;                // one per slice and piece, rounded outwards
     std::vector<Octagon> corners[2];            // scratch: octagons at the angles between two slices
     double rounded_size = 0;                    // twice the largest coordinate of the robot, if one of them is rounded
     double robot_size = 0;                      // bound of coordinates of the robot's vertices, relative to one of them
-    std::vector<Overlap> recent;                // pillars that covered all of a patch, the last one first
+    std::vector<Overlap> recent;                // pillars that covered a slice of a patch, the last one first
     Vec<double> E;                              // vector of the patch's edge
     double length = 0;                          // |E|^2
     std::vector<std::uint64_t> crossing, meeting;          // slices, by fixed piece

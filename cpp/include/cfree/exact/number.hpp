@@ -87,6 +87,8 @@ struct Vec {
 template <class T>
 Vec<T> operator-(const Vec<T>& p) { return {-p.x, -p.y}; }
 template <class T>
+Vec<T> operator+(const Vec<T>& p, const Vec<T>& q) { return {p.x + q.x, p.y + q.y}; }
+template <class T>
 Vec<T> operator-(const Vec<T>& p, const Vec<T>& q) { return {p.x - q.x, p.y - q.y}; }
 template <class T>
 T cross(const Vec<T>& p, const Vec<T>& q) { return p.x * q.y - p.y * q.x; }
