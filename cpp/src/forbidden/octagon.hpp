@@ -1,5 +1,6 @@
 // Bounds of points in eight directions.
 #pragma once
+#include <algorithm>
 #include <limits>
 
 #include "cfree/scene/scene.hpp"
@@ -27,6 +28,12 @@ struct Octagon {
         for (int i = 0; i < 4; ++i)
             if (o.high[i] < low[i] || high[i] < o.low[i]) return false;
         return true;
+    }
+    // Its high bounds may be below the low ones.
+    Octagon common(const Octagon& o) const {
+        Octagon result;
+        for (int i = 0; i < 4; ++i) result.low[i] = std::max(low[i], o.low[i]), result.high[i] = std::min(high[i], o.high[i]);
+        return result;
     }
     bool has_inside(const Vec<double>& p) const {
         const double value[4] = {p.x, p.y, p.x + p.y, p.x - p.y};

@@ -299,9 +299,10 @@ bool Shadows::covers_slice(const std::array<Helix, 2>& ends, int s) {
             around[0].add(seen.back().x, seen.back().y);
         }
         around[1] = around[0].shifted(shift[1]);
+        const Octagon both = around[0].common(around[1]);
         for (Index place = 0; place < obstacles.count(); ++place) {
             if (A.piece_layer[p] != scene.obstacles.piece_layer[near[place]]) continue;
-            if (!around[0].meets(placed[place]) || !around[1].meets(placed[place])) continue;
+            if (!both.meets(placed[place])) continue;
             Overlap pieces{p, place};
             const auto has_witness = [&](int end) {
                 Index& k = pieces.witness[end] = 0;
@@ -314,6 +315,7 @@ bool Shadows::covers_slice(const std::array<Helix, 2>& ends, int s) {
                 return false;
             };
             if (!has_witness(0) || !has_witness(1)) continue;
+            std::erase_if(recent, [&](const Overlap& x) { return x.p == p && x.place == place; });
             if (recent.size() == most_recent) recent.pop_back();
             recent.insert(recent.begin(), pieces);
             return true;
