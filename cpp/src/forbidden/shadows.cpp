@@ -243,7 +243,7 @@ void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
             if (!(range.low <= range.high)) continue;  // the line passes beside it
             const double cover = std::min(range.high, length) - std::max(range.low, 0.0);
             if (cover >= 0 || pinches) pillar.slices |= std::uint32_t{1} << s;
-            pillar.cover += std::max(0.0, cover);
+            pillar.cover += std::max(0.0, cover) + 0x1p-5 * (range.high - range.low);  // of two that cover the same the larger
         }
         if (pillar.slices != 0) pillars.push_back(pillar);
         else ranges.resize(pillar.ranges);

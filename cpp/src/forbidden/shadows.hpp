@@ -30,7 +30,7 @@ public:
         bool may_pinch;        // may touch the surface along the line, which counts anywhere on the line
         std::uint32_t slices;  // slices in which its shadow meets the patch, by bit
         std::size_t ranges;    // each slice's range on the line
-        double cover;          // approximate share of the patch
+        double cover;          // about its share of the patch, and a little for its size
     };
     // True if pillars certainly cover all of a patch between two angles of a chart, its rim included, one for each slice. Else
     // the first and the last slices that are covered are cut off.
