@@ -37,17 +37,17 @@ public:
 
     // Work of one thread: all patches of one obstacle feature after another.
     void run(const std::atomic<bool>& stop) {
-        Shadows near = one.shadows();
+        PatchTrimming::Scratch scratch = one.scratch();
         const auto count = static_cast<Index>(chosen ? chosen->size() : found.size());
         for (Index n = next++; n < count && !stop; n = next++) {
             const Index j = chosen ? (*chosen)[n] : n;
             if (one.first_patch[j] == one.first_patch[j + 1]) continue;
-            one.pillars_near(j, near);
+            one.pillars_near(j, scratch.near);
             std::size_t whole = 0, whole_thin = 0;
             try {
                 for (Index id = one.first_patch[j]; id < one.first_patch[j + 1] && !stop; ++id, ++done) {
                     whole = found[j].size(), whole_thin = found_thin[j].size();
-                    one.trim(id, near, found[j], found_thin[j], counted[j]);
+                    one.trim(id, scratch, found[j], found_thin[j], counted[j]);
                     trimmed[id] = 1;
                 }
             } catch (const Stopped&) {  // in the middle of a patch, with perhaps one chart done

@@ -83,8 +83,9 @@ void PatchTrimming::pillars_near(Index feature, Shadows& out) const {
     out.around(feature, near, neighbours.reach());
 }
 
-void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin,
+void PatchTrimming::trim(Index patch, Scratch& with, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin,
                          Count& count) const {
+    Shadows& near = with.near;
     const Feature contact = patches.contact(patch);
     std::vector<Feature> before_it = owners.before(contact);
     if (scene.is_round) return trim_round(patch, near, before_it, out, thin, count);
@@ -105,7 +106,7 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
             continue;
         }
         const auto& pillars = near.on(surface, from.lo, to.hi);
-        Trimmer trimmer(scene, surface, from, to);
+        Trimmer trimmer(scene, surface, from, to, std::move(with.lists));
         for (const Feature& owner : before_it) {
             const Range shared = range_of(scene, owner, count.decisions);
             for (int s = 0; s < shared.count; ++s)
@@ -123,6 +124,7 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
         for (const Feature& helix : touching) trimmer.split(helix);
         trimmer.finish(patch, out, thin);
         count.decisions += trimmer.decide.counters;
+        with.lists = trimmer.released();
     }
     count.live_patches += out.size() > before;
 }

@@ -20,10 +20,16 @@ public:
     // Upper bound of the distance of two points of the robot.
     double reach() const { return neighbours.reach(); }
     Shadows shadows() const { return Shadows(scene); }
+    // What a thread keeps from one patch to the next.
+    struct Scratch {
+        Shadows near;
+        TrimLists lists;
+    };
+    Scratch scratch() const { return {shadows(), {}}; }
     // Pillars that may reach the patches of an obstacle feature.
     void pillars_near(Index feature, Shadows& out) const;
-    // Add the live parts of a patch to `out`, and those without width to `thin`.
-    void trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin, Count& count) const;
+    // Add the live parts of a patch, with the pillars near its obstacle feature, to `out`, and those without width to `thin`.
+    void trim(Index patch, Scratch& with, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin, Count& count) const;
 
 private:
     void trim_round(Index patch, const Shadows& near, const std::vector<Feature>& before_it, std::vector<Trapezoid>& out,

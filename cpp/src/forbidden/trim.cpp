@@ -9,9 +9,18 @@
 
 namespace cfree {
 
-Trimmer::Trimmer(const Scene& s, const Surface& on, const Event& from, const Event& to)
-    : decide(s, on), scene(s), surface(on), ends{end_helix(s, on.contact, 0), end_helix(s, on.contact, 1)} {
-    events = {from, to};
+void TrimLists::clear() {
+    constexpr std::size_t most_slots = 256;
+    for (auto* areas : {&live, &next, &open, &thin, &fresh}) areas->clear();
+    events.clear(), curves.clear(), pinches.clear(), todo.clear();
+    if (slots.size() > most_slots) slots.clear();
+    std::fill(slots.begin(), slots.end(), -1);
+}
+
+Trimmer::Trimmer(const Scene& s, const Surface& on, const Event& from, const Event& to, TrimLists lists)
+    : TrimLists(std::move(lists)), decide(s, on), scene(s), surface(on), ends{end_helix(s, on.contact, 0), end_helix(s, on.contact, 1)} {
+    clear();
+    events.push_back(from), events.push_back(to);
     const Index t0 = curve_of(ends[0], false), t1 = curve_of(ends[1], false);
     live.push_back({0, 1, t0, t1, 0, 1});
 }

@@ -115,7 +115,7 @@ struct SurfaceExplorer::State {
     std::vector<Index> number;                     // scratch of gluing: -1 for each row
     double nearness = 0;                           // distance of points that may be equal; it decides only the order
     Index pillars_of = -1;
-    Shadows pillars = one.shadows();
+    PatchTrimming::Scratch scratch = one.scratch();
     Count count;
 };
 
@@ -124,11 +124,11 @@ void SurfaceExplorer::State::trim(Index patch) {
     if (trimmed[patch]) return;
     const Feature contact = one.patches.contact(patch);
     if (contact.obstacle != pillars_of) {
-        one.pillars_near(contact.obstacle, pillars);
+        one.pillars_near(contact.obstacle, scratch.near);
         pillars_of = contact.obstacle;
     }
     std::vector<Trapezoid> found, thin;
-    one.trim(patch, pillars, found, thin, count);
+    one.trim(patch, scratch, found, thin, count);
     trimmed[patch] = 1, ++patches_trimmed;
     const auto before = static_cast<Index>(rows.size());
     for (const Trapezoid& x : found) {

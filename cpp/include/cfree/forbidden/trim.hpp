@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "cfree/predicates/predicates.hpp"
@@ -66,30 +67,8 @@ struct Slices {
     }
 };
 
-class Trimmer {
-public:
-    // Start with the part of a patch between two angles of one chart.
-    Trimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to);
-    virtual ~Trimmer() = default;
-
-    // Subtract the pillar of robot piece p and obstacle piece k, which covers nothing live outside this part.
-    void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
-    // Update the live range of each slice, if it has changed.
-    void left(Slices& slices);
-    // Subtract the part that another patch of the same surface owns, between two angles.
-    void cede(const Feature& owner, const Event& from, const Event& to);
-    // Cut the live areas along a helix, if they continue on both sides of it.
-    void split(const Feature& helix);
-    bool empty() const { return live.empty() && thin.empty(); }
-    // Write the live areas in order, neighbours with the same curves joined; and the live parts without width: lower = upper or
-    // from = to.
-    void finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out);
-
-    Predicates decide;
-
-protected:
-    // With nothing live yet.
-    Trimmer(const Scene& s, const Surface& on) : decide(s, on), scene(s), surface(on) {}
+// Lists of a trimmer. Each patch begins with empty ones; those of the patch before it have room already.
+struct TrimLists {
     struct Span {
         Index from, to;  // events
     };
@@ -104,6 +83,43 @@ protected:
         Side low() const { return {lower, t_min, lower_max}; }
         Side high() const { return {upper, upper_min, t_max}; }
     };
+    std::vector<Event> events;
+    std::vector<Curve> curves;
+    std::vector<Index> slots;  // hash table of curves; -1: empty
+    std::vector<Area> live, next, open;  // areas now, areas of the next state, and those of the next state without end
+    std::vector<Area> thin, fresh;
+    std::vector<Index> pinches;  // angles at which a pillar's edge touches the surface along the line
+    std::vector<Span> todo;
+    mutable std::vector<double> heights[2];  // scratch of state_at
+    void clear();
+};
+
+class Trimmer : protected TrimLists {
+public:
+    // Start with the part of a patch between two angles of one chart.
+    Trimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to, TrimLists lists = {});
+    virtual ~Trimmer() = default;
+
+    // Subtract the pillar of robot piece p and obstacle piece k, which covers nothing live outside this part.
+    void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
+    // Update the live range of each slice, if it has changed.
+    void left(Slices& slices);
+    // Subtract the part that another patch of the same surface owns, between two angles.
+    void cede(const Feature& owner, const Event& from, const Event& to);
+    // Cut the live areas along a helix, if they continue on both sides of it.
+    void split(const Feature& helix);
+    bool empty() const { return live.empty() && thin.empty(); }
+    // Write the live areas in order, neighbours with the same curves joined; and the live parts without width: lower = upper or
+    // from = to.
+    void finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out);
+    // Give its lists to another one; it has no use afterwards.
+    TrimLists released() { return std::move(static_cast<TrimLists&>(*this)); }
+
+    Predicates decide;
+
+protected:
+    // With nothing live yet.
+    Trimmer(const Scene& s, const Surface& on) : decide(s, on), scene(s), surface(on) {}
     // An edge of the pillar: an obstacle edge with a robot vertex, or a robot edge with an obstacle vertex.
     struct PillarEdge {
         Feature feature;
@@ -258,16 +274,8 @@ protected:
     const Scene& scene;
     Surface surface;
     Feature ends[2];  // the helices at t = 0 and t = 1
-    std::vector<Event> events;
-    std::vector<Curve> curves;
-    std::vector<Index> slots;  // hash table of curves; -1: empty
     double first_end = 2, last_end = -2;  // see `stretch`: pillars are looked at there as well, so that angles keep their names
     bool has_changed = true;   // true if the live areas have changed since the last `left`
-    std::vector<Area> live, next, open;  // areas now, areas of the next state, and those of the next state without end
-    std::vector<Area> thin, fresh;
-    std::vector<Index> pinches;  // angles at which a pillar's edge touches the surface along the line
-    std::vector<Span> todo;
-    mutable std::vector<double> heights[2];  // scratch of state_at
     mutable std::vector<Ball> ball_heights[2];
     mutable std::vector<Int> exact_heights[2];
 };
