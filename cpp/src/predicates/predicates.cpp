@@ -18,13 +18,6 @@ Code code(const Scene& scene, const Feature& f) {
     return static_cast<Code>(f.kind) << 61 | static_cast<Code>(f.branch & 3) << 59 | static_cast<Code>(i) << 31 | static_cast<Code>(j);
 }
 
-Feature end_helix(const Scene& scene, const Feature& contact, int end) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const Index i = contact.robot, j = contact.obstacle;
-    if (contact.kind == Kind::vertex_edge) return {Kind::vertex_vertex, i, end ? O.last_of(j) : O.first_of(j)};
-    return {Kind::vertex_vertex, end ? A.last_of(i) : A.first_of(i), j};
-}
-
 // --- the quadratics, one formula for every number type ---------------------------------------------------------------
 
 // The half-plane of a pillar's edge, with direction V and point Q, cuts the surface's line P + t U, P = b_j - R a_i. There

@@ -45,7 +45,11 @@ inline bool is_concave(const Scene& scene, const Feature& f) {
     return f.kind == Kind::vertex_vertex && (scene.robot.is_concave(f.robot) || scene.obstacles.is_concave(f.obstacle));
 }
 // Helix of a surface at t = 0 or t = 1.
-Feature end_helix(const Scene& scene, const Feature& contact, int end);
+inline Feature end_helix(const Scene& scene, const Feature& contact, int end) {
+    const Index i = contact.robot, j = contact.obstacle;
+    if (contact.kind == Kind::vertex_edge) return {Kind::vertex_vertex, i, end ? scene.obstacles.last_of(j) : scene.obstacles.first_of(j)};
+    return {Kind::vertex_vertex, end ? scene.robot.last_of(i) : scene.robot.first_of(i), j};
+}
 
 // The contact surface under study, in one chart.
 struct Surface {
@@ -317,7 +321,7 @@ inline Filtered Predicates::filtered(const Trig<Approx>& f) const {
 inline Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(s, v)); }
 inline Filtered Predicates::parallel(Index g, Index f) const { return filtered(parallel_trig<Approx>(g, f)); }
 
-inline int Predicates::sign_on(const Filtered& f, double lo, double hi) {
+[[gnu::always_inline]] inline int Predicates::sign_on(const Filtered& f, double lo, double hi) {
     const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
     if (p > f.err && q > f.err && r > f.err) return 1;
     if (p < -f.err && q < -f.err && r < -f.err) return -1;

@@ -165,7 +165,7 @@ template <class T>
 Vec<T> difference(const Shape& s, Index p, Index q);  // vertex p minus vertex q
 
 template <>
-inline Vec<Approx> difference(const Shape& s, Index p, Index q) {
+[[gnu::always_inline]] inline Vec<Approx> difference(const Shape& s, Index p, Index q) {
     const double dx = s.x[p] - s.x[q], dy = s.y[p] - s.y[q];
     if (!(s.rounded[p] | s.rounded[q])) return {{dx, std::abs(dx)}, {dy, std::abs(dy)}};
     return {{dx, std::abs(s.x[p]) + std::abs(s.x[q])}, {dy, std::abs(s.y[p]) + std::abs(s.y[q])}};
