@@ -38,6 +38,7 @@ from shapes import (
     rational_regular,
     regular,
     scaled,
+    star_among_squares,
 )
 
 TESTS = Path(__file__).parents[1]
@@ -492,7 +493,7 @@ def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
     scene = load_scene(TESTS.parent / "examples/scenes/benchmr_warehouse.json")
     for limit in ({"max_seconds": 0.0}, {"max_memory": 1.0}):
         part = boundary(scene, threads=1, **limit)
-        assert not part.complete and 0 < part.trimmed.sum() < len(part.trimmed)
+        assert not part.complete and not part.trimmed.any()
         assert "INCOMPLETE" in repr(part)
         questions = (
             lambda part=part: part.slice(0.1),
@@ -505,19 +506,16 @@ def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
         save(part, tmp_path / "part.npz")
         loaded = load_boundary(tmp_path / "part.npz")
         assert not loaded.complete and np.array_equal(loaded.trimmed, part.trimmed)
-    whole = boundary(scene)
-    assert whole.complete
-    done = np.isin(whole.trapezoids.patch, np.flatnonzero(part.trimmed))
-    assert np.array_equal(whole.trapezoids.lower[done], part.trapezoids.lower)  # what was done is right
+    assert boundary(scene).complete
 
 
-@pytest.mark.slow
 def test_what_was_done_before_a_limit_is_right_wherever_it_falls() -> None:
-    scene = load_scene(TESTS.parent / "examples/scenes/nest_swim.json")
+    scene = scene_of(star_among_squares())
     whole = boundary(scene)
     assert whole.complete
-    for _ in range(20):
-        part = boundary(scene, threads=1, max_seconds=0.0)
+    for _ in range(4):
+        part = boundary(scene, threads=1, max_seconds=0.05)
+        assert 0 < part.trimmed.sum() < len(part.trimmed)
         done = np.isin(whole.trapezoids.patch, np.flatnonzero(part.trimmed))
         assert np.array_equal(whole.trapezoids.patch[done], part.trapezoids.patch)
         assert np.array_equal(whole.trapezoids.lower[done], part.trapezoids.lower)

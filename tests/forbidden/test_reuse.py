@@ -14,6 +14,8 @@ from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
 from changes import BAR, box, changed, random_scene
+from compared import scene_of
+from shapes import star_among_squares
 
 ROOT = Path(__file__).parents[2]
 
@@ -251,12 +253,13 @@ def test_threads_do_not_matter() -> None:
 
 @pytest.mark.slow
 def test_a_boundary_that_is_not_complete_gives_what_it_has() -> None:
-    scene = cfree.load_scene(ROOT / "examples" / "scenes" / "nest_swim.json")
-    part = boundary(scene, threads=1, max_seconds=0)
+    scene = scene_of(star_among_squares())
+    part = boundary(scene, threads=1, max_seconds=0.05)
     assert not part.trimmed.all()
     assert 0 < reused(part, scene).kept_patches <= part.trimmed.sum()
     moved, whole = scene.moved(0, ("0.5", 0, 0)), boundary(scene)
     stopped = boundary(moved, threads=1, max_seconds=0, reuse=whole)
+    assert 0 < stopped.trimmed.sum() < len(stopped.trimmed)
     assert boundary(moved, reuse=whole).kept_patches <= stopped.trimmed.sum()
     reused(stopped, moved, stopped.kept_patches)
 

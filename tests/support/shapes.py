@@ -120,6 +120,12 @@ NAMED: dict[str, Callable[[], Shape]] = {
 # --- moving shapes ---
 
 
+def star_among_squares(spikes: int = 32) -> PlainScene:
+    """Of which trimming takes much longer than the tenth of a second after which limits are looked at again."""
+    squares = [box(x, y, x + 1, y + 1) for x in range(0, 24, 4) for y in range(0, 24, 4)]
+    return PlainScene([star(spikes, 2.0, 1.0)], squares)
+
+
 def moved(shape: Shape, dx: Any, dy: Any) -> Shape:
     return mapped(shape, lambda x, y: (x + dx, y + dy))
 

@@ -156,6 +156,7 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
         if (wish != Wish::go_on) stop = true;
     };
     const auto look = task.watch ? std::function<void()>(ask) : nullptr;
+    if (look) ask();  // limits hold for the shortest work, too
     {
         const Lookout trimming(stop, look);
         in_parallel(task.threads, stop, [&] { work.run(stop); });
