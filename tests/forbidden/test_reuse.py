@@ -251,6 +251,12 @@ def test_threads_do_not_matter() -> None:
     assert_same_bytes(boundary(moved, threads=2, reuse=old), boundary(moved, threads=1, reuse=old))
 
 
+@pytest.mark.parametrize("spikes", [6, 16])
+def test_slices_covered_by_one_pillar_are_cut_off_as_anew(spikes: int) -> None:
+    scene = scene_of(star_among_squares(spikes))
+    assert reused(boundary(scene), scene.moved(7, (1, "1/2", "1/3"))).kept_patches > 0
+
+
 @pytest.mark.slow
 def test_a_boundary_that_is_not_complete_gives_what_it_has() -> None:
     scene = scene_of(star_among_squares())
