@@ -246,15 +246,14 @@ def warm_up() -> None:
 
 
 def one_slice(scene: cfree.Scene) -> tuple[str, ...]:
-    """Processor milliseconds: of the whole boundary, one slice of it, and one by others; no bounds, no workspace."""
+    """Processor milliseconds: of the whole boundary on one thread, one slice of it, and one by others; no bounds, no workspace."""
     scene = replace(scene, bounds=None, workspace=None)
     thetas = np.random.default_rng(7).uniform(-3, 3, SLICES).tolist()
     robot, obstacles = ([p.vertices[list(piece)] for p in shapes for piece in p.pieces]
                         for shapes in (scene.robot, scene.obstacles))  # fmt: skip
     pieces = grouped(robot), grouped(obstacles)
-    start = time.process_time()
+    whole = median_seconds(lambda _: cfree.boundary(replace(scene), threads=1), thetas[:5])
     boundary = cfree.boundary(scene)
-    whole = time.process_time() - start
     boundary.slice(thetas[0])  # builds what is looked up
     ours = median_seconds(lambda theta: boundary.slice(theta).forbidden, thetas)
     theirs = median_seconds(lambda theta: shapely.union_all(sums_by_merging(*pieces, theta)), thetas)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "cfree/exact/descartes.hpp"
 #include "collision/rounding.hpp"
 #include "collision/shape_boxes.hpp"
 
@@ -157,16 +158,13 @@ Frame<Approx, N> on(const Frame<double, N>& f, double lo, double hi) {
 }
 
 // True if a polynomial certainly has no root strictly between 0 and 1 after which it is positive: by Descartes' rule, for the
-// signs of its Bernstein coefficients there do not change, or once from positive to negative.
-bool never_becomes_positive(const Poly& f) {
-    Poly b;
-    for (int k = f.size(); k-- > 0;) b.push_back(f[k]);
-    for (int first = 0; first + 1 < b.size(); ++first)
-        for (int j = b.size() - 1; j-- > first;) b[j] += b[j + 1];
-    bool is_negative = false;
-    for (int j = b.size(); j-- > 0;) {  // from 0 towards 1
-        if (is_negative && b[j].sign() > 0) return false;
-        if (b[j].sign() < 0) is_negative = true;
+// signs of its Bernstein coefficients do not change, or once from positive to negative.
+bool never_becomes_positive(Poly f) {
+    to_bernstein(f);
+    bool is_positive = false;
+    for (const Int& x : f) {  // from 1 towards 0
+        if (is_positive && x.sign() < 0) return false;
+        is_positive |= x.sign() > 0;
     }
     return true;
 }

@@ -1,6 +1,7 @@
 // Real roots of long polynomials, isolated by Descartes' rule of signs and halving (Collins and Akritas).
 #include <algorithm>
 
+#include "cfree/exact/descartes.hpp"
 #include "cfree/exact/long_polynomial.hpp"
 #include "cfree/support/lookout.hpp"
 
@@ -10,16 +11,9 @@ namespace {
 
 using Numbers = std::vector<Int>;  // coefficients from the constant up, leading zeros allowed
 
-// p(x + 1)
-void move_by_one(Numbers& p) {
-    for (std::size_t first = 0; first + 1 < p.size(); ++first)
-        for (std::size_t j = p.size() - 1; j-- > first;) p[j] += p[j + 1];
-}
-
-// Changes of sign of (1 + x)^d p(1 / (1 + x)): the number of roots strictly between 0 and 1 if this is 0 or 1, else no fewer.
+// Number of roots strictly between 0 and 1 if this is 0 or 1, else no fewer.
 int most_roots(Numbers p) {
-    std::reverse(p.begin(), p.end());
-    move_by_one(p);
+    to_bernstein(p);
     int count = 0, last = 0;
     for (const Int& x : p) {
         const int sign = x.sign();

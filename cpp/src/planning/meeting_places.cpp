@@ -123,8 +123,9 @@ Poses MeetingPlaces::candidates() const {
     Poses found;
     std::set<Index> seen;
     const auto add_corners = [&](const std::vector<Index>& faces) {
+        if (slits) return;  // `on_surfaces` adds those of all faces
         for (const Index face : faces)
-            if (seen.insert(face).second) append(found, corners(on_faces(), face));
+            if (seen.insert(face).second) append(found, corners(*walker, face));
     };
     for (const Encounter& encounter : encounters()) add_corners(encounter.faces);
     at_edges(*walker, found);
