@@ -246,7 +246,7 @@ def warm_up() -> None:
 
 
 def one_slice(scene: cfree.Scene) -> tuple[str, ...]:
-    """Processor milliseconds: of the whole boundary on one thread, one slice of it, and one by others; no bounds, no workspace."""
+    """Processor milliseconds: the boundary on one thread, a slice of it, one by others; no bounds, no workspace."""
     scene = replace(scene, bounds=None, workspace=None)
     thetas = np.random.default_rng(7).uniform(-3, 3, SLICES).tolist()
     robot, obstacles = ([p.vertices[list(piece)] for p in shapes for piece in p.pieces]
