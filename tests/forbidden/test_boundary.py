@@ -24,7 +24,7 @@ from cfree import Boundary, IncompleteError, Polygon, Pose, Scene, _core, bounda
 from cfree.contact import is_forbidden
 from cfree.formats.boundaries.boundary_file import load_boundary
 from cfree.scene.features import scene_features
-from compared import edge, length, mistakes, scene_of, slit_length, vertex
+from compared import edge, length, mistakes, part_of, scene_of, slit_length, vertex
 from shapes import (
     KINDS,
     PlainScene,
@@ -514,7 +514,7 @@ def test_what_was_done_before_a_limit_is_right_wherever_it_falls() -> None:
     whole = boundary(scene)
     assert whole.complete
     for _ in range(4):
-        part = boundary(scene, threads=1, max_seconds=0.05)
+        part = part_of(scene)
         assert 0 < part.trimmed.sum() < len(part.trimmed)
         done = np.isin(whole.trapezoids.patch, np.flatnonzero(part.trimmed))
         assert np.array_equal(whole.trapezoids.patch[done], part.trapezoids.patch)

@@ -14,7 +14,7 @@ from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
 from changes import BAR, box, changed, random_scene
-from compared import scene_of
+from compared import part_of, scene_of
 from shapes import star_among_squares
 
 ROOT = Path(__file__).parents[2]
@@ -260,7 +260,7 @@ def test_slices_covered_by_one_pillar_are_cut_off_as_anew(spikes: int) -> None:
 @pytest.mark.slow
 def test_a_boundary_that_is_not_complete_gives_what_it_has() -> None:
     scene = scene_of(star_among_squares())
-    part = boundary(scene, threads=1, max_seconds=0.05)
+    part = part_of(scene)
     assert not part.trimmed.all()
     assert 0 < reused(part, scene).kept_patches <= part.trimmed.sum()
     moved, whole = scene.moved(0, ("0.5", 0, 0)), boundary(scene)

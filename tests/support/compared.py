@@ -14,8 +14,10 @@ import shapely
 from numpy.typing import NDArray
 
 import oracles
-from cfree import Boundary, Polygon, Scene, boundary, load_scene
+from cfree import Boundary, Polygon, Scene, _core, boundary, load_scene
+from cfree.forbidden.boundary import boundary_of
 from cfree.forbidden.patch import Contact, Patch, Place
+from cfree.scene.features import scene_features
 from shapes import PlainScene, Shape
 
 Point = tuple[Fraction, Fraction]
@@ -39,6 +41,12 @@ def plain_of(scene: Scene) -> PlainScene:
 
     workspace = None if scene.workspace is None else shape(scene.workspace)
     return PlainScene([*map(shape, scene.robot)], [*map(shape, scene.obstacles)], scene.bounds, workspace)
+
+
+def part_of(scene: Scene) -> Boundary:
+    """A boundary stopped at the first look at limits after some patches, on one thread."""
+    features = scene_features(scene)
+    return boundary_of(scene, features, _core.compute_boundary(features.core, 1, False, lambda share: share == 0))
 
 
 def length(segments: NDArray[np.float64]) -> float:
