@@ -27,6 +27,39 @@ unsigned RootOf<P>::digits() const {
     return size < k ? k - size : 0;
 }
 
+// A step of Newton's method from the middle m, with a bound of its error: by the mean value theorem the root is m - p(m) / s for a
+// slope s between the least and the greatest in the interval. The value is exact, the slope a double. False if the slope may vanish,
+// or if halving is as good.
+template <class P>
+bool RootOf<P>::step() {
+    constexpr double rounding = 0x1p-50;  // at most 8 u
+    const Dyadic m = Dyadic::middle(lo, hi);
+    int size = 0;
+    for (int i = 0; i < p.size(); ++i) size = std::max(size, p[i].is_zero() ? 0 : static_cast<int>(msb(abs(p[i]))));
+    const double width = std::ldexp(1.0, -static_cast<int>(digits())), t = ball(m.n, static_cast<int>(m.k)).hi, reach = std::abs(t) + width;
+    double slope = 0, total = 0, bend = 0;  // p', the sum of its summands, and a bound of p'' in the interval
+    for (int i = p.size() - 1; i > 0; --i) {
+        const double c = i * ball(p[i], size).hi;
+        bend = bend * reach + total, slope = slope * t + c, total = total * reach + std::abs(c);
+    }
+    const double share = (rounding * p.size() * total + 2 * bend * width) / std::abs(slope);
+    if (!(share < 0x1p-4)) return false;
+    const Int value = value_at(p, m);
+    if (value.is_zero()) return lo = hi = m, true;
+    const double by = -ball(value, size + static_cast<int>(m.k) * (p.size() - 1)).hi / slope;
+    const double error = 2 * (share + rounding) * std::abs(by);
+    if (!(error > 0x1p-900)) return false;
+    const auto at = [&](double x) {
+        const Dyadic d = Dyadic::from(x);
+        const unsigned k = std::max(d.k, m.k);
+        return Dyadic{(m.n << (k - m.k)) + (d.n << (k - d.k)), k};
+    };
+    const Dyadic l = at(by - error), h = at(by + error);
+    if (cfree::compare(lo, l) < 0) lo = l;
+    if (cfree::compare(h, hi) < 0) hi = h;
+    return true;
+}
+
 // Cut the interval into 2^b parts, and test the part with the chord's root and its neighbours: once half of the digits are
 // right, this gives the others.
 template <class P>
@@ -36,6 +69,7 @@ void RootOf<P>::narrow() {
     heed_stop();
     const unsigned b = digits() / 2;
     if (is_dyadic() || b < 4) return halve();
+    if (b < 100 && step()) return;
     const Int below = value_at(p, Dyadic{from, k}), above = value_at(p, Dyadic{from + width, k});
     const Int part = (abs(below) << b) / (abs(below) + abs(above)), last = Int(1) << b;
     const Dyadic l{(from << b) + width * (part == 0 ? part : Int(part - 1)), k + b};

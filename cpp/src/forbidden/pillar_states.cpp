@@ -17,12 +17,14 @@ void Trimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& 
     while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();
+        const double lo = events[whole.from].lo, hi = events[whole.to].hi;
+        const auto [low, high] = live_between(lo, hi);
+        if (low > high) continue;
         Sample at = decide.between(events[whole.from], events[whole.to]);
         Span span = whole;
         State state = at.fine ? state_at<Ball>(p, k, at) : state_at<double>(p, k, at);
-        const double lo = events[whole.from].lo, hi = events[whole.to].hi;
         if (state.meets == Meets::crosses) find_curves(state);
-        if (state.meets == Meets::crosses && !part.may_pinch && is_beyond(state, slices, lo, hi)) continue;
+        if (state.meets == Meets::crosses && !part.may_pinch && is_beyond(state, low, high, lo, hi)) continue;
         Verdict verdict = lifetime(state, at, span);
         bool is_exact = false;
         for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
@@ -274,13 +276,17 @@ int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
     return count;
 }
 
-// True if a pillar certainly covers nothing live between two angles: if the vertex that supports one of its edges is extreme,
-// all of it is on one side of that edge's line, and so beyond a curve. The state need not be right.
-bool Trimmer::is_beyond(const State& state, const Slices& slices, double lo, double hi) {
+std::array<double, 2> Trimmer::live_between(double lo, double hi) const {
     double low = 1, high = 0;
-    for (int s = 0; s < slices.count; ++s)
-        if (slices.at[s] <= hi && lo <= slices.at[s + 1]) low = std::min(low, slices.low[s]), high = std::max(high, slices.high[s]);
-    if (low > high) return true;
+    for (const auto* areas : {&live, &thin})
+        for (const Area& x : *areas)
+            if (events[x.to].hi >= lo && events[x.from].lo <= hi) low = std::min(low, x.t_min), high = std::max(high, x.t_max);
+    return {low, high};
+}
+
+// True if a pillar certainly covers nothing between two places and two angles: if the vertex that supports one of its edges is
+// extreme, all of it is on one side of that edge's line, and so beyond a curve. The state need not be right.
+bool Trimmer::is_beyond(const State& state, double low, double high, double lo, double hi) {
     const auto sign = [&](Index g, Index f) { return Predicates::sign_on(decide.parallel(g, f), lo, hi); };
     for (const PillarEdge* e : {&state.lower, &state.upper}) {
         const bool is_lower = e == &state.lower;
@@ -295,6 +301,17 @@ bool Trimmer::is_beyond(const State& state, const Slices& slices, double lo, dou
     return false;
 }
 
+// True if a condition vanishes at an end of the span, where another state ended, and certainly holds from there on.
+bool Trimmer::holds_but_at_ends(const Condition& x, const Span& span) const {
+    const Feature f{x.is_offset ? Kind::vertex_vertex : Kind::edge_edge, x.robot, x.obstacle};
+    const Event &from = events[span.from], &to = events[span.to];
+    const auto vanishes_at = [&](const Event& e) {
+        return e.first.kind == f.kind && e.second.kind == Kind::none && code(scene, e.first) == code(scene, f);
+    };
+    const bool at_from = vanishes_at(from), at_to = vanishes_at(to);
+    return (at_from || at_to) && Predicates::sign_between(x.value, from.lo, to.hi, at_from, at_to) == x.sign;
+}
+
 // Check a state at a sample and narrow the span to the angles at which it holds.
 Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Span& span) {
     Condition all[8];
@@ -306,6 +323,10 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Spa
         const int certain = Predicates::sign_on(x.value, events[span.from].lo, events[span.to].hi);
         if (certain == x.sign) {
             ++decide.counters.filter;
+            continue;
+        }
+        if (holds_but_at_ends(x, span)) {
+            ++decide.counters.identity;
             continue;
         }
         const int at = x.is_offset ? decide.offset_sign(x.robot, x.obstacle, x.value, sample)

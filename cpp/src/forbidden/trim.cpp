@@ -180,6 +180,7 @@ bool Trimmer::crosses_at(const Band& band, Index event) {
 int Trimmer::order_at(Index event, Index p, Index q) {
     if (curves[p].code == curves[q].code) return 0;
     const Event& e = events[event];
+    if (const int certain = decide.order_on(curves[p], curves[q], e.lo, e.hi)) return certain;
     Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.narrow_root_of(e); }, [&] { return decide.narrowed(e); });
     const Feature& on = surface.contact;
     if (e.first.kind != Kind::none) here.know(CriticalAngle(surface, e, 0).name(scene));

@@ -152,10 +152,32 @@ bool are_proportional(const Poly& p, const Poly& q) {
     return true;
 }
 
+// True if the angle at which two edges are parallel is a root of another angle's polynomial by identity of features: that of a helix
+// and a surface, if an edge of one shape goes through the helix and the other shape's vertices of both are the ends of an edge.
+bool Predicates::is_of_parallel(const Feature& parallel, const Event& x) const {
+    const Index g = parallel.robot, f = parallel.obstacle;
+    const auto [helix, on] = x.second.kind == Kind::none ? std::array{x.first, surface.contact}
+                             : x.first.kind == Kind::vertex_vertex ? std::array{x.first, x.second} : std::array{x.second, x.first};
+    if (helix.kind != Kind::vertex_vertex) return false;
+    const auto is_that = [](const Shape& s, Index through, Index vertex, Index parallel_to) {
+        const Index p = s.point[vertex];
+        return s.direction[through] == s.direction[parallel_to] && (s.point[s.v[through]] == p || s.point[s.w[through]] == p);
+    };
+    const auto joins = [](const Shape& s, Index edge, Index x, Index y) {
+        const Index v = s.point[s.v[edge]], w = s.point[s.w[edge]], p = s.point[x], q = s.point[y];
+        return (v == p && w == q) || (v == q && w == p);
+    };
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (on.kind == Kind::vertex_edge) return is_that(O, on.obstacle, helix.obstacle, f) && joins(A, g, helix.robot, on.robot);
+    return on.kind == Kind::edge_vertex && is_that(A, on.robot, helix.robot, g) && joins(O, f, helix.obstacle, on.obstacle);
+}
+
 // True if two angles are roots of one polynomial by identity of features.
 bool Predicates::same_polynomial(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none || y.first.kind == Kind::none) return false;
     if (scene.is_round) return is_same_round(x, y);
+    if (x.first.kind == Kind::edge_edge) return is_of_parallel(x.first, y);
+    if (y.first.kind == Kind::edge_edge) return is_of_parallel(y.first, x);
     const auto same = [&](const Feature& p, const Feature& q) { return same_feature(scene, p, q); };
     if (same(x.first, y.first) && same(x.second, y.second)) return true;
     if (x.second.kind != Kind::none) return same(x.first, y.second) && same(x.second, y.first);
@@ -219,16 +241,8 @@ const Predicates::Narrowed& Predicates::narrow_place(const Event& x) {
     constexpr std::size_t least = 16, most = 4096;  // most patches have few such angles
     const auto empty_of = [this](std::size_t size) { recent.assign(size, {{{}, {}, 2, 2}, {}, {}}), misses = 0; };
     if (recent.empty()) empty_of(least);
-    const auto mixed = [](const Feature& f) {
-        return 4 * (static_cast<std::size_t>(f.obstacle) * 31 + static_cast<std::size_t>(f.robot)) + static_cast<std::size_t>(f.kind);
-    };
-    const auto same = [](const Feature& f, const Feature& g) {
-        return f.kind == g.kind && f.branch == g.branch && f.robot == g.robot && f.obstacle == g.obstacle;
-    };
-    const auto is_known = [&](const Event& y) {
-        return same(x.first, y.first) && same(x.second, y.second) && x.lo == y.lo && x.hi == y.hi && x.fine == y.fine;
-    };
-    const auto place = [&] { return ((mixed(x.first) + 7 * mixed(x.second)) * 0x9e3779b9u >> 16) % recent.size(); };
+    const auto is_known = [&](const Event& y) { return same_angle(x, y) && x.fine == y.fine; };
+    const auto place = [&] { return spread(mixed(x)) & (recent.size() - 1); };
     if (const Narrowed& known = recent[place()]; is_known(known.x)) return known;
     if (++misses > recent.size() && recent.size() < most) empty_of(4 * recent.size());
     Narrowed& next = recent[place()];
@@ -319,6 +333,7 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
     constexpr int few = 32;
     if (!close && ++close_questions > few) close = std::make_unique<CloseAngles>();
     if (!close || x.fine >= 0 || y.fine >= 0) return decided_order(x, y);
+    if (const auto apart = order_of_brackets(x, y)) return ++counters.interval, *apart;
     if (const int* known_order = close->order(x, y)) return ++counters.identity, *known_order;
     const int order = decided_order(x, y);
     close->keep(x, y, order);
@@ -337,6 +352,15 @@ RealRoot& Predicates::kept_root(const Event& x) {
     return close->root(x, [&] { return narrow_root_of(x); });
 }
 
+std::optional<int> Predicates::order_of_brackets(const Event& x, const Event& y) {
+    const auto [_, p, few] = narrow_place(x);
+    const auto& [__, q, few_of_y] = narrow_place(y);
+    if (few && few == few_of_y) return 0;
+    if (p && q && is_below((*p)[1], (*q)[0])) return -1;
+    if (p && q && is_below((*q)[1], (*p)[0])) return 1;
+    return {};
+}
+
 int Predicates::decided_order(const Event& x, const Event& y) {
     const auto sign = [](double d) { return (d > 0) - (d < 0); };
     if (double_only) return ++counters.filter, sign((x.lo + x.hi) - (y.lo + y.hi));
@@ -352,13 +376,8 @@ int Predicates::decided_order(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none) return -order(y, Sample{x.lo, {}});
     if (y.first.kind == Kind::none) return order(x, Sample{y.lo, {}});
     return settled(counters, [&]<class T>() -> std::optional<int> {
-        if constexpr (std::is_same_v<T, Ball>) {
-            const auto [_, p, few] = narrow_place(x);
-            const auto& [__, q, few_of_y] = narrow_place(y);
-            if (few && few == few_of_y) return 0;
-            if (p && q && is_below((*p)[1], (*q)[0])) return -1;
-            if (p && q && is_below((*q)[1], (*p)[0])) return 1;
-        }
+        if constexpr (std::is_same_v<T, Ball>)
+            if (const auto apart = order_of_brackets(x, y)) return apart;
         const bool may_keep = std::is_same_v<T, Int> && close && are_narrow && !scene.is_round;
         if (!may_keep && !scene.is_round && x.is_touch == y.is_touch && alone(x) &&
             are_proportional(coefficients<T>(x.first, x.second), coefficients<T>(y.first, y.second)).value_or(false))

@@ -9,12 +9,9 @@
 
 namespace cfree {
 
-inline bool same_pair(const Feature& f, const Feature& g) {
-    return f.kind == g.kind && f.branch == g.branch && f.robot == g.robot && f.obstacle == g.obstacle;
-}
 // True for one angle of one name, of those that are alone in their intervals.
 inline bool same_angle(const Event& x, const Event& y) {
-    return x.lo == y.lo && x.hi == y.hi && same_pair(x.first, y.first) && same_pair(x.second, y.second) && x.is_touch == y.is_touch;
+    return x.lo == y.lo && x.hi == y.hi && x.first == y.first && x.second == y.second && x.is_touch == y.is_touch;
 }
 inline std::size_t spread(std::uint64_t h) { return static_cast<std::size_t>(h * 0x94d049bb133111ebu >> 24); }
 inline std::uint64_t mixed(const Feature& f) {

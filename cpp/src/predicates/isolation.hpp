@@ -115,15 +115,21 @@ struct Balls {
         }
         return {};
     }
-    // Bernstein coefficients, times 2, 12 or 60, by the polar form: elementary symmetric functions of ends of the interval.
+    // Bernstein coefficients, times 2, 12 or 60: sums of coefficients a_k of powers of (t - lo) / (hi - lo), by their
+    // binomial coefficients C(i, k) / C(degree, k).
     void signs(double lo, double hi, int* sign) const {
+        constexpr double weight[3][7] = {{2, 1, 2}, {12, 3, 2, 3, 12}, {60, 10, 4, 3, 4, 10, 60}};  // over C(degree, k)
+        const Ball width = Ball(hi) - Ball(lo);
+        Coefficients<Ball> a = p;
+        Ball scale = 1.0;
+        for (int k = 0; k <= degree; ++k) {
+            for (int i = degree; i-- > k;) a.c[i] = a.c[i + 1] * Ball(lo) + a.c[i];
+            a.c[k] = Ball(weight[degree / 2 - 1][k]) * (a.c[k] * scale), scale = scale * width;
+        }
         for (int i = 0; i <= degree; ++i) {
-            Ball e[7] = {1.0, {}, {}, {}, {}, {}, {}};
-            for (int k = 0; k < degree; ++k)
-                for (int j = k + 1; j > 0; --j) e[j] = e[j] + e[j - 1] * Ball(k < i ? hi : lo);
-            const double weight[3][7] = {{2, 1, 2}, {12, 3, 2, 3, 12}, {60, 10, 4, 3, 4, 10, 60}};  // over binomial coefficients
-            Ball sum;
-            for (int j = 0; j <= degree; ++j) sum = sum + Ball(weight[degree / 2 - 1][j]) * (p.c[j] * e[j]);
+            Ball sum = a.c[0];
+            double choose = 1;
+            for (int k = 1; k <= i; ++k) choose = choose * (i - k + 1) / k, sum = sum + Ball(choose) * a.c[k];
             sign[i] = certain_sign(sum).value_or(0);
         }
     }

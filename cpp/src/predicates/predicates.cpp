@@ -1,4 +1,5 @@
 // Signs of the quadratics: offsets, parallels, curves; theory, "Degrees".
+#include "predicates/close_angles.hpp"
 #include "predicates/form.hpp"
 #include "predicates/round_orders.hpp"
 
@@ -88,10 +89,14 @@ template <class T>
 Coefficients<T> Predicates::coefficients(const Feature& first, const Feature& second) const {
     if constexpr (!std::is_same_v<T, Ball>) return computed<T>(first, second);
     else {
-        if (!last || last->first != first || last->second != second)
-            last = std::make_unique<const Known>(
-                Known{first, second, scene.is_round ? round_orders().in_balls(first, second) : computed<Ball>(first, second)});
-        return last->p;
+        constexpr std::size_t most = 512;  // most surfaces ask for few
+        const auto place = [&] { return spread(mixed(first) * 3 + mixed(second)) & (known.size() - 1); };
+        if (known.empty()) known.resize(1);
+        if (const Known& at = known[place()]; at.first == first && at.second == second) return at.p;
+        if (++unknown > 4 * known.size() && known.size() < most) known.assign(8 * known.size(), {}), unknown = 0;
+        const auto p = scene.is_round ? round_orders().in_balls(first, second) : computed<Ball>(first, second);
+        known[place()] = {first, second, p};
+        return p;
     }
 }
 
@@ -137,6 +142,21 @@ int Predicates::offset_sign(Index s, Index v, const Filtered& f, const Sample& a
 }
 int Predicates::parallel_sign(Index g, Index f, const Filtered& value, const Sample& at) {
     return sign_at(value.polar(at.tau, at.tau), value.err, {Kind::edge_edge, g, f}, {}, at);
+}
+
+// Let f have the Bernstein coefficients c_0, c_1, c_2 on the interval, and c_1, c_2 > 0: f has at most one root there, and only if
+// c_0 <= 0. So a root that is known at the lower end is the only one. With roots at both ends, c_1 > 0 is enough.
+int Predicates::sign_between(const Filtered& f, double lo, double hi, bool root_at_lo, bool root_at_hi) {
+    const auto has = [&](int sign, double c) { return sign * c > f.err; };
+    const double middle = f.polar(lo, hi);
+    for (const int sign : {1, -1})
+        if (has(sign, middle) && (root_at_lo || has(sign, f.polar(lo, lo))) && (root_at_hi || has(sign, f.polar(hi, hi)))) return sign;
+    return 0;
+}
+
+int Predicates::order_on(const Curve& p, const Curve& q, double lo, double hi) const {
+    const int signs = sign_on(p.D, lo, hi) * sign_on(q.D, lo, hi);
+    return signs == 0 ? 0 : signs * form(p, q).sign_on(lo, hi);
 }
 
 int Predicates::order_at(const Feature& p, const Feature& q, const Sample& at) const {

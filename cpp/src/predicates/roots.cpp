@@ -205,9 +205,20 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
     if (p.code == q.code) return ++counters.identity, constant(0);
     if (scene.is_round) return compare_round(p.feature, q.feature, from, to);
     const Form f = form(p, q);
-    const int everywhere = f.sign_on(from.lo, to.hi);
-    result.strict = everywhere != 0;
-    if (result.strict) return ++counters.filter, constant(everywhere);
+    int each[5];
+    f.signs(from.lo, to.hi, each);
+    const int first = each[0], last_sign = each[f.degree], inside = each[1];
+    if (inside != 0 && std::all_of(each + 1, each + f.degree, [&](int s) { return s == inside; })) {
+        result.strict = first == inside && last_sign == inside;
+        if (result.strict) return ++counters.filter, constant(inside);
+        // a root that is known at an end is the only one there, as in `sign_between`
+        const auto cross_at = [&](const Event& e) {
+            if (e.first.kind == Kind::none || e.second.kind == Kind::none) return false;
+            const Code x = code(scene, e.first), y = code(scene, e.second);
+            return (x == p.code && y == q.code) || (x == q.code && y == p.code);
+        };
+        if ((first == inside || cross_at(from)) && (last_sign == inside || cross_at(to))) return ++counters.identity, constant(inside);
+    }
     const Roots r = crossings(f, p.feature, q.feature, from, to);
     if (r.all_zero) return constant(0);
     const int flip = p.flipped != q.flipped ? -1 : 1, last = r.at.size();

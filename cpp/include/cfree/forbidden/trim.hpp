@@ -6,6 +6,7 @@
 // a piece of the line at one angle, a point. Those are `thin`.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <limits>
 #include <utility>
@@ -223,7 +224,10 @@ protected:
     template <class T>
     State state_at(Index p, Index k, const Sample& at) const;
     Verdict lifetime(const State& state, const Sample& at, Span& span);
-    bool is_beyond(const State& state, const Slices& slices, double lo, double hi);
+    bool holds_but_at_ends(const Condition& x, const Span& span) const;
+    // Least and greatest t of what may be live between two angles, or more and less; nothing is if the first is greater.
+    std::array<double, 2> live_between(double lo, double hi) const;
+    bool is_beyond(const State& state, double low, double high, double lo, double hi);
     int conditions(const State& state, Condition* out, bool& wrong);
     bool lies_on_line(Index s, Index v) const;
     void find_curves(State& state);

@@ -126,6 +126,8 @@ public:
 
     // Sign on the whole closed interval, 0 if not certain.
     static int sign_on(const Filtered& f, double lo, double hi);
+    // The same on the open interval between roots of f at one end, or at both.
+    static int sign_between(const Filtered& f, double lo, double hi, bool root_at_lo, bool root_at_hi);
     // Sign at a sample, exact; 0 means zero.
     int offset_sign(Index s, Index v, const Filtered& f, const Sample& at);
     int parallel_sign(Index g, Index f, const Filtered& value, const Sample& at);
@@ -161,6 +163,8 @@ public:
         bool is(int everywhere) const { return at.empty() && sign[0] == everywhere; }
     };
     Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
+    // Order of two curves on a closed interval, 0 if not certain.
+    int order_on(const Curve& p, const Curve& q, double lo, double hi) const;
 
     // Sign at a sample, and roots, of the polynomial of an event's features.
     int event_sign(const Feature& first, const Feature& second, const Sample& at);
@@ -265,10 +269,12 @@ private:
     Event restored_round(Event x, int place);
     int sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at);
     bool is_touch_of_quadratic(const Event& x) const;
+    bool is_of_parallel(const Feature& parallel, const Event& x) const;
     bool same_polynomial(const Event& x, const Event& y);
     template <class T>
     std::optional<bool> meets_parallel(const Event& parallel, const Event& x) const;
     int order_of_close(const Event& x, const Event& y);
+    std::optional<int> order_of_brackets(const Event& x, const Event& y);
     int decided_order(const Event& x, const Event& y);
     RealRoot& kept_root(const Event& x);
 
@@ -280,7 +286,8 @@ private:
         Feature first, second;
         Coefficients<Ball> p;
     };
-    mutable std::unique_ptr<const Known> last;  // the polynomial asked for last: its roots are compared next
+    mutable std::vector<Known> known;  // table of polynomials by features; of one entry at first
+    mutable std::size_t unknown = 0;   // misses since the last resize
     std::vector<Narrowed> recent;  // table by features, as one angle is compared with many; empty at first
     std::size_t misses = 0;        // misses since the last resize
     mutable std::unique_ptr<const RoundOrders> made_orders;  // none until asked for
