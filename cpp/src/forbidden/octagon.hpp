@@ -1,6 +1,7 @@
 // Bounds of points in eight directions.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "cfree/scene/scene.hpp"
@@ -11,8 +12,9 @@ namespace cfree {
 struct Octagon {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     double low[4] = {infinity, infinity, infinity, infinity}, high[4] = {-infinity, -infinity, -infinity, -infinity};
+    static std::array<double, 4> values(double x, double y) { return {x, y, x + y, x - y}; }
     void add(double x, double y) {
-        const double value[4] = {x, y, x + y, x - y};
+        const auto value = values(x, y);
         for (int i = 0; i < 4; ++i) {
             low[i] = value[i] < low[i] ? value[i] : low[i];
             high[i] = high[i] < value[i] ? value[i] : high[i];
@@ -36,13 +38,13 @@ struct Octagon {
         return result;
     }
     bool has_inside(const Vec<double>& p) const {
-        const double value[4] = {p.x, p.y, p.x + p.y, p.x - p.y};
+        const auto value = values(p.x, p.y);
         for (int i = 0; i < 4; ++i)
             if (!(low[i] < value[i] && value[i] < high[i])) return false;
         return true;
     }
     Octagon shifted(const Vec<double>& d) const {
-        const double value[4] = {d.x, d.y, d.x + d.y, d.x - d.y};
+        const auto value = values(d.x, d.y);
         Octagon result;
         for (int i = 0; i < 4; ++i) result.low[i] = low[i] + value[i], result.high[i] = high[i] + value[i];
         return result;

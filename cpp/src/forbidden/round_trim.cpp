@@ -18,8 +18,7 @@ RoundTrimmer::RoundTrimmer(const Scene& s, const Surface& on, const Event& from,
         return;
     }
     ends[0] = end_helix(s, on.contact, 0), ends[1] = end_helix(s, on.contact, 1);
-    const Index t0 = curve_of(ends[0], false), t1 = curve_of(ends[1], false);
-    live.push_back({0, 1, t0, t1, 0, 1});
+    fill();
 }
 
 static Feature with_branch(Feature f, int branch) {

@@ -253,7 +253,10 @@ void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
 bool Shadows::cover_at_once(const Surface& surface, Event& from, Event& to) {
     slices.cut(from.lo, to.hi, surface.chart);
     const std::array<Helix, 2> ends = ends_of(surface.contact);
-    const auto is_covered = [&](int s) { return recent_cover(ends, s) || covers_slice(ends, s); };
+    const auto is_covered = [&](int s) {
+        const Arc arc = arc_of(s);
+        return recent_cover(ends, arc) || covers_slice(ends, s, arc);
+    };
     int first = 0, last = slices.count - 1;
     while (first <= last && is_covered(first)) ++first;
     if (first > last) return true;
@@ -270,8 +273,7 @@ std::array<Shadows::Helix, 2> Shadows::ends_of(const Feature& contact) const {
     return {{{scene.robot.v[i], {0, 0}}, {scene.robot.w[i], {0, 0}}}};
 }
 
-bool Shadows::recent_cover(const std::array<Helix, 2>& ends, int s) {
-    const Arc arc = arc_of(s);
+bool Shadows::recent_cover(const std::array<Helix, 2>& ends, const Arc& arc) {
     const auto covers = [&](const Overlap& x) { return stays_inside(x, x.witness[0], ends[0], arc) && stays_inside(x, x.witness[1], ends[1], arc); };
     const auto found = std::find_if(recent.begin(), recent.end(), covers);
     if (found == recent.end()) return false;
@@ -281,9 +283,8 @@ bool Shadows::recent_cover(const std::array<Helix, 2>& ends, int s) {
 
 // Try the pieces whose octagons meet at both ends of the line in the middle of a slice: all that may cover it. At each angle a
 // pillar is convex: it is enough that it covers both ends. A vertex that stays inside the other piece is in its octagon then.
-bool Shadows::covers_slice(const std::array<Helix, 2>& ends, int s) {
+bool Shadows::covers_slice(const std::array<Helix, 2>& ends, int s, const Arc& arc) {
     const Shape& A = scene.robot;
-    const Arc arc = arc_of(s);
     const double tau = (slices.at[s] + slices.at[s + 1]) / 2;
     const Vec<double> R = slices.corner(tau, tau);
     const auto turned = [&](Index v) {
@@ -293,10 +294,10 @@ bool Shadows::covers_slice(const std::array<Helix, 2>& ends, int s) {
     const Vec<double> shift[] = {{0, 0}, ends[1].at - turned(ends[1].a)};
     for (Index p = 0; p < A.pieces(); ++p) {
         Octagon around[2];
-        seen.clear();
+        at_middle.clear();
         for (Index n = A.piece[p]; n < A.piece[p + 1]; ++n) {
-            seen.push_back(turned(A.piece_vertex[n]));
-            around[0].add(seen.back().x, seen.back().y);
+            at_middle.push_back(turned(A.piece_vertex[n]));
+            around[0].add(at_middle.back().x, at_middle.back().y);
         }
         around[1] = around[0].shifted(shift[1]);
         const Octagon both = around[0].common(around[1]);
@@ -306,7 +307,7 @@ bool Shadows::covers_slice(const std::array<Helix, 2>& ends, int s) {
             Overlap pieces{p, place};
             const auto has_witness = [&](int end) {
                 Index& k = pieces.witness[end] = 0;
-                for (const Vec<double>& v : seen) {
+                for (const Vec<double>& v : at_middle) {
                     if (placed[place].has_inside(v + shift[end]) && stays_inside(pieces, k, ends[end], arc)) return true;
                     ++k;
                 }

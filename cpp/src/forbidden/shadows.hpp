@@ -80,8 +80,8 @@ private:
     void turn(double sign, double slack);
     void turn_to(double x, double y, double sign, std::vector<Octagon>& out) const;
     std::array<Helix, 2> ends_of(const Feature& contact) const;
-    bool recent_cover(const std::array<Helix, 2>& ends, int slice);
-    bool covers_slice(const std::array<Helix, 2>& ends, int slice);
+    bool recent_cover(const std::array<Helix, 2>& ends, const Arc& arc);
+    bool covers_slice(const std::array<Helix, 2>& ends, int slice, const Arc& arc);
     Arc arc_of(int slice) const;
     bool stays_inside(const Overlap& pieces, Index witness, const Helix& helix, const Arc& arc) const;
     bool may_pinch(Index turning_piece, Index still_piece, double slack) const;
@@ -99,7 +99,7 @@ private:
     const Side* turning = nullptr;         // turning side of the patch
     const Standing* still = nullptr;
     std::vector<double> along, across, radius;  // turning vertices
-    std::vector<Vec<double>> seen;              // scratch: vertices of a robot piece in the middle of a slice
+    std::vector<Vec<double>> at_middle;         // scratch: vertices of a robot piece in the middle of a slice
     std::vector<Octagon> turned;                // one per slice and piece, rounded outwards
     std::vector<Octagon> corners[2];            // scratch: octagons at the angles between two slices
     double rounded_size = 0;                    // twice the largest coordinate of the robot, if one of them is rounded

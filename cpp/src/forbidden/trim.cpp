@@ -21,6 +21,10 @@ Trimmer::Trimmer(const Scene& s, const Surface& on, const Event& from, const Eve
     : TrimLists(std::move(lists)), decide(s, on), scene(s), surface(on), ends{end_helix(s, on.contact, 0), end_helix(s, on.contact, 1)} {
     clear();
     events.push_back(from), events.push_back(to);
+    fill();
+}
+
+void Trimmer::fill() {
     const Index t0 = curve_of(ends[0], false), t1 = curve_of(ends[1], false);
     live.push_back({0, 1, t0, t1, 0, 1});
 }

@@ -122,17 +122,18 @@ std::vector<Index> MeetingPlaces::parts_near(const Box& box) const {
 Poses MeetingPlaces::candidates() const {
     Poses found;
     std::set<Index> seen;
+    const bool needs_corners = !slits;  // else `on_surfaces` adds those of all faces
     const auto add_corners = [&](const std::vector<Index>& faces) {
-        if (slits) return;  // `on_surfaces` adds those of all faces
         for (const Index face : faces)
             if (seen.insert(face).second) append(found, corners(*walker, face));
     };
-    for (const Encounter& encounter : encounters()) add_corners(encounter.faces);
+    if (needs_corners)
+        for (const Encounter& encounter : encounters()) add_corners(encounter.faces);
     at_edges(*walker, found);
     at_touches(*walker, found);
     for (const ThinPart& part : parts) {
         at_part(part, found);
-        add_corners(faces_near(part));
+        if (needs_corners) add_corners(faces_near(part));
     }
     on_surfaces(found);
     return found;

@@ -121,6 +121,8 @@ public:
 protected:
     // With nothing live yet.
     Trimmer(const Scene& s, const Surface& on) : decide(s, on), scene(s), surface(on) {}
+    // All between the first two events and the two ends.
+    void fill();
     // An edge of the pillar: an obstacle edge with a robot vertex, or a robot edge with an obstacle vertex.
     struct PillarEdge {
         Feature feature;
