@@ -53,6 +53,27 @@ static void narrowing_doubles_the_digits() {
     CHECK(half.is_dyadic() && compare(half.lo, Dyadic::from(0.5)) == 0);
 }
 
+// Two roots, 1/3 and 2^-k more, of polynomials of degrees 2 to 6.
+static void narrowing_keeps_the_root() {
+    const Poly others[] = {{1}, {-2, 0, 1}, product(Poly{-2, 0, 1}, Poly{5, 1, 7})};
+    for (unsigned k = 2; k < 160; k += 3)
+        for (const Poly& other : others) {
+            const Int gap = Int(1) << k;
+            const Poly p = product(product(Poly{-1, 3}, Poly{-gap - 3, 3 * gap}), other);
+            const auto found = isolate(Sturm(p), Dyadic::from(0), Dyadic::from(1), 8);
+            CHECK(found.size() == 2);
+            for (const auto& [lo, hi] : found) {
+                RealRoot root{p, lo, hi};
+                for (int n = 0; n < 12; ++n) {
+                    const RealRoot before = root;
+                    root.narrow();
+                    CHECK(compare(before.lo, root.lo) <= 0 && compare(root.hi, before.hi) <= 0 && root.digits() > before.digits());
+                    CHECK(sign_at(p, root.lo) * sign_at(p, root.hi) < 0);
+                }
+            }
+        }
+}
+
 static void numbers_that_nearly_agree_are_told_apart() {
     const Int much = Int(1) << 300;
     const Poly p{-much, 0, 2 * much}, above{-much - 1, 0, 2 * much};  // sqrt(1/2), and a little more
@@ -85,6 +106,7 @@ int main() {
     rational_roots_are_known();
     common_factors_are_divided_out();
     narrowing_doubles_the_digits();
+    narrowing_keeps_the_root();
     numbers_that_nearly_agree_are_told_apart();
     signs_at_dyadics_are_exact();
     common_divisors_are_found();
