@@ -152,8 +152,9 @@ bool are_proportional(const Poly& p, const Poly& q) {
     return true;
 }
 
-// True if the angle at which two edges are parallel is a root of another angle's polynomial by identity of features: that of a helix
-// and a surface, if an edge of one shape goes through the helix and the other shape's vertices of both are the ends of an edge.
+// True if the angle at which edges g and f are parallel is a root of another one's polynomial by identity of features. There a helix
+// (a, b) meets a surface: that of robot vertex s and obstacle edge F, of which b is an end. The polynomial is F x R (a - s), and a and
+// s are the ends of g, F has the direction of f. Surfaces of the other kind are alike.
 bool Predicates::is_of_parallel(const Feature& parallel, const Event& x) const {
     const Index g = parallel.robot, f = parallel.obstacle;
     const auto [helix, on] = x.second.kind == Kind::none ? std::array{x.first, surface.contact}

@@ -90,12 +90,12 @@ Coefficients<T> Predicates::coefficients(const Feature& first, const Feature& se
     if constexpr (!std::is_same_v<T, Ball>) return computed<T>(first, second);
     else {
         constexpr std::size_t most = 512;  // most surfaces ask for few
-        const auto place = [&] { return spread(mixed(first) * 3 + mixed(second)) & (known.size() - 1); };
-        if (known.empty()) known.resize(1);
-        if (const Known& at = known[place()]; at.first == first && at.second == second) return at.p;
-        if (++unknown > 4 * known.size() && known.size() < most) known.assign(8 * known.size(), {}), unknown = 0;
+        const auto place = [&] { return spread(mixed(first) * 3 + mixed(second)) & (polynomials.size() - 1); };
+        if (polynomials.empty()) polynomials.resize(1);
+        if (const Known& at = polynomials[place()]; at.first == first && at.second == second) return at.p;
+        if (++unknown > 4 * polynomials.size() && polynomials.size() < most) polynomials.assign(8 * polynomials.size(), {}), unknown = 0;
         const auto p = scene.is_round ? round_orders().in_balls(first, second) : computed<Ball>(first, second);
-        known[place()] = {first, second, p};
+        polynomials[place()] = {first, second, p};
         return p;
     }
 }

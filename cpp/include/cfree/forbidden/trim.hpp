@@ -227,7 +227,7 @@ protected:
     State state_at(Index p, Index k, const Sample& at) const;
     Verdict lifetime(const State& state, const Sample& at, Span& span);
     bool holds_but_at_ends(const Condition& x, const Span& span) const;
-    // Least and greatest t of what may be live between two angles, or more and less; nothing is if the first is greater.
+    // Bounds of t of what may be live between two angles; the first is greater if nothing is.
     std::array<double, 2> live_between(double lo, double hi) const;
     bool is_beyond(const State& state, double low, double high, double lo, double hi);
     int conditions(const State& state, Condition* out, bool& wrong);

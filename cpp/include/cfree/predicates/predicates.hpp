@@ -286,8 +286,8 @@ private:
         Feature first, second;
         Coefficients<Ball> p;
     };
-    mutable std::vector<Known> known;  // table of polynomials by features; of one entry at first
-    mutable std::size_t unknown = 0;   // misses since the last resize
+    mutable std::vector<Known> polynomials;  // table by features; of one entry at first
+    mutable std::size_t unknown = 0;         // misses since the last resize
     std::vector<Narrowed> recent;  // table by features, as one angle is compared with many; empty at first
     std::size_t misses = 0;        // misses since the last resize
     mutable std::unique_ptr<const RoundOrders> made_orders;  // none until asked for
