@@ -186,7 +186,7 @@ static void bind_junction(nb::module_& m) {
             return j.at.value(cfree::unpacked(line), j.spot(p));
         }, "line"_a, "place"_a)
         .def("range", [](const AtAngle& j, Code line, const PlaceTuple& p) {
-            const auto [lo, hi] = j.at.range(cfree::unpacked(line), j.spot(p));
+            const auto [lo, hi] = j.at.reading(cfree::unpacked(line), j.spot(p)).t;
             return std::pair(lo, hi);
         }, "line"_a, "place"_a);
 }

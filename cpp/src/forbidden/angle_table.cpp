@@ -89,14 +89,18 @@ void AngleTable::order_cluster(std::span<const Angle> ends, Cluster& cluster, st
     auto& named = cluster.named;
     all.clear(), named.clear();
     for (const Angle& x : ends) all.push_back(critical(x));
-    for (std::size_t k = 0; k < ends.size(); ++k) named.push_back({all[k].short_name(scene), &ends[k]});
-    const auto is_first = [&](const auto& x) { return x.first == named[0].first; };
-    if (std::all_of(named.begin(), named.end(), is_first) && (ends.size() == 1 || CriticalAngle::are_one(scene, named[0].first, all))) {
+    const auto join_all = [&] {
         for (const Angle& x : ends)
             if (x.trapezoid >= 0) rank_of(x) = static_cast<Index>(ordered.size());
         ordered.push_back(ends[0]);
-        return;
-    }
+    };
+    const auto name = all[0].name(scene);  // mostly that of all
+    const auto has_name = [&](const CriticalAngle& x) { return x.name(scene) == name; };
+    if (std::all_of(all.begin() + 1, all.end(), has_name) && (all.size() == 1 || CriticalAngle::are_one(scene, {name, false}, all)))
+        return join_all();
+    for (std::size_t k = 0; k < ends.size(); ++k) named.push_back({all[k].short_name(scene), &ends[k]});
+    const auto is_first = [&](const auto& x) { return x.first == named[0].first; };
+    if (std::all_of(named.begin(), named.end(), is_first) && CriticalAngle::are_one(scene, named[0].first, all)) return join_all();
     std::sort(named.begin(), named.end());  // one of each short name represents all that agree with it
     struct Class {
         CriticalAngle angle;

@@ -49,7 +49,7 @@ private:
         return {contact(k), unpacked((s.is_upper() ? trapezoids.upper : trapezoids.lower)[k])};
     }
     void glue(CurveSide* begin, CurveSide* end);
-    void pair_around_point(Index from, Index to, const std::vector<Index>& live);
+    void pair_around_point(Index from, Index to);
 
     const Scene& scene;
     const Patches& patches;
@@ -58,6 +58,8 @@ private:
     const Whole& whole;
     const Around around;
     Parts parts;
+    std::vector<Index> ranks, live;  // storage that is used again
+    std::vector<const CurveSide*> there;
 };
 
 // Glue sides with one hash: first those on the first's curve, then the others.
@@ -68,12 +70,10 @@ void CurveGluer::glue(CurveSide* begin, CurveSide* end) {
         std::stable_partition(begin + 1, end, [&](const CurveSide& s) { return is_same_curve(scene, first, curve(s)); });
     if (others != end) glue(others, end);
     end = others;
-    std::vector<Index> ranks;
+    ranks.clear(), there.clear();
     for (const CurveSide* s = begin; s != end; ++s) ranks.push_back(s->from), ranks.push_back(to(*s));
     std::sort(ranks.begin(), ranks.end());
     ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-    std::vector<const CurveSide*> there;
-    std::vector<Index> live;
     const CurveSide* next = begin;
     for (std::size_t r = 0; r + 1 < ranks.size(); ++r) {
         heed_stop();
@@ -89,12 +89,12 @@ void CurveGluer::glue(CurveSide* begin, CurveSide* end) {
         }
         if (live.size() == 2 && parts.side(live[0]) != parts.side(live[1])) parts.pair(live[0], live[1]);
         else if (around == Around::all && live.size() <= 2) parts.pair(live.front(), live.back());
-        else pair_around_point(from, until, live);
+        else pair_around_point(from, until);
     }
 }
 
 // Pair rays from the point, counter-clockwise: after a segment that arrives (an upper end) there is a free sector.
-void CurveGluer::pair_around_point(Index from, Index to, const std::vector<Index>& live) {
+void CurveGluer::pair_around_point(Index from, Index to) {
     const int chart = trapezoids.chart[parts.trapezoid[live[0]]];
     const Dyadic tau = angles.between(from, to, chart).exact();
     const auto R = rotation_by(chart, tau.n, Int(1) << tau.k);

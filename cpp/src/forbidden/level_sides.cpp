@@ -17,14 +17,6 @@ namespace cfree {
 
 namespace {
 
-// Place at which curves arrive on a line or a circle, each once; t on that line.
-template <class Spot>
-struct Place {
-    Spot spot;
-    Interval t;
-    Index number;  // number along the line, the same for equal places
-};
-
 struct Level {
     Index trapezoid;
     bool is_above;
@@ -65,6 +57,7 @@ private:
     std::vector<std::vector<Sheet*>> circles(std::vector<Sheet>& sheets, At& at) const;
     void glue_parallels(const std::vector<Sheet*>& sheets, At& at);
     void glue_line(std::span<Sheet* const> sheets, At& at);
+    void join_by_curve(const std::vector<Index>& chosen, std::vector<Index>& on_it);
     bool glue_two_alike(const Sheet& sheet, At& at);
     int order(const Feature& line, Index p, Index q, At& at) const;
     void number_places(const Feature& line, std::vector<Index>& on_it, At& at);
@@ -75,9 +68,22 @@ private:
     const Whole& whole;
     const Around around;
     std::vector<Level> levels;
+    struct LevelEnd {
+        Code curve;
+        bool is_above;  // of two places, where the curve jumps at this angle
+        Index level;
+        bool is_high;
+        auto operator<=>(const LevelEnd&) const = default;
+    };
+    std::vector<LevelEnd> ends;  // storage that is used again, as the next
     std::vector<std::pair<Code, Index>> by_code;
     std::vector<Index> of_sheets;  // levels, sheet by sheet
-    std::vector<Place<Spot>> places;
+    // Places at which curves arrive on a sheet, each once; where sheets are on one line, t and numbers along that.
+    struct PlaceOnLine : Place<At> {
+        Interval on_line;
+        Index number;  // the same for equal places
+    };
+    std::vector<PlaceOnLine> places;
 };
 
 template <class At>
@@ -124,19 +130,12 @@ std::vector<Sheet> LevelGluer<At>::sheets_of_levels() {
 // Find the ends of a sheet's levels; levels without width are left out.
 template <class At>
 void LevelGluer<At>::find_places(Sheet& sheet, At& at) {
-    struct LevelEnd {
-        Code curve;
-        bool is_above;  // of two places, where the curve jumps at this angle
-        Index level;
-        bool is_high;
-        auto operator<=>(const LevelEnd&) const = default;
-    };
     const auto spot_of = [&](Index k, bool is_high) {
         const Feature named = is_high ? levels[k].upper : levels[k].lower;
         if constexpr (is_round) return at.spot(levels[k].contact, named, levels[k].is_above);
         else return at.spot(levels[k].contact, named);
     };
-    std::vector<LevelEnd> ends;
+    ends.clear();
     for (const Index k : sheet.levels) {
         if (levels[k].low_code == levels[k].high_code) continue;
         for (const bool is_high : {false, true}) {
@@ -149,8 +148,8 @@ void LevelGluer<At>::find_places(Sheet& sheet, At& at) {
     for (std::size_t k = 0; k < ends.size(); ++k) {
         const auto& [curve, is_above, of, is_high] = ends[k];
         if (k == 0 || ends[k - 1].curve != curve || ends[k - 1].is_above != is_above) {
-            const Spot spot = spot_of(of, is_high);
-            places.push_back({spot, at.range(sheet.contact, spot), 0});
+            const auto place = Place<At>::read(sheet.contact, spot_of(of, is_high), at);
+            places.push_back({place, place.t, 0});
         }
         (is_high ? levels[of].high : levels[of].low) = static_cast<Index>(places.size()) - 1;
     }
@@ -285,8 +284,8 @@ bool LevelGluer<At>::glue_two_alike(const Sheet& sheet, At& at) {
     const auto ordered = [&](Index p, Index q) { return order(sheet.contact, p, q, at); };
     if (x.is_above == y.is_above || ordered(x.low, x.high) >= 0 || ordered(x.low, y.low) != 0 || ordered(x.high, y.high) != 0) return false;
     if (whole[x.trapezoid] || whole[y.trapezoid])
-        pair_on_piece<At>({x.trapezoid, x.is_above, x.contact}, {y.trapezoid, y.is_above, y.contact}, places[x.low].spot,
-                          places[x.high].spot, at, parts);
+        pair_on_piece<At>({x.trapezoid, x.is_above, x.contact}, {y.trapezoid, y.is_above, y.contact}, places[x.low], places[x.high],
+                          at, parts);
     return true;
 }
 
@@ -305,8 +304,10 @@ void LevelGluer<At>::glue_line(std::span<Sheet* const> sheets, At& at) {
         levels[k].along *= along;
         on_it.push_back(levels[k].low), on_it.push_back(levels[k].high);
     }
-    if (sheets.size() > 1)
-        for (const Index p : on_it) places[p].t = at.range(line, places[p].spot);
+    if (sheets.size() > 1) {
+        if constexpr (!is_round) join_by_curve(chosen, on_it);
+        for (const Index p : on_it) places[p].on_line = Place<At>::read(line, places[p].spot, at).t;
+    }
     number_places(line, on_it, at);
     for (const Index k : chosen) {
         Level& x = levels[k];
@@ -330,11 +331,29 @@ void LevelGluer<At>::glue_line(std::span<Sheet* const> sheets, At& at) {
             const Level& level = levels[x];
             const bool forwards = level.along > 0;
             const Side side = level.is_above ? Side::first : Side::last;
-            const Spot& start = places[on_it[is_forwards(side) == forwards ? k : k + 1]].spot;
-            live.push_back({&level, parts.add(level.trapezoid, side, !forwards, at.value(level.contact, start))});
+            const PlaceOnLine& start = places[on_it[is_forwards(side) == forwards ? k : k + 1]];
+            live.push_back({&level, parts.add(level.trapezoid, side, !forwards, start.value(level.contact, at))});
         }
         pair_around_line(live, places[on_it[k]].spot, places[on_it[k + 1]].spot, at);
     }
+}
+
+// Let ends at one curve be one place, though their surfaces differ.
+template <class At>
+void LevelGluer<At>::join_by_curve(const std::vector<Index>& chosen, std::vector<Index>& on_it) {
+    by_code.clear();
+    for (std::size_t k = 0; k < on_it.size(); ++k)
+        if (const Spot& spot = places[on_it[k]].spot; !spot.given) by_code.push_back({spot.code, static_cast<Index>(k)});
+    std::sort(by_code.begin(), by_code.end());
+    for (std::size_t k = 1; k < by_code.size(); ++k)
+        if (by_code[k].first == by_code[k - 1].first) on_it[by_code[k].second] = on_it[by_code[k - 1].second];
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        Level& x = levels[chosen[k]];
+        x.low = on_it[2 * k], x.high = on_it[2 * k + 1];
+    }
+    for (std::size_t k = by_code.size(); k-- > 1;)
+        if (by_code[k].first == by_code[k - 1].first) on_it[by_code[k].second] = -1;
+    std::erase(on_it, -1);
 }
 
 // Order of two places along a line.
@@ -342,8 +361,8 @@ template <class At>
 int LevelGluer<At>::order(const Feature& line, Index p, Index q, At& at) const {
     if (p == q) return 0;
     const auto &x = places[p], &y = places[q];
-    if (x.t.hi < y.t.lo) return -1;
-    return y.t.hi < x.t.lo ? 1 : at.order(line, x.spot, y.spot);
+    if (x.on_line.hi < y.on_line.lo) return -1;
+    return y.on_line.hi < x.on_line.lo ? 1 : at.order(line, x.spot, y.spot);
 }
 
 // Order places along a line, one for equal places, and number all of them.

@@ -31,7 +31,7 @@ private:
     // The sides of one surface: one of no length, or one below the angle and one above between the same two places.
     struct Line {
         std::array<const Level*, 2> levels{};  // the second may be null
-        std::array<Spot, 2> ends;
+        std::array<Place<Junction>, 2> ends;
     };
     bool add_to_line(const Level& level);
     bool find_helix();
@@ -106,8 +106,9 @@ bool MeetingOfThree::match(Line& line) {
     const std::size_t other = same_low ? 1 : 0;
     if (same_low == same_high || !is_there(*x, x->ends[other]) || !is_there(*x, y->ends[other])) return false;
     const Feature& contact = x->side->on.contact;
-    line.ends = {Spot{x->side->lower, x->ends[0], contact}, Spot{x->side->upper, x->ends[1], contact}};
-    return at.range(contact, line.ends[0]).hi < at.range(contact, line.ends[1]).lo;
+    const auto place = [&](const Feature& curve, Code own) { return Place<Junction>::read(contact, {curve, own, contact}, at); };
+    line.ends = {place(x->side->lower, x->ends[0]), place(x->side->upper, x->ends[1])};
+    return line.ends[0].t.hi < line.ends[1].t.lo;
 }
 
 // True if no side of another meeting is on the line of one of this one.

@@ -73,7 +73,7 @@ bool SlidingEdges::read(const Scene& scene, const SideAtAngle& side) {
 bool SlidingEdges::match(Junction& at) {
     auto& [x, y] = rows;
     if (!x.join() || !y.join() || x.begin().code != y.begin().code || x.end().code != y.end().code) return false;
-    const Interval of_x = at.range(line(), x.middle()), of_y = at.range(line(), y.middle());
+    const Interval of_x = at.reading(line(), x.middle()).t, of_y = at.reading(line(), y.middle()).t;
     if (of_y.hi < of_x.lo) std::swap(x, y);
     return of_x.hi < of_y.lo || of_y.hi < of_x.lo;
 }
@@ -81,7 +81,8 @@ bool SlidingEdges::match(Junction& at) {
 void SlidingEdges::add(const Whole& whole, Junction& at, Parts& parts) const {
     if (std::none_of(sides.begin(), sides.end(), [&](const EdgeSide& x) { return whole[x.side->trapezoid]; })) return;
     const auto& [x, y] = rows;
-    const std::array places{x.begin(), x.middle(), y.middle(), y.end()};
+    const auto place = [](const Spot& spot) { return Place<Junction>{spot, {}, {}, {}}; };
+    const std::array places{place(x.begin()), place(x.middle()), place(y.middle()), place(y.end())};
     const std::array<std::array<const EdgeSide*, 2>, 3> pairs{{{x.sides[0], y.sides[0]}, {x.sides[1], y.sides[0]}, {x.sides[1], y.sides[1]}}};
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const auto [first, last] = std::minmax(pairs[k][0], pairs[k][1]);

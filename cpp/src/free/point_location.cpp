@@ -151,13 +151,12 @@ bool PointLocation::may_be_on(const Feature& contact, const View& q) const {
 
 // True if a pose on its line is within the limits of a trapezoid. If a curve ends at a pole of N / D, its limit counts.
 bool PointLocation::is_on(Index k, const View& q, bool is_end) const {
-    const Surface surface = surface_of(patches, trapezoids, k);
-    const Predicates predicates(scene, surface);
-    const auto line = q.line<Int>(scene, surface.contact);
+    const Feature contact = surface_of(patches, trapezoids, k).contact;
+    const auto line = q.line<Int>(scene, contact);
     const auto expand = q.expansion<Int>();
     if (!value_at(expand(line.side()), q.pose->p, q.pose->r).is_zero()) return false;
     const auto beyond = [&](std::uint64_t curve) {  // sign of t minus the curve's
-        const auto [N, D] = predicates.curve_trig<Int>(unpacked(curve));
+        const auto [N, D] = Predicates::curve_trig<Int>(scene, contact, unpacked(curve));
         const Poly denominator = expand(D);
         const auto f = leading(two_products(expand(line.along()), denominator, expand(N), expand(line.length())),
                                q.pose->p, q.pose->r);
@@ -202,14 +201,13 @@ PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) c
         }
         if (to == 0) return;  // it ends here
         const int side = q.sign(when, [&]<class T>() { return q.expansion<T>()(q.line<T>(scene, contact).side()); });
-        const Predicates predicates(scene, surface_of(patches, trapezoids, k));
         const auto is_above = [&](std::uint64_t code) {  // P_y + t U_y > 0, t = N / D
             const Feature f = unpacked(code);
-            const int d = q.sign(when, [&]<class T>() { return q.expansion<T>()(predicates.curve_trig<T>(f)[1]); });
+            const int d = q.sign(when, [&]<class T>() { return q.expansion<T>()(Predicates::curve_trig<T>(scene, contact, f)[1]); });
             return d * q.sign(when, [&]<class T>() {
                 const auto line = q.line<T>(scene, contact);
                 const auto expand = q.expansion<T>();
-                const auto [N, D] = predicates.curve_trig<T>(f);
+                const auto [N, D] = Predicates::curve_trig<T>(scene, contact, f);
                 return two_products(expand(line.height()), expand(D), expand(N), expand(line.down()));
             }) > 0;
         };
@@ -238,7 +236,7 @@ std::optional<PointLocation::Probe> PointLocation::probe(Index k, int attempt) c
     const Int p = tau.n, r = Int(1) << tau.k;
     const Rotation<Int> R = rotation_by(surface.chart, p, r);
     const auto curve = [&](std::uint64_t code) {
-        auto [N, D] = predicates.curve_trig<Int>(unpacked(code));
+        const auto [N, D] = Predicates::curve_trig<Int>(scene, surface.contact, unpacked(code));
         std::array<Int, 2> t{N.a * R.w + N.b * R.c + N.c * R.s, D.a * R.w + D.b * R.c + D.c * R.s};
         if (t[1] < 0) t = {-t[0], -t[1]};
         return t;

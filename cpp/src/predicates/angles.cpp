@@ -200,11 +200,11 @@ std::optional<bool> Predicates::meets_parallel(const Event& parallel, const Even
     Trig<T> f;
     if (parallel.first.kind != Kind::edge_edge) return false;
     if (x.first.kind == Kind::vertex_vertex && x.second.kind == Kind::none) {
-        f = offset_trig<T>(x.first.robot, x.first.obstacle);
+        f = offset_trig<T>(scene, surface.contact, x.first.robot, x.first.obstacle);
     } else if (x.first.kind == Kind::vertex_vertex || x.second.kind == Kind::vertex_vertex) {
         const bool first = x.first.kind == Kind::vertex_vertex;
-        const auto [n, d] = curve_trig<T>(first ? x.first : x.second);
-        const auto [N, D] = curve_trig<T>(first ? x.second : x.first);
+        const auto [n, d] = curve_trig<T>(scene, surface.contact, first ? x.first : x.second);
+        const auto [N, D] = curve_trig<T>(scene, surface.contact, first ? x.second : x.first);
         f = combination(n, D, d, N);
     } else {
         return false;

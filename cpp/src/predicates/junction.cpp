@@ -33,7 +33,7 @@ Trig<T> sum(const Trig<T>& f, const Trig<T>& g) { return {f.a + g.a, f.b + g.b, 
 
 Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> number,
                    std::function<std::optional<Predicates::Bracket>()> narrower)
-    : scene(s), chart(in), on_any(s, {{}, in}), lo(from), hi(to), exact(std::move(number)), bracket(std::move(narrower)) {}
+    : scene(s), on_any(s, {{}, in}), lo(from), hi(to), exact(std::move(number)), bracket(std::move(narrower)) {}
 
 Poly Junction::polynomial(const Trig<Int>& f) const { return on_any.polynomial(f); }
 Filtered Junction::filtered(const Trig<Approx>& f) const { return on_any.filtered(f); }
@@ -132,11 +132,11 @@ int Junction::turn(const Feature& x, const Feature& y) {
     return found;
 }
 
-int Junction::turn_of_kind(const Feature& x, const Feature& y) const {
+int Junction::turn_of_kind(const Feature& x, const Feature& y) {
     const bool of_obstacles = is_on_edge(x);
     const Shape& shape = of_obstacles ? scene.obstacles : scene.robot;
     const Index e = of_obstacles ? x.obstacle : x.robot, f = of_obstacles ? y.obstacle : y.robot;
-    return shape.direction[e] == shape.direction[f] ? 0 : on(x).cross_sign(shape, e, f);
+    return shape.direction[e] == shape.direction[f] ? 0 : on_any.cross_sign(shape, e, f);
 }
 
 int Junction::parallel(const Feature& x, const Feature& y) {
@@ -175,7 +175,7 @@ bool Junction::meets(const Feature& surface, Code helix) const {
 }
 
 // True if two surfaces are known to have one line here.
-bool Junction::are_one_line(const Feature& x, const Feature& y) const {
+bool Junction::are_one_line(const Feature& x, const Feature& y) {
     const Feature &on_edge = is_on_edge(x) ? x : y, &of_edge = is_on_edge(x) ? y : x;
     if (x.kind == y.kind ? turn_of_kind(x, y) != 0 : !known.contains(parallels(of_edge.robot, on_edge.obstacle))) return false;
     const auto on_x = helices(x), on_y = helices(y);
@@ -186,8 +186,8 @@ std::array<Code, 3> Junction::parallels(Index g, Index f) const { return {0, 0, 
 
 // Surfaces of the ends of two parallel edges have one line, and all helices of these ends are on it.
 void Junction::know_parallel(Index g, Index f) {
-    const std::array<Index, 2> edges{g, f};
-    if (std::exchange(last_parallel, edges) == edges) return;
+    constexpr Code pair_of_edges = 1;  // no feature has it
+    if (!known.insert({pair_of_edges, static_cast<Code>(g), static_cast<Code>(f)})) return;
     know(parallels(g, f));
     const Shape &A = scene.robot, &O = scene.obstacles;
     const auto [a, b] = std::array{A.v[g], A.w[g]};
@@ -204,20 +204,20 @@ void Junction::know_parallel(Index g, Index f) {
 Interval Junction::offset(const Feature& x, const Feature& y) const {
     const Feature start = end_helix(scene, y, 0);
     const Index a = start.robot, b = start.obstacle;
-    return range(filtered(on(x).offset_trig<Approx>(a, b)));
+    return range(filtered(Predicates::offset_trig<Approx>(scene, x, a, b)));
 }
 
 int Junction::side(const Feature& x, Index a, Index b) {
-    return sign([&](auto T) { return on(x).offset_trig<decltype(T)>(a, b); });
+    return sign([&](auto T) { return Predicates::offset_trig<decltype(T)>(scene, x, a, b); });
 }
 
 Spot Junction::spot(const Feature& surface, const Feature& curve) const {
     Spot result{curve, code(scene, curve), surface};
     if (curve.kind == Kind::vertex_vertex) return result;
-    if (sign([&](auto T) { return on(surface).curve_trig<decltype(T)>(curve)[1]; }) != 0) return result;
+    if (sign([&](auto T) { return Predicates::curve_trig<decltype(T)>(scene, surface, curve)[1]; }) != 0) return result;
     // t = N / D, both zero here: either t is constant, or their common root is rational and t = N' / D' there
     Int n, d;
-    const auto [N, D] = on(surface).curve_trig<Int>(curve);
+    const auto [N, D] = Predicates::curve_trig<Int>(scene, surface, curve);
     const Poly p = polynomial(N), q = polynomial(D);
     const auto at = [](const Poly& f, int k) { return k < f.size() ? f[k] : Int(0); };
     const auto minor = [&](int k, int l) -> Int { return at(p, k) * at(q, l) - at(p, l) * at(q, k); };
@@ -247,16 +247,29 @@ std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) co
             return {N, times(d, directions_dot<T>(line, line))};
         }
     }
-    if (p.curve.kind != Kind::vertex_vertex) return on(line).curve_trig<T>(p.curve);
+    if (p.curve.kind != Kind::vertex_vertex) return Predicates::curve_trig<T>(scene, line, p.curve);
     return {along<T>(line, p.curve.robot, p.curve.obstacle), directions_dot<T>(line, line)};
 }
 
-double Junction::value(const Feature& line, const Spot& p) const {
-    if (!p.given) {
-        const auto [N, D] = position<Approx>(line, p);
-        const double tau = 0.5 * (lo + hi), d = filtered(D).polar(tau, tau), t = filtered(N).polar(tau, tau) / d;
-        if (filtered(N).err + std::abs(t) * filtered(D).err < 0x1p-32 * std::abs(d)) return t;
+// Range of N / D over the ranges of both.
+Junction::Reading Junction::reading(const Feature& line, const Spot& p) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Reading result{{-infinity, infinity}, {}};
+    if (p.given) return result;
+    const auto [N, D] = position<Approx>(line, p);
+    const Filtered in_n = filtered(N), in_d = filtered(D);
+    const Interval n = range(in_n), d = range(in_d);
+    if ((d.lo > 0 || d.hi < 0) && std::isfinite(n.hi - n.lo + d.hi - d.lo)) {
+        const double a = n.lo / d.lo, b = n.lo / d.hi, c = n.hi / d.lo, e = n.hi / d.hi;
+        result.t = widened(std::min({a, b, c, e}), std::max({a, b, c, e}));
     }
+    const double tau = 0.5 * (lo + hi), at = in_d.polar(tau, tau), t = in_n.polar(tau, tau) / at;
+    if (in_n.err + std::abs(t) * in_d.err < 0x1p-32 * std::abs(at)) result.near = t;
+    return result;
+}
+
+double Junction::value(const Feature& line, const Spot& p) const {
+    if (const auto near = reading(line, p).near) return *near;
     // a ratio of integers at an end of an interval, once it is nearly that on all of it: equal ends are not enough
     const auto [N, D] = position<Int>(line, p);
     const Poly n = polynomial(N), d = polynomial(D);
@@ -277,20 +290,9 @@ double Junction::value(const Feature& line, const Spot& p) const {
     }
 }
 
-// Range of N / D over the ranges of both.
-Interval Junction::range(const Feature& line, const Spot& p) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (p.given) return {-infinity, infinity};
-    const auto [N, D] = position<Approx>(line, p);
-    const Interval n = range(filtered(N)), d = range(filtered(D));
-    if (!(d.lo > 0 || d.hi < 0) || !std::isfinite(n.hi - n.lo + d.hi - d.lo)) return {-infinity, infinity};
-    const double a = n.lo / d.lo, b = n.lo / d.hi, c = n.hi / d.lo, e = n.hi / d.hi;
-    return widened(std::min({a, b, c, e}), std::max({a, b, c, e}));
-}
-
 // True if the features known to meet here prove two places equal: the two curves and the line's surface, a helix and the
 // other curve, or a helix through which both curves pass and that surface.
-bool Junction::is_known(const Feature& line, const Spot& p, const Spot& q) const {
+bool Junction::is_known(const Feature& line, const Spot& p, const Spot& q) {
     std::array<Code, 3> name{code(scene, line), p.code, q.code};
     std::sort(name.begin(), name.end());
     if (known.contains(name)) return true;
@@ -347,19 +349,19 @@ int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
     const Index a = start.robot, b = start.obstacle;
     if (!p.given) {
         const auto [N, D] = position<Approx>(line, p);
-        const Predicates::Form form{{4, filtered(on(x).offset_trig<Approx>(a, b)), filtered(D), filtered(N),
+        const Predicates::Form form{{4, filtered(Predicates::offset_trig<Approx>(scene, x, a, b)), filtered(D), filtered(N),
                                     -filtered(directions_cross<Approx>(x, line))}};
         if (const int s = form.sign_on(lo, hi) * Predicates::sign_on(form.q, lo, hi); s != 0) return s;
     }
     const auto [N, D] = position<Int>(line, p);
-    const Poly d = polynomial(D), offset = product(polynomial(on(x).offset_trig<Int>(a, b)), d);
+    const Poly d = polynomial(D), offset = product(polynomial(Predicates::offset_trig<Int>(scene, x, a, b)), d);
     const Poly along_it = product(polynomial(N), polynomial(times(Int(-1), directions_cross<Int>(x, line))));
     return sign_at(difference(offset, along_it), here()) * sign_at(d, here());
 }
 
 // A double on the line of a surface between two places, if doubles distinguish them.
 std::optional<double> Junction::between(const Feature& line, const Spot& p, const Spot& q) const {
-    const Interval first = range(line, p), last = range(line, q);
+    const Interval first = reading(line, p).t, last = reading(line, q).t;
     const double low = std::min(first.hi, last.hi), high = std::max(first.lo, last.lo), middle = 0.5 * (low + high);
     return low < middle && middle < high ? std::optional(middle) : std::nullopt;
 }
@@ -369,7 +371,7 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
     const Index a = start.robot, b = start.obstacle;
     if (const auto t = between(x, p, q)) {  // the side of y on which that place of x is, from its slope: here it is zero
         const auto turned = times(Approx{*t, std::abs(*t)}, directions_cross<Approx>(y, x));
-        const Filtered g = filtered(sum(on(y).offset_trig<Approx>(a, b), turned));
+        const Filtered g = filtered(sum(Predicates::offset_trig<Approx>(scene, y, a, b), turned));
         const double from = (g.a - g.b) * lo + g.c, to = (g.a - g.b) * hi + g.c;  // half of it, by tau
         if (std::min(from, to) > g.err) return after ? 1 : -1;
         if (std::max(from, to) < -g.err) return after ? -1 : 1;
@@ -385,7 +387,7 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
         if (above && below) break;
         (above ? high : low) = n;
     }
-    const Trig<Int> g = sum(times(d, on(y).offset_trig<Int>(a, b)), times(n, directions_cross<Int>(y, x)));
+    const Trig<Int> g = sum(times(d, Predicates::offset_trig<Int>(scene, y, a, b)), times(n, directions_cross<Int>(y, x)));
     const Poly offset = polynomial(g);
     if (offset.empty()) return 0;
     return after ? sign_after(offset, here()) : sign_before(offset, here());

@@ -5,29 +5,15 @@
 
 namespace cfree {
 
-Code code(const Scene& scene, const Feature& f) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    Index i = 0, j = 0;
-    switch (f.kind) {
-        case Kind::none: return 0;
-        case Kind::vertex_edge: i = A.point[f.robot], j = O.line[f.obstacle]; break;
-        case Kind::edge_vertex: i = A.line[f.robot], j = O.point[f.obstacle]; break;
-        case Kind::vertex_vertex: i = A.point[f.robot], j = O.point[f.obstacle]; break;
-        case Kind::edge_edge: i = A.direction[f.robot], j = O.direction[f.obstacle]; break;
-        case Kind::seam: i = A.point[f.robot], j = O.point[f.obstacle]; break;
-    }
-    return static_cast<Code>(f.kind) << 61 | static_cast<Code>(f.branch & 3) << 59 | static_cast<Code>(i) << 31 | static_cast<Code>(j);
-}
-
 // --- the quadratics, one formula for every number type ---------------------------------------------------------------
 
 // The half-plane of a pillar's edge, with direction V and point Q, cuts the surface's line P + t U, P = b_j - R a_i. There
 // V x (P - Q) + t (V x U) = 0. So t = N / D with N = -V x (P - Q) and D = V x U.
 template <class T>
-std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
+std::array<Trig<T>, 2> Predicates::curve_trig(const Scene& scene, const Feature& contact, const Feature& f) {
     const Shape &A = scene.robot, &O = scene.obstacles;
-    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
-    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const Index i = contact.robot, j = contact.obstacle;
     const Index a0 = on_edge ? i : A.v[i], b0 = on_edge ? O.v[j] : j;
     const auto E = on_edge ? edge<T>(O, j) : edge<T>(A, i);
     if (f.kind == Kind::vertex_vertex) {  // t is the place of the vertex on the edge
@@ -49,16 +35,16 @@ std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
 
 Curve Predicates::curve(const Feature& f) const {
     if (scene.is_round) return {f, code(scene, f), false, false, false, {}, {}};
-    const auto [N, D] = curve_trig<Approx>(f);
+    const auto [N, D] = curve_trig<Approx>(scene, surface.contact, f);
     const bool constant = f.kind == Kind::vertex_vertex;
     return {f, code(scene, f), constant, constant || f.kind == surface.contact.kind, false, filtered(N), filtered(D)};
 }
 
-template Trig<Ball> Predicates::offset_trig(Index, Index) const;
-template Trig<Int> Predicates::offset_trig(Index, Index) const;
-template std::array<Trig<Ball>, 2> Predicates::curve_trig(const Feature&) const;
-template std::array<Trig<Int>, 2> Predicates::curve_trig(const Feature&) const;
-template std::array<Trig<Approx>, 2> Predicates::curve_trig(const Feature&) const;
+template Trig<Ball> Predicates::offset_trig(const Scene&, const Feature&, Index, Index);
+template Trig<Int> Predicates::offset_trig(const Scene&, const Feature&, Index, Index);
+template std::array<Trig<Ball>, 2> Predicates::curve_trig(const Scene&, const Feature&, const Feature&);
+template std::array<Trig<Int>, 2> Predicates::curve_trig(const Scene&, const Feature&, const Feature&);
+template std::array<Trig<Approx>, 2> Predicates::curve_trig(const Scene&, const Feature&, const Feature&);
 
 Predicates::Form Predicates::form(const Curve& p, const Curve& q) const {
     return {terms<Filtered>({p.constant, p.constant_D}, p.N, p.D, {q.constant, q.constant_D}, q.N, q.D)};
@@ -104,14 +90,14 @@ template <class T>
 Coefficients<T> Predicates::computed(const Feature& first, const Feature& second) const {
     if (second.kind == Kind::none) {
         if (first.kind == Kind::edge_edge) return coefficients(parallel_trig<T>(first.robot, first.obstacle));
-        return coefficients(offset_trig<T>(first.robot, first.obstacle));
+        return coefficients(offset_trig<T>(scene, surface.contact, first.robot, first.obstacle));
     }
     const auto constants = [&](const Feature& f) {
         const bool constant = f.kind == Kind::vertex_vertex;
         return Constants{constant, constant || f.kind == surface.contact.kind};
     };
-    const auto [N1, D1] = curve_trig<T>(first);
-    const auto [N2, D2] = curve_trig<T>(second);
+    const auto [N1, D1] = curve_trig<T>(scene, surface.contact, first);
+    const auto [N2, D2] = curve_trig<T>(scene, surface.contact, second);
     const auto all = terms<Trig<T>>(constants(first), N1, D1, constants(second), N2, D2);
     if (all.degree == 2) return coefficients(all.p);
     const auto p = coefficients(all.p), q = coefficients(all.q), r = coefficients(all.r), s = coefficients(all.s);
@@ -169,7 +155,7 @@ int Predicates::order_at(const Feature& p, const Feature& q, const Sample& at) c
 }
 
 int Predicates::denominator_sign(const Feature& f, const Sample& at) const {
-    return cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), at.exact());
+    return cfree::sign_at(polynomial(curve_trig<Int>(scene, surface.contact, f)[1]), at.exact());
 }
 
 int Predicates::cross_sign(const Shape& shape, Index e, Index f) {

@@ -263,7 +263,7 @@ bool Predicates::are_limits(const Feature& lower, const Feature& upper, const Ev
             const bool on_edge = on.kind == Kind::vertex_edge;
             if (!parallel_roots(on_edge ? f.robot : on.robot, on_edge ? on.obstacle : f.obstacle, from, to).at.empty()) return {};
         }
-        const int sign = cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), middle.exact());
+        const int sign = cfree::sign_at(polynomial(curve_trig<Int>(scene, surface.contact, f)[1]), middle.exact());
         if (sign < 0) result.N = -result.N, result.D = -result.D, result.flipped = true;
         return sign == 0 ? std::nullopt : std::optional(result);
     };

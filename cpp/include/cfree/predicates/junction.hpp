@@ -48,9 +48,14 @@ public:
     Interval offset(const Feature& x, const Feature& y) const;
     // End of a curve on a surface.
     Spot spot(const Feature& on, const Feature& curve) const;
-    // Approximate t of a spot on a surface whose line goes through it.
+    // Place t of a spot on a surface whose line goes through it: an interval, and a double near it, if doubles suffice.
+    struct Reading {
+        Interval t;
+        std::optional<double> near;
+    };
+    Reading reading(const Feature& line, const Spot& p) const;
+    // A double near t in any case.
     double value(const Feature& line, const Spot& p) const;
-    Interval range(const Feature& line, const Spot& p) const;
     // Side of x's line on which a place on another surface's line lies.
     int side(const Feature& x, const Feature& line, const Spot& p);
     // Order of two places along the line of a surface through both.
@@ -60,7 +65,6 @@ public:
     int across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after);
 
 private:
-    Predicates on(const Feature& x) const { return {scene, {x, chart}}; }
     template <class T>
     Trig<T> along(const Feature& x, Index a, Index b) const;  // U . (b_b - R a_a - P)
     template <class T>
@@ -83,16 +87,15 @@ private:
     bool meets(const Feature& surface, Code helix) const;
     void know_meeting(const Feature& surface, Code helix);
     std::array<Code, 3> parallels(Index g, Index f) const;
-    bool are_one_line(const Feature& x, const Feature& y) const;
-    int turn_of_kind(const Feature& x, const Feature& y) const;
-    bool is_known(const Feature& line, const Spot& p, const Spot& q) const;
+    bool are_one_line(const Feature& x, const Feature& y);
+    int turn_of_kind(const Feature& x, const Feature& y);
+    bool is_known(const Feature& line, const Spot& p, const Spot& q);
     template <class F>
     int sign(const F& trig) const;
     Poly polynomial(const Trig<Int>& f) const;
     Filtered filtered(const Trig<Approx>& f) const;
 
     const Scene& scene;
-    int chart;
     Predicates on_any;  // for what is the same on every surface
     double lo, hi;
     std::function<RealRoot()> exact;
@@ -102,7 +105,6 @@ private:
     mutable std::optional<Ball> narrowed;
     mutable std::optional<Coefficients<Ball>> zero_here;  // a quadratic, not zero everywhere
     MeetingNames known;
-    std::array<Index, 2> last_parallel{-1, -1};  // the edges entered last
 };
 
 }  // namespace cfree

@@ -13,12 +13,14 @@ public:
     using Name = std::array<Code, 3>;
 
     bool contains(const Name& name) const { return !slots.empty() && !is_empty(slots[place(name)]); }
-    void insert(const Name& name) {
+    // True if the name is new.
+    bool insert(const Name& name) {
         if (2 * (count + 1) > slots.size()) grow();
         Name& slot = slots[place(name)];
-        if (!is_empty(slot)) return;
+        if (!is_empty(slot)) return false;
         slot = name;
         ++count;
+        return true;
     }
 
 private:

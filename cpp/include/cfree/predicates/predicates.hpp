@@ -38,7 +38,19 @@ struct Feature {
 };
 // Equal features have equal codes: vertices by point, edges by line (parallels: by direction).
 using Code = std::uint64_t;
-Code code(const Scene& scene, const Feature& f);
+inline Code code(const Scene& scene, const Feature& f) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    Index i = 0, j = 0;
+    switch (f.kind) {
+        case Kind::none: return 0;
+        case Kind::vertex_edge: i = A.point[f.robot], j = O.line[f.obstacle]; break;
+        case Kind::edge_vertex: i = A.line[f.robot], j = O.point[f.obstacle]; break;
+        case Kind::vertex_vertex: i = A.point[f.robot], j = O.point[f.obstacle]; break;
+        case Kind::edge_edge: i = A.direction[f.robot], j = O.direction[f.obstacle]; break;
+        case Kind::seam: i = A.point[f.robot], j = O.point[f.obstacle]; break;
+    }
+    return static_cast<Code>(f.kind) << 61 | static_cast<Code>(f.branch & 3) << 59 | static_cast<Code>(i) << 31 | static_cast<Code>(j);
+}
 
 // True if a surface is that of a concave arc.
 inline bool is_concave(const Scene& scene, const Feature& f) {
@@ -231,7 +243,7 @@ private:
     friend class PointLocation;  // the same at rational angles
     friend class RoundOrders;    // the same where shapes are grown
     template <class T>
-    Trig<T> offset_trig(Index s, Index v) const;
+    static Trig<T> offset_trig(const Scene& scene, const Feature& contact, Index s, Index v);
     template <class T>
     Trig<T> parallel_trig(Index g, Index f) const;
     template <class T>
@@ -239,7 +251,7 @@ private:
         return {T{}, cross(G, F), -dot(G, F)};
     }
     template <class T>
-    std::array<Trig<T>, 2> curve_trig(const Feature& f) const;  // N and D
+    static std::array<Trig<T>, 2> curve_trig(const Scene& scene, const Feature& contact, const Feature& f);  // N and D
     Filtered filtered(const Trig<Approx>& f) const;
     // Polynomial of an event's features; see Event. Two curves: N1 D2 - N2 D1.
     template <class T>
@@ -305,10 +317,10 @@ inline constexpr double coefficient_error = 0x1p-48;
 inline constexpr double tiny = 0x1p-900;
 
 template <class T>
-Trig<T> Predicates::offset_trig(Index s, Index v) const {
+Trig<T> Predicates::offset_trig(const Scene& scene, const Feature& contact, Index s, Index v) {
     const Shape &A = scene.robot, &O = scene.obstacles;
-    const Index i = surface.contact.robot, j = surface.contact.obstacle;
-    if (surface.contact.kind == Kind::vertex_edge) {  // E_j x (b_v - b_j - R (a_s - a_i))
+    const Index i = contact.robot, j = contact.obstacle;
+    if (contact.kind == Kind::vertex_edge) {  // E_j x (b_v - b_j - R (a_s - a_i))
         const auto E = edge<T>(O, j), w = difference<T>(O, v, O.v[j]), d = difference<T>(A, s, i);
         return {cross(E, w), -cross(E, d), -dot(E, d)};
     }
@@ -325,7 +337,7 @@ Trig<T> Predicates::parallel_trig(Index g, Index f) const {
 inline Filtered Predicates::filtered(const Trig<Approx>& f) const {
     return {f.a.v, kappa * f.b.v, kappa * f.c.v, double_only ? 0 : coefficient_error * (f.a.m + f.b.m + f.c.m) + tiny};
 }
-inline Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(s, v)); }
+inline Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(scene, surface.contact, s, v)); }
 inline Filtered Predicates::parallel(Index g, Index f) const { return filtered(parallel_trig<Approx>(g, f)); }
 
 [[gnu::always_inline]] inline int Predicates::sign_on(const Filtered& f, double lo, double hi) {
