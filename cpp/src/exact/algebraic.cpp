@@ -27,16 +27,15 @@ unsigned RootOf<P>::digits() const {
     return size < k ? k - size : 0;
 }
 
-// A step of Newton's method from the middle m, with a bound of its error: by the mean value theorem the root is m - p(m) / s for a
-// slope s between the least and the greatest in the interval. The value is exact, the slope a double. False if the slope may vanish,
-// or if halving is as good.
+// A step of Newton's method from the middle m, once the interval is narrower than 2^-right, with a bound of its error: by the mean
+// value theorem the root is m - p(m) / s for a slope s between the least and the greatest in the interval. The value is exact, the
+// slope a double. False if the slope may vanish, or if halving is as good.
 template <class P>
-bool RootOf<P>::step() {
+bool RootOf<P>::step(unsigned right) {
     constexpr double rounding = 0x1p-50;  // at most 8 u
     const Dyadic m = Dyadic::middle(lo, hi);
-    int size = 0;
-    for (int i = 0; i < p.size(); ++i) size = std::max(size, p[i].is_zero() ? 0 : static_cast<int>(msb(abs(p[i]))));
-    const double width = std::ldexp(1.0, -static_cast<int>(digits())), t = ball(m.n, static_cast<int>(m.k)).hi, reach = std::abs(t) + width;
+    const int size = largest_bit(p);
+    const double width = std::ldexp(1.0, -static_cast<int>(right)), t = ball(m.n, static_cast<int>(m.k)).hi, reach = std::abs(t) + width;
     double slope = 0, total = 0, bend = 0;  // p', the sum of its summands, and a bound of p'' in the interval
     for (int i = p.size() - 1; i > 0; --i) {
         const double c = i * ball(p[i], size).hi;
@@ -64,12 +63,12 @@ bool RootOf<P>::step() {
 // right, this gives the others.
 template <class P>
 void RootOf<P>::narrow() {
+    heed_stop();
+    const unsigned right = digits(), b = right / 2;
+    if (is_dyadic() || b < 4) return halve();
+    if (b < 100 && step(right)) return;
     const unsigned k = std::max(lo.k, hi.k);
     const Int from = lo.n << (k - lo.k), width = (hi.n << (k - hi.k)) - from;
-    heed_stop();
-    const unsigned b = digits() / 2;
-    if (is_dyadic() || b < 4) return halve();
-    if (b < 100 && step()) return;
     const Int below = value_at(p, Dyadic{from, k}), above = value_at(p, Dyadic{from + width, k});
     const Int part = (abs(below) << b) / (abs(below) + abs(above)), last = Int(1) << b;
     const Dyadic l{(from << b) + width * (part == 0 ? part : Int(part - 1)), k + b};

@@ -277,10 +277,8 @@ void cancel(std::span<Poly> parts) {
 }
 
 Coefficients<Ball> scaled(const Poly& p) {
-    int size = 0;
-    for (const Int& c : p) size = std::max(size, c.is_zero() ? 0 : static_cast<int>(msb(abs(c))));
     Coefficients<Ball> result{{}, p.size()};
-    for (int i = 0; i < p.size(); ++i) result.c[i] = ball(p[i], size);
+    for (int i = 0, size = largest_bit(p); i < p.size(); ++i) result.c[i] = ball(p[i], size);
     return result;
 }
 

@@ -113,6 +113,7 @@ private:
         const Feature own = contact(patch);
         Spot low = at.spot(own, lower), high = at.spot(own, upper);
         const bool is_point = at.order(own, low, high) == 0;
+        const Interval on_low = at.reading(own, low).t, on_high = at.reading(own, high).t;
         std::vector<Flat> left{{patch, angle, patch, {low, patch}, {high, patch}, is_point}}, next;
         const auto take_away = [&](Index p, Index k, const Feature& other, int along) {
             if (!reaches(k, angle)) return;
@@ -137,12 +138,18 @@ private:
             }
             left.swap(next);
         };
+        // no place of the other surface is beside a place between low and high
+        const auto is_beyond = [&](const Feature& other) {
+            const Interval x = at.beside(own, end_helix(scene, other, 0)), y = at.beside(own, end_helix(scene, other, 1));
+            return std::max(x.hi, y.hi) < std::min(on_low.lo, on_high.lo) || std::min(x.lo, y.lo) > std::max(on_low.hi, on_high.hi);
+        };
         for (const Index p : patches_near(patch, near)) {
             Index k = first_live[p];
             const Index end = first_live[p + 1];
             while (k < end && !may_reach(k, angle)) ++k;
             if (k == end) continue;
             const Feature other = contact(p);
+            if (is_beyond(other)) continue;
             const int along = at.parallel(own, other);
             if (along != 0 ? at.side(own, other) != 0 : !is_point || at.side(other, own, low) != 0) continue;
             for (; k < end; ++k) {

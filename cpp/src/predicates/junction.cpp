@@ -353,6 +353,15 @@ int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
                                     -filtered(directions_cross<Approx>(x, line))}};
         if (const int s = form.sign_on(lo, hi) * Predicates::sign_on(form.q, lo, hi); s != 0) return s;
     }
+    const auto found = by_balls([&](const Ball& tau) -> std::optional<int> {
+        const auto [N, D] = position<Ball>(line, p);
+        const auto at = [&](const Trig<Ball>& f) { return value_at(on_any.coefficients(f), tau); };
+        const Ball d = at(D), offset = at(Predicates::offset_trig<Ball>(scene, x, a, b)) * d;
+        const auto s = certain_sign(offset + at(N) * at(directions_cross<Ball>(x, line))), of_d = certain_sign(d);
+        if (s && of_d) return *s * *of_d;
+        return {};
+    });
+    if (found) return *found;
     const auto [N, D] = position<Int>(line, p);
     const Poly d = polynomial(D), offset = product(polynomial(Predicates::offset_trig<Int>(scene, x, a, b)), d);
     const Poly along_it = product(polynomial(N), polynomial(times(Int(-1), directions_cross<Int>(x, line))));

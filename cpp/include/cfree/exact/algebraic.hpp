@@ -14,7 +14,7 @@ struct RootOf {
     bool is_dyadic() const { return cfree::compare(lo, hi) == 0; }
     unsigned digits() const;  // d if the interval is narrower than 2^-d, or 0
     void halve();
-    bool step();  // by Newton's method; false if halving is as good
+    bool step(unsigned right);  // by Newton's method; false if halving is as good
     void narrow();  // faster and faster once the polynomial is nearly straight in the interval
 };
 using RealRoot = RootOf<Poly>;      // of degree at most 6

@@ -1,5 +1,6 @@
 // Exact polynomials in tau with integer coefficients: signs at doubles, common divisors, root counts.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <span>
@@ -75,6 +76,14 @@ Poly difference(const Poly& p, const Poly& q);
 Poly derivative(const Poly& p);
 Int value_at(const Poly& p, const Dyadic& tau);  // times 2^(k d), d the degree
 int sign_at(const Poly& p, const Dyadic& tau);
+// Place of the highest bit of any coefficient.
+template <class P>
+int largest_bit(const P& p) {
+    int most = 0;
+    for (const Int& c : p)
+        if (!c.is_zero()) most = std::max(most, static_cast<int>(msb(abs(c))));
+    return most;
+}
 Coefficients<Ball> scaled(const Poly& p);  // in balls, times a power of two
 int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi);  // sign on the whole closed interval, 0 if not certain
 Poly greatest_common_divisor(Poly p, Poly q);

@@ -54,6 +54,8 @@ public:
         std::optional<double> near;
     };
     Reading reading(const Feature& line, const Spot& p) const;
+    // The same of the place on a surface's line beside a helix, its orthogonal projection.
+    Interval beside(const Feature& line, const Feature& helix) const { return reading(line, {helix}).t; }
     // A double near t in any case.
     double value(const Feature& line, const Spot& p) const;
     // Side of x's line on which a place on another surface's line lies.
