@@ -61,7 +61,7 @@ public:
                 const CriticalAngle from = angle_from(patches, thin, k), to = angle_to(patches, thin, k);
                 const Index patch = thin.patch[k];
                 const Feature lower = unpacked(thin.lower[k]), upper = unpacked(thin.upper[k]);
-                if (order(scene, from, to) == 0) found_flats[k] = flats_of(patch, from, lower, upper, near);
+                if (order(scene, from, to) == 0) found_flats[k] = flats_of(patch, {from, to}, lower, upper, near);
                 else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch}, hashes[k], near);
             }
         };
@@ -107,9 +107,12 @@ private:
 
     // --- at one angle ---
 
-    std::vector<Flat> flats_of(Index patch, const CriticalAngle& angle, const Feature& lower, const Feature& upper,
+    // Parts of a trapezoid from an angle to the same one, by two names.
+    std::vector<Flat> flats_of(Index patch, const std::array<CriticalAngle, 2>& names, const Feature& lower, const Feature& upper,
                                Near& near) const {
+        const CriticalAngle& angle = names[0];
         Junction at = junction(angle);
+        for (const CriticalAngle& name : names) know(at, scene, name);
         const Feature own = contact(patch);
         Spot low = at.spot(own, lower), high = at.spot(own, upper);
         const bool is_point = at.order(own, low, high) == 0;

@@ -95,8 +95,9 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
     Brackets found;
     // simple quartics have just been tried
     if ((p.size() <= 3 || simple.size() < p.size()) && isolate_around(Balls(simple), lo, hi, found) && are_narrow(found)) {
-        for (const auto& [l, h] : found)
-            result.at.push_back({first, second, l, h, -1, is_touch(Dyadic::from(l), Dyadic::from(h))});
+        const bool may_touch = simple.size() < p.size();
+        for (const auto& [l, h] : found)  // between certain signs: no root is at an end
+            result.at.push_back({first, second, l, h, -1, may_touch && cfree::sign_at(p, Dyadic::from(l)) == cfree::sign_at(p, Dyadic::from(h))});
         return result;
     }
     const Sturm sturm(simple);
