@@ -12,12 +12,16 @@ namespace cfree {
 AngleTable::AngleTable(const Scene& s, const Patches& p, const Trapezoids& t, int threads)
     : scene(s), patches(p), trapezoids(t) {
     from.resize(t.patch.size()), to.resize(t.patch.size());
-    std::array<std::vector<Angle>, 2> ends;
-    for_each_in_parallel(threads, ends.size(), [&](std::size_t chart) { ends[chart] = sorted_ends(static_cast<int>(chart)); });
-    order_chart(0, ends[0], threads);
+    std::array<std::vector<Angle>, 2> ordered;
+    for_each_in_parallel(threads, ordered.size(), [&](std::size_t chart) {
+        ordered[chart] = order_chart(sorted_ends(static_cast<int>(chart)), (threads + 1) / 2);
+    });
+    angles = std::move(ordered[0]);
     middle = static_cast<Index>(angles.size()) - 1;
-    order_chart(1, ends[1], threads);
+    angles.insert(angles.end(), ordered[1].begin(), ordered[1].end());
     last = static_cast<Index>(angles.size()) - 2;
+    for (std::size_t k = 0; k < t.patch.size(); ++k)
+        if (t.chart[k] == 1) from[k] += middle, to[k] += middle;
 }
 
 CriticalAngle AngleTable::critical(const Angle& x) const {
@@ -57,7 +61,8 @@ std::vector<AngleTable::Angle> AngleTable::sorted_ends(int chart) const {
     return ends;
 }
 
-void AngleTable::order_chart(int chart, const std::vector<Angle>& ends, int threads) {
+// Angles of a chart in order, and the ranks of its trapezoids among them.
+std::vector<AngleTable::Angle> AngleTable::order_chart(const std::vector<Angle>& ends, int threads) {
     const std::size_t block = block_of(ends.size());  // or more: whole clusters, runs of intervals that overlap
     std::vector<std::size_t> clusters, first;  // starts of clusters, and the first clusters of blocks
     double reach = -2;
@@ -75,12 +80,14 @@ void AngleTable::order_chart(int chart, const std::vector<Angle>& ends, int thre
         for (std::size_t c = first[b]; c < first[b + 1]; ++c)
             order_cluster(std::span(ends).subspan(clusters[c], clusters[c + 1] - clusters[c]), cluster, ordered[b]);
     });
+    std::vector<Angle> all;
     for (std::size_t b = 0; b < ordered.size(); ++b) {
-        const auto before = static_cast<Index>(angles.size()) - chart;
+        const auto before = static_cast<Index>(all.size());
         for (std::size_t k = clusters[first[b]]; k < clusters[first[b + 1]]; ++k)
             if (ends[k].trapezoid >= 0) rank_of(ends[k]) += before;
-        angles.insert(angles.end(), ordered[b].begin(), ordered[b].end());
+        all.insert(all.end(), ordered[b].begin(), ordered[b].end());
     }
+    return all;
 }
 
 // Append the angles of a cluster in order, and rank its members by their places there.

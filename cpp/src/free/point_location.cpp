@@ -180,10 +180,10 @@ Spread spread(Approx p, Approx q) {
 
 }  // namespace
 
-PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) const {
+PointLocation::Nearby PointLocation::look(const View& q, When when, Index own, By by) const {
     Nearby seen;
     const Index part = index.part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
-    stab(tree(part), q.place.x.v, q.place.y.v, [&](Index k) {
+    const auto look_at = [&](Index k) {
         heed_stop();
         if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) return;
         const Feature contact = surface_of(patches, trapezoids, k).contact;
@@ -213,7 +213,13 @@ PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) c
         };
         const bool begins_above = is_above(trapezoids.lower[k]), ends_above = is_above(trapezoids.upper[k]);
         if (begins_above != ends_above && side == (ends_above ? -1 : 1)) seen.crossed.push_back(k);
-    });
+    };
+    if (by == By::tree) {
+        stab(tree(part), q.place.x.v, q.place.y.v, look_at);
+    } else {
+        const auto members = index.at(part);
+        std::for_each(members.begin(), members.end(), look_at);
+    }
     return seen;
 }
 
@@ -290,7 +296,7 @@ std::vector<PointLocation::Ray> PointLocation::rays() const {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no ray in general position");
             const auto q = probe(k, attempt);
             if (!q) continue;
-            Nearby seen = look(View(q->pose, scene.shift), When::at, k);
+            Nearby seen = look(View(q->pose, scene.shift), When::at, k, By::list);
             if (!seen.generic || !seen.on.empty()) continue;
             // the ray starts just left of the surface, or above it if it is level: forbidden if the surface rises
             result.push_back({q->pose, k, q->rise > 0, std::move(seen.crossed)});

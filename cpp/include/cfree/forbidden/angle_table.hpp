@@ -36,7 +36,7 @@ private:
         std::vector<std::pair<CriticalAngle::ShortName, const Angle*>> named;
     };
     std::vector<Angle> sorted_ends(int chart) const;
-    void order_chart(int chart, const std::vector<Angle>& ends, int threads);
+    std::vector<Angle> order_chart(const std::vector<Angle>& ends, int threads);
     void order_cluster(std::span<const Angle> ends, Cluster& cluster, std::vector<Angle>& ordered);
     Index& rank_of(const Angle& x) { return (x.is_to ? to : from)[x.trapezoid]; }
     CriticalAngle critical(const Angle& x) const;

@@ -97,7 +97,8 @@ public:
 private:
     struct View;
     enum class When { at, after };  // `at` the orientation, or just `after` it
-    Nearby look(const View& q, When when, Index own) const;
+    enum class By { tree, list };  // the list is faster for one question about a part
+    Nearby look(const View& q, When when, Index own, By by = By::tree) const;
     void look_on(const View& q, Nearby& seen) const;
     std::vector<Index> surfaces(const std::vector<Index>& crossed) const;
     bool may_be_on(const Feature& contact, const View& q) const;
