@@ -107,7 +107,7 @@ private:
 
     // --- at one angle ---
 
-    // Parts of a trapezoid from an angle to the same one, by two names.
+    // Parts of a trapezoid that begins and ends at one angle, of two names.
     std::vector<Flat> flats_of(Index patch, const std::array<CriticalAngle, 2>& names, const Feature& lower, const Feature& upper,
                                Near& near) const {
         const CriticalAngle& angle = names[0];

@@ -79,7 +79,7 @@ private:
     std::vector<std::pair<Code, Index>> by_code;
     std::vector<Index> of_sheets;  // levels, sheet by sheet
     // Places at which curves arrive on a sheet, each once; where sheets are on one line, t and numbers along that.
-    struct PlaceOnLine : Place<At> {
+    struct PlaceOnLine : LinePlace<At> {
         Interval on_line;
         Index number;  // the same for equal places
     };
@@ -148,7 +148,7 @@ void LevelGluer<At>::find_places(Sheet& sheet, At& at) {
     for (std::size_t k = 0; k < ends.size(); ++k) {
         const auto& [curve, is_above, of, is_high] = ends[k];
         if (k == 0 || ends[k - 1].curve != curve || ends[k - 1].is_above != is_above) {
-            const auto place = Place<At>::read(sheet.contact, spot_of(of, is_high), at);
+            const auto place = LinePlace<At>::read(sheet.contact, spot_of(of, is_high), at);
             places.push_back({place, place.t, 0});
         }
         (is_high ? levels[of].high : levels[of].low) = static_cast<Index>(places.size()) - 1;
@@ -306,7 +306,7 @@ void LevelGluer<At>::glue_line(std::span<Sheet* const> sheets, At& at) {
     }
     if (sheets.size() > 1) {
         if constexpr (!is_round) join_by_curve(chosen, on_it);
-        for (const Index p : on_it) places[p].on_line = Place<At>::read(line, places[p].spot, at).t;
+        for (const Index p : on_it) places[p].on_line = LinePlace<At>::read(line, places[p].spot, at).t;
     }
     number_places(line, on_it, at);
     for (const Index k : chosen) {

@@ -31,7 +31,7 @@ private:
     // The sides of one surface: one of no length, or one below the angle and one above between the same two places.
     struct Line {
         std::array<const Level*, 2> levels{};  // the second may be null
-        std::array<Place<Junction>, 2> ends;
+        std::array<LinePlace<Junction>, 2> ends;
     };
     bool add_to_line(const Level& level);
     bool find_helix();
@@ -106,7 +106,7 @@ bool MeetingOfThree::match(Line& line) {
     const std::size_t other = same_low ? 1 : 0;
     if (same_low == same_high || !is_there(*x, x->ends[other]) || !is_there(*x, y->ends[other])) return false;
     const Feature& contact = x->side->on.contact;
-    const auto place = [&](const Feature& curve, Code own) { return Place<Junction>::read(contact, {curve, own, contact}, at); };
+    const auto place = [&](const Feature& curve, Code own) { return LinePlace<Junction>::read(contact, {curve, own, contact}, at); };
     line.ends = {place(x->side->lower, x->ends[0]), place(x->side->upper, x->ends[1])};
     return line.ends[0].t.hi < line.ends[1].t.lo;
 }

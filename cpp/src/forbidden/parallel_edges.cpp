@@ -81,7 +81,7 @@ bool SlidingEdges::match(Junction& at) {
 void SlidingEdges::add(const Whole& whole, Junction& at, Parts& parts) const {
     if (std::none_of(sides.begin(), sides.end(), [&](const EdgeSide& x) { return whole[x.side->trapezoid]; })) return;
     const auto& [x, y] = rows;
-    const auto place = [](const Spot& spot) { return Place<Junction>{spot, {}, {}, {}}; };
+    const auto place = [](const Spot& spot) { return LinePlace<Junction>{spot, {}, {}, {}}; };
     const std::array places{place(x.begin()), place(x.middle()), place(y.middle()), place(y.end())};
     const std::array<std::array<const EdgeSide*, 2>, 3> pairs{{{x.sides[0], y.sides[0]}, {x.sides[1], y.sides[0]}, {x.sides[1], y.sides[1]}}};
     for (std::size_t k = 0; k < pairs.size(); ++k) {

@@ -18,13 +18,13 @@ inline LevelSide level_side(const SideAtAngle& of) { return {of.trapezoid, of.is
 
 // Place at which curves arrive on a line or a circle, read once on one surface. At is Junction or RoundJunction.
 template <class At>
-struct Place {
+struct LinePlace {
     typename At::Spot spot;
     Feature on;                  // the surface
     Interval t;                  // on that
     std::optional<double> near;  // the same, if doubles suffice
 
-    static Place read(const Feature& on, const typename At::Spot& spot, const At& at) {
+    static LinePlace read(const Feature& on, const typename At::Spot& spot, const At& at) {
         if constexpr (std::is_same_v<At, Junction>) {
             const auto [t, near] = at.reading(on, spot);
             return {spot, on, t, near};
@@ -37,7 +37,7 @@ struct Place {
 
 // Pair the only two sides on a piece, whose lines have one direction.
 template <class At>
-void pair_on_piece(const LevelSide& x, const LevelSide& y, const Place<At>& from, const Place<At>& to, At& at, Parts& parts) {
+void pair_on_piece(const LevelSide& x, const LevelSide& y, const LinePlace<At>& from, const LinePlace<At>& to, At& at, Parts& parts) {
     const auto add = [&](const LevelSide& of) {
         const Side side = of.is_above ? Side::first : Side::last;
         return parts.add(of.trapezoid, side, false, (is_forwards(side) ? from : to).value(of.contact, at));
