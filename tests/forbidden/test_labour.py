@@ -114,6 +114,16 @@ def test_no_example_is_near_the_limit() -> None:
         assert labour(scene_features(load_scene(file)), FIRST_LOOK).steps < MOST_STEPS / 20, file
 
 
+@pytest.mark.parametrize("gap", [0.0, 2**-20])
+def test_a_near_fit_of_a_few_seconds_is_not_refused(gap: float) -> None:
+    """A polygon of 60 sides in its own hole, in floats: more than ten million signs in balls, most of them cheap."""
+    around = [0.1 + math.tau * k / 60 for k in range(60)]
+    hole = [((1 + gap) * math.cos(a), (1 + gap) * math.sin(a)) for a in reversed(around)]
+    frame = cfree.Polygon([(-2, -2), (2, -2), (2, 2), (-2, 2)], [hole])
+    scene = Scene([(math.cos(a), math.sin(a)) for a in around], [frame])
+    assert labour(scene_features(scene), SECOND_LOOK).steps < MOST_STEPS
+
+
 def test_larger_scenes_and_fewer_patches_are_not_estimated(monkeypatch: pytest.MonkeyPatch) -> None:
     looked: list[int] = []
 
