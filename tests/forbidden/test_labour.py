@@ -114,6 +114,12 @@ def test_no_example_is_near_the_limit() -> None:
         assert labour(scene_features(load_scene(file)), FIRST_LOOK).steps < MOST_STEPS / 20, file
 
 
+def test_six_stars_that_take_eleven_seconds_are_refused() -> None:
+    others = [[(x, y + 8 * j) for x, y in star(30, x=8 * i, turn=0.01 * i)] for i in range(3) for j in range(2)]
+    with pytest.raises(LaboriousSceneError, match="21,600 contact patches"):
+        boundary(Scene(star(30), others))
+
+
 @pytest.mark.parametrize("gap", [0.0, 2**-20])
 def test_a_near_fit_of_a_few_seconds_is_not_refused(gap: float) -> None:
     """A polygon of 60 sides in its own hole, in floats: more than ten million signs in balls, most of them cheap."""

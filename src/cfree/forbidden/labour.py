@@ -36,7 +36,8 @@ def labour(features: SceneFeatures, samples: int) -> Labour:
     count, patches = _core.sampled_count(features.core, samples)
     by = patches / min(samples, patches)
     doubles, intervals, integers = count.decided_by_filter, count.decided_by_intervals, count.decided_exactly
-    steps = doubles + 3 * intervals + 110 * integers + 5 * count.pairs
+    # measured: a pair with all that is computed beside its signs, and signs by rung
+    steps = doubles + 3 * intervals + 110 * integers + 12 * count.pairs
     return Labour(patches, by * count.pairs, by * (doubles + intervals + integers), by * steps)
 
 
